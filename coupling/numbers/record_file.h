@@ -24,7 +24,7 @@ namespace diptych::coupling
       }
     catch (const nlohmann::json::exception &error)
       {
-        throw std::invalid_argument(path + ": holds what this version does not write: " + plain_text(error));
+        throw std::invalid_argument(path + ": has entries that this version does not write: " + plain_text(error));
       }
   }
 } // namespace diptych::coupling

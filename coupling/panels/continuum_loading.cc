@@ -284,9 +284,9 @@ namespace diptych::coupling
         if (const double edge = first_edge(scene.continuum, size, scene.sample.mean_diameter); edge > height)
           {
             char sizes[160];
-            std::snprintf(sizes, sizeof sizes, ": elements of %.4g [length] before refinement do not fit into the height of %.4g",
+            std::snprintf(sizes, sizeof sizes, "elements of %.4g before refinement are larger than the sample, at most %.4g high",
                           edge, height);
-            throw SceneError(std::string(key) + " = " + text_of(size) + sizes + " [length] that the sample can have at most");
+            throw SceneError({"", key, text_of(size), "a smaller size", ""}, std::string("is too large: ") + sizes + " [length]");
           }
   }
 

@@ -1,4 +1,4 @@
-// diptych: what the program was built with, in words
+// diptych: version and libraries of the program, in words
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 

@@ -1,4 +1,4 @@
-// diptych: what the program is asked to do
+// diptych: the words of a command line
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 

@@ -73,7 +73,7 @@ namespace diptych::coupling
     Scene scene_of_folder(const CommandLine &line)
     {
       if (!is_result_folder(line.target) && !std::filesystem::exists(scene_prm(line.target)))
-        throw SceneError(line.target + " is no result folder; diptych run SCENE makes one");
+        throw SceneError(line.target + " is not a result folder; diptych run SCENE makes one");
       if (is_study_folder(line.target))
         throw SceneError(line.target + ": holds a study; diptych study with its file and --resume evaluates it again");
       if (is_calibration_folder(line.target))
@@ -82,7 +82,7 @@ namespace diptych::coupling
         if (text.rfind("comparison/", 0) != 0 && text.rfind("output/", 0) != 0)
           throw SceneError("--set " + text + ": only comparison/ and output/ can be changed without running the panels again");
         else if (text.rfind("output/directory=", 0) == 0)
-          throw SceneError("--set " + text + ": a comparison stands in the folder that it is of");
+          throw SceneError("--set " + text + ": a comparison is written into its own result folder");
       Scene scene            = read_computed_scene(scene_prm(line.target), line.overrides);
       scene.output.directory = line.target;
       if (const std::string name = recorded_scene(line.target); !name.empty())

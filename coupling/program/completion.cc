@@ -98,7 +98,7 @@ namespace diptych::coupling
         }
       text += "end\ncomplete -c diptych -n __fish_use_subcommand -f\n"
               "complete -c diptych -n __fish_use_subcommand -l help -d 'the commands'\n"
-              "complete -c diptych -n __fish_use_subcommand -l version -d 'what it was built with'\n";
+              "complete -c diptych -n __fish_use_subcommand -l version -d 'version and libraries'\n";
       for (CLI::App *command : app.get_subcommands({}))
         {
           const std::string name = command->get_name();

@@ -105,9 +105,9 @@ namespace diptych::coupling
       const auto at      = [](const continuum::HistoryRow &row) { return text_of(row.walk, row.progress); };
       std::ostringstream text;
       text.precision(4);
-      text << part.title << ": t/s " << peak.stress_ratio << " at most, at " << at(peak) << ", " << rows.back().stress_ratio
-           << " at " << at(rows.back()) << "; " << report.n_cells << " elements, " << report.n_unknowns << " unknowns, "
-           << report.steps << " steps, " << report.cut_backs << " cut-backs";
+      text << part.title << ": largest t/s " << peak.stress_ratio << " at " << at(peak) << ", at the end "
+           << rows.back().stress_ratio << " at " << at(rows.back()) << "; " << report.n_cells << " elements, "
+           << report.n_unknowns << " unknowns, " << report.steps << " steps, " << report.cut_backs << " cut-backs";
       if (report.localisation_progress)
         text << "\n  localisation possible at one point from " << text_of(peak.walk, *report.localisation_progress)
              << " on (singular acoustic tensor), band at " << report.localisation_angle << " degrees";

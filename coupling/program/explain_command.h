@@ -1,4 +1,4 @@
-// diptych: what keys and results mean
+// diptych: meanings of keys and results
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 

@@ -30,7 +30,7 @@ namespace diptych::coupling
   {
     namespace fs = std::filesystem;
     if (!fs::is_directory(line.target))
-      throw SceneError(line.target + ": no result folder");
+      throw SceneError(line.target + " is not a result folder; diptych run SCENE makes one");
     const std::string file = discrete_h5(line.target);
     if (!fs::exists(file))
       throw SceneError(line.target + ": has no discrete.h5; diptych discrete or run makes it");
@@ -50,7 +50,7 @@ namespace diptych::coupling
       throw SceneError("--output " + folder + ": is the result folder itself; name a new folder");
     for (const auto &[name, text] : files)
       if (fs::exists(folder + "/" + name))
-        throw SceneError("--output " + folder + ": " + name + " stands there; name a new folder");
+        throw SceneError("--output " + folder + ": " + name + " exists; name a new folder");
     return writing(folder, [&](FolderLock &) {
       for (const auto &[name, text] : files)
         {

@@ -27,7 +27,7 @@ namespace diptych::coupling
       const bool                     is_option = first.rfind('-', 0) == 0;
       return "diptych: " +
              (is_option ? error
-                        : "'" + first + "' is no command; the nearest is '" + discrete::nearest_name(first, names) + "'") +
+                        : "'" + first + "' is not a command; the nearest is '" + discrete::nearest_name(first, names) + "'") +
              "; the commands are " + discrete::joined(names) + "; see diptych --help";
     }
 

@@ -89,13 +89,14 @@ namespace diptych::coupling
   int report_again(const CommandLine &line)
   {
     if (std::error_code none; !fs::is_directory(line.target, none))
-      throw SceneError(line.target + ": no result folder");
+      throw SceneError(line.target + " is not a result folder; diptych run SCENE makes one");
     const Drawing drawing = is_study_folder(line.target)         ? Drawing::study
                             : is_calibration_folder(line.target) ? Drawing::calibration
                             : is_ensemble_folder(line.target)    ? Drawing::ensemble
                                                                  : Drawing::page;
     if (drawing == Drawing::page && !fs::exists(comparison_json(line.target)))
-      throw SceneError(line.target + ": holds no comparison.json, nor is it the folder of an ensemble, a study or a calibration");
+      throw SceneError(line.target +
+                       " is not a result folder (no comparison.json), nor the folder of an ensemble, a study or a calibration");
     if (drawing == Drawing::page)
       {
         check_files(line.target);

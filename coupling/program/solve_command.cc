@@ -93,8 +93,7 @@ namespace diptych::coupling
       throw SceneError("--output " + line.output + ": there is no folder " + folder.string());
     const discrete::StoredProblem problem = discrete::read_fclib(line.target);
     if (!line.output.empty() && std::filesystem::exists(line.output) && !holds_solution_of(problem, line.output))
-      throw SceneError("--output " + line.output + " stands there and holds no solution of " + line.target +
-                       " that could be replaced: name another file");
+      throw SceneError("--output " + line.output + " exists and is not a solution of " + line.target + "; name another file");
     const discrete::ProblemForm form = form_of(line, problem);
 
     std::vector<discrete::Impulse> r(problem.local.n_contacts());

@@ -86,13 +86,7 @@ namespace diptych::python
 
   template <class Number, int rows, int columns> py::array copy(const Eigen::Matrix<Number, rows, columns> &value)
   {
-    using Value = Eigen::Matrix<Number, rows, columns>;
-    std::vector<py::ssize_t> shape, strides;
-    for (const long extent : Layout<Value>::extents())
-      shape.push_back(extent);
-    for (const long one : Layout<Value>::strides())
-      strides.push_back(one);
-    return py::array(py::dtype::of<Number>(), shape, strides, value.data());
+    return own(std::vector<Eigen::Matrix<Number, rows, columns>>{value})[py::int_(0)];
   }
 
   using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;

@@ -24,13 +24,6 @@ namespace diptych::python
   {
     GrainInput input{vectors_of(grains["position"].cast<Numbers>(), "position"),
                      numbers_of(grains["radius"].cast<Numbers>(), "radius")};
-    demand_size("radius", input.radius.size(), input.position.size());
-    for (std::size_t k = 0; k < input.radius.size(); ++k)
-      if (!(input.radius[k] > 0))
-        throw std::invalid_argument("radius[" + std::to_string(k) + "] = " + std::to_string(input.radius[k]) +
-                                    " must be positive");
-    if (input.radius.empty())
-      throw std::invalid_argument("radius: there must be a grain");
     input.mean_diameter = 2 * std::accumulate(input.radius.begin(), input.radius.end(), 0.) / double(input.radius.size());
     return input;
   }

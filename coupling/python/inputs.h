@@ -15,7 +15,7 @@
 
 namespace diptych::python
 {
-  // {"position": (n, 2), "radius": (n)}
+  // {"position": (n, 2), "radius": (n)} with n > 0 positive radii, which the Python package checks
   struct GrainInput
   {
     std::vector<Eigen::Vector2d> position;

@@ -113,9 +113,6 @@ namespace diptych::python
       bind_contact_member(type, "shift", &discrete::ContactForce::shift,
                           "(n) [length]: x of the image of j that touches i minus x of j");
       type.def("__len__", [](const ContactList &list) { return list.entries().size(); });
-      type.def("__repr__", [](const ContactList &list) {
-        return "Contacts(" + std::to_string(list.entries().size()) + (list.is_window ? ", mean over the stage)" : ", last step)");
-      });
       const auto beside = [&](const char *name, const bool of_window, const char *text, const auto &values) {
         type.def_property_readonly(
           name,
@@ -144,9 +141,6 @@ namespace diptych::python
       bind_lists(type, [](auto &s, auto &&visit) { discrete::visit_grain_fields(s, visit); });
       bind_attributes(type);
       type.def("__len__", [](const Snapshot &s) { return s.radius.size(); });
-      type.def("__repr__", [](const Snapshot &s) {
-        return "DiscreteSnapshot(" + std::to_string(s.radius.size()) + " grains, progress=" + std::to_string(s.progress) + ")";
-      });
       type.def_property_readonly(
         "contacts",
         [](const std::shared_ptr<Snapshot> &s) {
@@ -178,10 +172,6 @@ namespace diptych::python
                                                            "compression. Arrays are read only and share its memory.");
       bind_lists(type, [](auto &s, auto &&visit) { continuum::visit_node_fields(s, visit); });
       bind_attributes(type);
-      type.def("__repr__", [](const Snapshot &s) {
-        return "ContinuumSnapshot(" + std::to_string(s.cell_state.size()) + " cells, progress=" + std::to_string(s.progress) +
-               ")";
-      });
       type.def_property_readonly(
         "cells", [](const py::object &self) { return view(self.cast<const Snapshot &>().cells, self); },
         continuum::cells_meaning);

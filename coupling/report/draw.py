@@ -5,48 +5,34 @@
 A new page replaces the old one only when it is complete."""
 
 import gc
+import importlib
 import os
 import sys
-import traceback
 
 sys.dont_write_bytecode = True  # the source tree stays clean and may be read-only
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
-from diptych_report.data.input_error import InputError  # noqa: E402
+from diptych_report import InputError  # noqa: E402
 
-INPUTS = {"page": "comparison.json, comparison.h5, discrete.csv, continuum.csv, provenance.json", "ensemble": "ensemble.json, ensemble.h5",
-         "study": "study.json, study_cost.json, study.h5", "calibration": "calibration.json, calibration_cost.json",
-         "step-study": "study_step.json, study_step.csv"}  # what to draw -> its input files
-
-
-def draw(what, folder, next_folder):
-    """Each branch imports only the modules that it needs. Only a page reads next_folder, which holds files newer than those of folder,
-    and is written to it."""
-    if what == "page":
-        from diptych_report.page import result_page
-        result_page.draw(folder, next_folder)
-    elif what == "ensemble":
-        from diptych_report.page import ensemble_page
-        ensemble_page.draw(folder)
-    elif what == "study":
-        from diptych_report.page import study_page
-        study_page.draw(folder)
-    elif what == "calibration":
-        from diptych_report.page import calibration_page
-        calibration_page.draw(folder)
-    else:
-        from diptych_report.charts import step_study
-        from diptych_report.data.step_study import load
-        step_study.draw(load(folder), folder)
+# what to draw -> (module with draw(folder), its input files); only a page also takes a folder of newer files
+DRAWINGS = {
+    "page": ("page.result_page", "comparison.json, comparison.h5, discrete.csv, continuum.csv, provenance.json"),
+    "ensemble": ("page.ensemble_page", "ensemble.json, ensemble.h5"),
+    "study": ("page.study_page", "study.json, study_cost.json, study.h5"),
+    "calibration": ("page.calibration_page", "calibration.json, calibration_cost.json"),
+    "step-study": ("charts.step_study", "study_step.json, study_step.csv"),
+}
 
 
 def main(arguments):
-    if len(arguments) not in (2, 3) or arguments[0] not in INPUTS:
-        print(f"report: usage: draw.py {'|'.join(INPUTS)} DIR [NEXT]", file=sys.stderr)
+    if len(arguments) not in (2, 3) or arguments[0] not in DRAWINGS:
+        print(f"report: usage: draw.py {'|'.join(DRAWINGS)} DIR [NEXT]", file=sys.stderr)
         return 2
+    module, inputs = DRAWINGS[arguments[0]]
     gc.disable()  # saves a tenth of the time: figures are thousands of small objects, and the program ends soon
     try:
-        draw(arguments[0], arguments[1], arguments[-1])
+        folders = arguments[1:] if arguments[0] == "page" else arguments[1:2]
+        importlib.import_module("diptych_report." + module).draw(*folders)
     except InputError as error:
         print(f"report: {error}", file=sys.stderr)
         return 2
@@ -54,9 +40,8 @@ def main(arguments):
         print(f"report: {error}", file=sys.stderr)
         return 4
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
-        place = traceback.extract_tb(error.__traceback__)[-1]
-        print(f"report: {arguments[1]}: one of {INPUTS[arguments[0]]} has contents that this version does not write: {type(error).__name__}: {error} "
-              f"({os.path.basename(place.filename)}, line {place.lineno})", file=sys.stderr)
+        print(f"report: {arguments[1]}: one of {inputs} has contents that this version does not write: "
+              f"{type(error).__name__}: {error}", file=sys.stderr)
         return 2
     except ImportError as error:
         print(f"report: {sys.executable} lacks a module: {error}. Install python3-h5py, python3-matplotlib and python3-jinja2 (Debian)",

@@ -178,7 +178,8 @@ namespace diptych::coupling
   {
     for (const auto &[key, value] : here)
       if (const auto other = there.find(key); other == there.end() || other->second != value)
-        return key + " = '" + value + "' here, " + (other == there.end() ? "not set" : "'" + other->second + "'") + " there";
+        return key + ": '" + value + "' in the scene, " + (other == there.end() ? "not set" : "'" + other->second + "'") +
+               " in the folder";
     return "";
   }
 } // namespace diptych::coupling

@@ -109,7 +109,7 @@ namespace diptych::coupling
             keys.begin(depth);
           if (event == Event::key && !keys.take(depth, value.get<std::string>()))
             throw SceneError(file + ", line " + std::to_string(line_reached(text, in_text)) + ": key '" +
-                                     value.get<std::string>() + "' stands twice in one object");
+                                     value.get<std::string>() + "' occurs twice in one object");
           return true;
         };
         result.root = ordered_json::parse(in_text, check, true, /* comments */ true);
@@ -117,7 +117,7 @@ namespace diptych::coupling
     catch (const nlohmann::json::parse_error &error)
       {
         const auto line = 1 + std::count(text.begin(), text.begin() + std::min(text.size(), std::size_t(error.byte)), '\n');
-        throw SceneError(file + ", line " + std::to_string(line) + ": no JSON: " + plain_text(error));
+        throw SceneError(file + ", line " + std::to_string(line) + ": is not valid JSON: " + plain_text(error));
       }
     catch (const nlohmann::json::exception &error) // a number beyond all, which it quotes
       {
@@ -125,7 +125,8 @@ namespace diptych::coupling
         const std::size_t from = what.find('\''), to = what.rfind('\'');
         const std::size_t at  = from < to ? text.find(what.substr(from + 1, to - from - 1)) : std::string::npos;
         const auto        end = text.begin() + std::ptrdiff_t(at == std::string::npos ? 0 : at);
-        throw SceneError(file + ", line " + std::to_string(1 + std::count(text.begin(), end, '\n')) + ": no JSON: " + what);
+        throw SceneError(file + ", line " + std::to_string(1 + std::count(text.begin(), end, '\n')) +
+                         ": is not valid JSON: " + what);
       }
     if (!result.root.is_object())
       throw SceneError(file + ", line 1: an object is needed, { ... }");

@@ -65,7 +65,7 @@ namespace diptych::coupling
   }
   inline std::string allowed_value(const discrete::DriveOption &)
   {
-    return "auto, velocity V or force F, V and F a number or a CSV file";
+    return "auto, velocity V or force F, where V and F are a number or the name of a CSV file";
   }
   inline std::string allowed_value(const continuum::MeshOption &)
   {

@@ -41,7 +41,7 @@ namespace diptych::coupling
             std::none_of(stages.begin(), stages.end(), [&](const double s) { return std::abs(s - edge) <= 1e-9 * s; }))
           throw WrongKeys({"comparison/window_edges", "loading/stages"},
                           "comparison/window_edges holds " + text_of(edge) +
-                            ", which is none of loading/stages = " + text_of(stages));
+                            ", which is not one of loading/stages = " + text_of(stages));
     }
 
     // `last`: the end in the unit of the stages.
@@ -56,9 +56,10 @@ namespace diptych::coupling
         {
           const double k = edge / interval;
           if (std::abs(k - std::round(k)) > 1e-6 || edge > last * (1 + 1e-9))
-            throw WrongKeys({"comparison/window_edges", stage, end},
-                            "comparison/window_edges holds " + text_of(edge) + ", which is no stage: stages are multiples of " +
-                              stage + " = " + text_of(interval) + " up to " + end + " = " + text_of(last));
+            throw WrongKeys({"comparison/window_edges", stage, end}, "comparison/window_edges holds " + text_of(edge) +
+                                                                       ", which is not a stage: stages are multiples of " +
+                                                                       stage + " = " + text_of(interval) + " up to " + end +
+                                                                       " = " + text_of(last));
         }
     }
 
@@ -113,7 +114,7 @@ namespace diptych::coupling
         return std::nullopt;
       return "comparison/coarse_element_size = " + text_of(coarse) +
              " is not larger than continuum/element_size = " + text_of(fine) +
-             ": the run on the coarse mesh is no coarser than the first; give a larger size, or 0 for no such run";
+             ": the coarse run is not coarser than the first; give a larger size, or 0 to leave it out";
     }
 
     // The last assignment of each key, in the order of the keys.

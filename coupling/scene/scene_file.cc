@@ -35,13 +35,14 @@ namespace diptych::coupling
       std::vector<std::string> names = known;
       for (const KeyDescription &key : describe(""))
         names.push_back(key.name);
-      const std::string nearest = discrete::nearest_name(section, names), keys = keys_with(section);
+      const std::string asked   = section.substr(section.find('/') + 1); // a key may be meant
+      const std::string nearest = discrete::nearest_name(asked, names), keys = keys_with(asked);
       const bool        is_key = std::find(known.begin(), known.end(), nearest) == known.end();
       throw SceneError({place, section, "", "",
                         !is_key        ? "the nearest is '" + nearest + "'"
                         : keys.empty() ? keys_with(nearest)
                                        : keys},
-                       "is an unknown section");
+                       "is not a section");
     }
 
     [[noreturn]] void refuse_key(const Entry &entry)
@@ -51,7 +52,7 @@ namespace diptych::coupling
         names.push_back(key.name);
       throw SceneError({entry.place, entry.name(), "", "",
                         "the nearest is '" + entry.section + "/" + discrete::nearest_name(entry.key, names) + "'"},
-                       "is an unknown key");
+                       "is not a key");
     }
 
     [[noreturn]] void refuse_value(const Entry &entry)

@@ -56,7 +56,7 @@ namespace diptych::coupling
       for (std::size_t at = text.find('\r'); at != std::string::npos; at = text.find('\r', at + 1))
         if (at + 1 < text.size() && text[at + 1] != '\n')
           throw SceneError(file + ", line " + std::to_string(1 + std::count(text.begin(), text.begin() + long(at), '\n')) +
-                           ": holds a carriage return within; lines end with a line feed, or with both");
+                           ": contains a lone carriage return; end lines with a line feed or with both");
     }
   } // namespace
 

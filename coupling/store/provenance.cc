@@ -62,8 +62,7 @@ namespace diptych::coupling
     {
       const auto demand = [&](const char *key, const bool good) {
         if (!good)
-          throw std::invalid_argument(path + ": is no record of a run of diptych: '" + key +
-                                      "' is missing or is none that it writes");
+          throw std::invalid_argument(path + ": is not a record of a run of diptych: '" + key + "' is missing or wrong");
       };
       const auto entry = [&](const char *key) { return record.value(key, json()); };
       demand("program", entry("program") == "diptych");

@@ -99,8 +99,8 @@ namespace diptych::coupling
     if (!fs::exists(directory) || is_empty_folder(directory))
       return;
     if (!is_result_folder(directory))
-      throw SceneError("the folder '" + directory +
-                       "' holds files, but no results of diptych (no provenance.json). Name a new or " + "an empty folder.");
+      throw SceneError("the folder '" + directory + "' holds other files and no results (no provenance.json). Name a new or an " +
+                       "empty folder.");
     if (!opening.resume && !opening.overwrite)
       throw SceneError("the folder '" + directory + "' holds results. Add " +
                        (opening.can_resume ? "--resume to continue them, " : "") + "--overwrite to rename them to " +
@@ -159,7 +159,7 @@ namespace diptych::coupling
     const bool keeps_results = !is_empty && !opening.overwrite && is_result_folder(directory);
     // require_usable() advises --resume, which another sample does not allow.
     if (const std::string change = keeps_results ? changes().sample : ""; !change.empty())
-      throw SceneError("'" + directory + "' holds results of another sample: " + change +
+      throw SceneError("'" + directory + "' holds results of another sample. Different is " + change +
                        ". Use --output with another folder, or --overwrite.");
     require_usable(directory, usable);
     SceneChanges changes;

@@ -102,7 +102,7 @@ namespace diptych::discrete
           if (column.empty())
             throw std::invalid_argument(place + ": column " + std::to_string(seen.size() + 1) + " has no name");
           if (contains(seen, column))
-            throw std::invalid_argument(place + ": column '" + column + "' is named twice");
+            throw std::invalid_argument(place + ": column '" + column + "' occurs twice");
           if (!header.others && !contains(known, column))
             throw std::invalid_argument(place + ": unknown column '" + column + "'; the nearest is '" +
                                         nearest_name(column, known) + "'");

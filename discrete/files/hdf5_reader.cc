@@ -112,7 +112,7 @@ namespace diptych::discrete
     links_ = std::make_unique<Links>(path);
     file_  = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file_ < 0)
-      throw std::invalid_argument(path + ": cannot be opened: missing, truncated or no HDF5 file");
+      throw std::invalid_argument(path + ": is missing, truncated or not an HDF5 file");
     has_checksums_ = is_of_format_110(file_);
   }
 
@@ -129,7 +129,7 @@ namespace diptych::discrete
   void Hdf5Reader::refuse_links(const std::string &name) const
   {
     if (!links_->refused.empty())
-      refuse(path_, name, "stands in another file, '" + links_->refused + "': links into other files are not followed");
+      refuse(path_, name, "is in another file, '" + links_->refused + "'; links into other files are not followed");
   }
 
   bool Hdf5Reader::has(const std::string &name) const

@@ -96,7 +96,7 @@ namespace diptych::discrete
     if (kind == std::filesystem::file_type::directory)
       throw std::invalid_argument(path + ": cannot be read: " + std::strerror(EISDIR));
     if (std::filesystem::exists(std::filesystem::file_status(kind)) && kind != std::filesystem::file_type::regular)
-      throw std::invalid_argument(path + ": is no regular file but a pipe, a socket or a device, which may have no end");
+      throw std::invalid_argument(path + ": is not a regular file");
   }
 
   std::string read_input(const std::string &path, const std::size_t most_bytes, const CheckStop &check_stop)
@@ -104,9 +104,9 @@ namespace diptych::discrete
     require_regular_file(path);
     std::string text = whole_text(path, most_bytes, check_stop);
     if (const std::size_t bad = first_non_utf8(text); bad < most_bytes && bad != std::string::npos)
-      throw std::invalid_argument(
-        path + ", line " + std::to_string(1 + std::count(text.begin(), text.begin() + off_t(bad), '\n')) +
-        ": holds a byte of value " + std::to_string(static_cast<unsigned char>(text[bad])) + " that is no text in UTF-8");
+      throw std::invalid_argument(path + ", line " +
+                                  std::to_string(1 + std::count(text.begin(), text.begin() + off_t(bad), '\n')) + ": byte " +
+                                  std::to_string(static_cast<unsigned char>(text[bad])) + " is not valid UTF-8");
     if (text.size() > most_bytes)
       throw std::invalid_argument(path + ": is longer than the " + std::to_string(most_bytes) +
                                   " bytes that such a file may have");

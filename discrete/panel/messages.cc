@@ -16,7 +16,7 @@ namespace diptych::discrete
              << "fraction " << report.solid_fraction << ")";
         return text.str();
       }
-    text << "the sample was not quiet after " << report.steps << " preparation steps";
+    text << "the sample did not come to rest after " << report.steps << " preparation steps";
     if (report.settling_steps > 0)
       text << " and " << report.settling_steps << " from rest";
     text << ": residual " << report.residual << ", unbalanced force " << report.unbalanced_force;

@@ -210,7 +210,7 @@ class Export(Case):
         with h5py.File(self.path("mine", "discrete.h5")) as mine, h5py.File(self.path("back", "discrete.h5")) as back:
             for name in ("stage_0000/grains/position", "stage_0000/grains/radius"):
                 numpy.testing.assert_allclose(back[name][()], mine[name][()], rtol=1e-15, err_msg=name)
-        self.refused("export", self.path("both"), "--format", "lammps", "--output", self.path("start"), says="stands there")
+        self.refused("export", self.path("both"), "--format", "lammps", "--output", self.path("start"), says="exists")
         self.refused("export", self.path("both"), "--format", "csv", "--stage", "9", "--output", self.path("x"), says="0 to 3")
 
 

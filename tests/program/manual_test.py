@@ -5,7 +5,6 @@
 
 import html
 import html.parser
-import importlib
 import os
 import re
 import shutil
@@ -13,17 +12,14 @@ import subprocess
 import sys
 import tempfile
 import unittest
-import unittest.mock
 import urllib.parse
 
 import browser
-from running import PROGRAM, QUICK, SMALL, SOURCE, content, diptych, main, setting, write
+from running import PROGRAM, QUICK, SMALL, SOURCE, content, diptych, main, setting
 
 MANUAL = os.path.join(SOURCE, "coupling", "manual")
 sys.path.insert(0, MANUAL)
 import headers  # noqa: E402
-import module_docs  # noqa: E402
-import readmes  # noqa: E402
 
 DESK, PHONE = (1400, 1000), (390, 844)  # CSS pixels
 
@@ -150,39 +146,8 @@ class Manual(Built):
                 count += 1
         self.assertGreater(count, 40)
 
-    def test_comments_are_read_with_their_declarations(self):
-        text = ("// diptych: laws\n// SPDX\n\nnamespace a\n{\n  // The law F = ma.\n  // Newton\n  double force(double m,\n"
-                "               double a);\n\n  // loose\n\n  struct B\n  {\n    // Mass.\n    double m;\n  };\n}\n")
-        self.assertEqual(headers.title(text), "laws")
-        self.assertEqual(headers.comments(text), [("The law F = ma.\nNewton", "double force(double m,\n             double a)"),
-                                                  ("Mass.", "double m")])
-        self.assertEqual(headers.formulas(text), ["The law F = ma.\nNewton"])
-
-    def test_lists_and_tables_of_github_are_lists_and_tables_here(self):
-        self.assertEqual(readmes.spaced("text\n- a\n- b\n  more\n\ntext\n| a |\n|---|\ntext\n```\n- c\n```"),
-                         "text\n\n- a\n- b\n  more\n\ntext\n\n| a |\n|---|\n\ntext\n\n```\n- c\n```")
-
-    def test_a_python_package_is_shown_with_signatures_without_types(self):
-        with tempfile.TemporaryDirectory() as work:
-            os.mkdir(os.path.join(work, "grains"))
-            write(os.path.join(work, "grains", "__init__.py"), '"""Discs."""\nfrom __future__ import annotations\n'
-                  '__all__ = ["Panel", "radii"]\nclass Panel:\n    """One sample."""\n    def step(self, h: float = 1) -> None:\n'
-                  '        """Advances by h."""\n    def _own(self):\n        """Not shown."""\n'
-                  'def radii(n: int, kind: str = "equal") -> Any:\n    """n numbers."""\ndef hidden():\n    """Not shown."""\n')
-            with unittest.mock.patch.object(sys, "path", [work, *sys.path]):
-                text = module_docs.page(importlib.import_module("grains"))
-        self.assertEqual(re.findall(r"^#+ .*$", text, re.MULTILINE), ["### `Panel`", "#### `step`", "### `radii`"])
-        for line in ("    Panel()", "    step(h=1)", "    Advances by h.", "    radii(n, kind='equal')", "    n numbers."):
-            self.assertIn(line + "\n", text)
-        self.assertNotIn("Not shown", text)
-
     def test_every_link_works(self):
         self.assertEqual(broken_links(self.site), [])
-        with tempfile.TemporaryDirectory() as work:  # it can fail
-            write(os.path.join(work, "a.html"), '<a href="b.html#here">b</a><a href="b.html#there">b</a><a href="#up">a</a>'
-                  '<img src="../out.png"><a href="https://example.org/">x</a>')
-            write(os.path.join(work, "b.html"), '<p id="here"></p><a href="c.html">c</a>')
-            self.assertEqual(broken_links(work), [("a.html", "#up"), ("a.html", "../out.png"), ("a.html", "b.html#there"), ("b.html", "c.html")])
 
     def test_pages_need_no_network(self):
         for name in self.pages:

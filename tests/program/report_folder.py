@@ -189,22 +189,19 @@ def write_arrays(folder):
                 store(history, mean, np.append(np.full(9, np.nan), np.full(11, 0.3)))
 
 
-def write_folder(folder, complete=True):
-    """Two stages (the first without bands) and one window; without optional keys if not complete."""
-    if complete:
-        write_arrays(folder)
-    else:
-        h5py.File(os.path.join(folder, "comparison.h5"), "w").close()
-    write_json(folder, "comparison.json", comparison_of_two_stages() if complete else {"format": 2, "scene": "tiny", "seed": 3})
-    write_json(folder, "provenance.json", {"program": "diptych", "phases": [{"name": "discrete", "cpu_s": 1.0}] if complete else []})
-    columns = "progress,stress_ratio,volumetric_strain,lower_fy,upper_fy" + (
-        ",axial_strain,shear_strain,time,walk,sweeps,residual,kinetic_energy_ratio,external_work,dissipation" if complete else "")
+def write_folder(folder):
+    """Two stages (the first without bands) and one window."""
+    write_arrays(folder)
+    write_json(folder, "comparison.json", comparison_of_two_stages())
+    write_json(folder, "provenance.json", {"program": "diptych", "phases": [{"name": "discrete", "cpu_s": 1.0}]})
+    columns = ("progress,stress_ratio,volumetric_strain,lower_fy,upper_fy,axial_strain,shear_strain,time,walk,sweeps,residual,"
+               "kinetic_energy_ratio,external_work,dissipation")
     for name in ("discrete.csv", "continuum.csv"):
         with open(os.path.join(folder, name), "w", encoding="utf-8") as stream:
             stream.write(columns + "\n")
             for k in range(1, 21):
-                row = [0.0005 * k, 0.3, -0.001 * k, 10, -10.05] + (
-                    [0.0005 * k, 0.0, k, "axial_strain", 20, 1e-5, 1.2, 0.1 * k, 0.1 * k] if complete else [])
+                row = [0.0005 * k, 0.3, -0.001 * k, 10, -10.05, 0.0005 * k, 0.0, k, "axial_strain", 20, 1e-5, 1.2,
+                       0.1 * k, 0.1 * k]
                 stream.write(",".join(map(str, row)) + "\n")
 
 

@@ -232,7 +232,7 @@ class Failures(Study):
                 for word in [*words, "steps.json, line "]:
                     self.assertIn(word, result.stderr)
         self.assertIn("with scene, reference", diptych("study", write(os.path.join(self.work, "empty.json"), "")).stderr)
-        self.assertIn("no JSON", diptych("study", write(os.path.join(self.work, "broken.json"), "{")).stderr)
+        self.assertIn("not valid JSON", diptych("study", write(os.path.join(self.work, "broken.json"), "{")).stderr)
         self.assertIn("--resume", diptych("study", self.study_file(STUDY), "--study", "step").stderr)
         self.assertFalse(os.path.exists(self.folder))
 

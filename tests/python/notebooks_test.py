@@ -14,12 +14,6 @@ from conftest import SOURCE
 NOTEBOOKS = sorted(glob.glob(os.path.join(SOURCE, "coupling", "python", "notebooks", "*.ipynb")))
 
 
-def test_there_are_seven():
-    assert len(NOTEBOOKS) == 7
-    for path in NOTEBOOKS:
-        assert os.path.getsize(path) < 250000, path
-
-
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=[os.path.basename(path) for path in NOTEBOOKS])
 def test_a_copied_notebook_runs(path, tmp_path):
     copy, out = shutil.copy(path, tmp_path), tmp_path / "done.ipynb"

@@ -1,4 +1,4 @@
-# diptych: tests of result folders and comparisons as arrays, and of one-line reprs
+# diptych: tests of result folders and comparisons as arrays
 # SPDX-License-Identifier: LGPL-2.1-or-later
 import json
 import shutil
@@ -80,25 +80,3 @@ def test_results_of_the_program_are_not_overwritten(small, folder):
     with pytest.raises(FileExistsError, match="scene.prm"):
         diptych.DiscretePanel(small).write(folder)
     assert (folder / "discrete.h5").read_bytes() == before
-
-
-def test_a_repr_is_one_line_with_class_and_sizes(folder):
-    results, comparison = diptych.load(folder), diptych.compare(folder)
-    start, end = results.discrete.snapshots[0], results.discrete.snapshots[-1]
-    stress, field = diptych.map_stress(end), diptych.increment(start, end)
-    report = diptych.find_bands(**field)
-    strips = diptych.strips(field["points"], field["displacement"], field["mean_diameter"])
-    for value, name, fact in ((results, "Results", "discrete, continuum"), (results.discrete, "PanelResults", "3 snapshots"),
-                              (results.discrete.history, "History", "columns"), (comparison, "Comparison", "2 stages"),
-                              (comparison.mesh(), "Mesh", f"{len(comparison.fields[-1]['cells'])} cells"),
-                              (stress, "StressMap", f"stress ({len(stress.area)},2,2)"), (field, "Record", "points=(300,2)"),
-                              (report, "BandReport", "bands="), (strips, "Record", "edges=(17,)")):
-        text = repr(value)
-        assert text.startswith(name + "(") and fact in text and "\n" not in text and len(text) < 250, text
-
-
-def test_a_band_has_a_short_repr():
-    band = diptych.Band(50.0, 12.0, 5.46, 0.1, 0.98, 3.0, 0.99, 0.98, "", {}, np.zeros(2))
-    assert repr(band) == "Band(angle_deg=50, width_10_90=12, offset=0.1, jump=0.98, r_squared=0.99)"
-    report = diptych.BandReport([band], "one band", True, np.zeros(3), np.zeros(3), 8.0, {})
-    assert repr(report) == "BandReport(bands=1: 50 deg; 'one band', converged=True)"

@@ -10,8 +10,13 @@ Two dimensions, unit thickness, any consistent units. Stress and strain are posi
 strain, angles are degrees from the horizontal, forces act on the first body.
 """
 
-from . import requirements  # noqa: F401  first: it explains a failed import
-from ._diptych import Contacts, ContinuumSnapshot, DiscreteSnapshot, __version__
+import sys
+
+try:
+    from ._diptych import Contacts, ContinuumSnapshot, DiscreteSnapshot, __version__
+except ImportError as error:
+    raise ImportError(f"diptych does not load in {sys.executable}: {error}. Use the Python of the build (Debian: /usr/bin/python3).") \
+        from error
 from .arrays import Band, BandReport, History, Interval, Mesh, Record, StressMap
 from .errors import NotConverged, SceneError, SceneWarning, Stopped
 from .laws import biaxial, integrate, principal
@@ -21,7 +26,6 @@ from .problems import solve
 from .results import Comparison, PanelResults, Results, compare, load
 from .scenes import keys, scene
 from .shipped import benchmarks_dir, notebooks_dir
-
 
 
 def __getattr__(name: str) -> object:

@@ -1,6 +1,6 @@
 # diptych: the types of results
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Histories, bands, meshes and stress maps. Each repr() is one line."""
+"""Histories, bands, meshes and stress maps."""
 
 from __future__ import annotations
 
@@ -15,28 +15,6 @@ if TYPE_CHECKING:
     import pandas
 
 Array = NDArray[Any]
-
-
-def brief(value: Any) -> str:
-    """A value in a few words: the shape of an array, a number to four digits, the length of a list or dict."""
-    if isinstance(value, np.ndarray):
-        return str(value.shape).replace(" ", "")
-    if isinstance(value, Interval):
-        return f"{value.value:.4g} [{value.low:.4g}, {value.high:.4g}]"
-    if isinstance(value, (float, np.floating)):
-        return f"{value:.4g}"
-    if isinstance(value, (dict, list, tuple)):
-        return f"{type(value).__name__} of {len(value)}"
-    text = repr(value)
-    return text if len(text) <= 60 else text[:57] + "..."
-
-
-def listed(name: str, values: Mapping[str, Any], most: int = 6) -> str:
-    """"Name(a=..., b=..., and 3 more)" on one line."""
-    parts = [f"{key}={brief(value)}" for key, value in list(values.items())[:most]]
-    if len(values) > most:
-        parts.append(f"and {len(values) - most} more")
-    return f"{name}({', '.join(parts)})"
 
 
 class History(dict[str, Array]):
@@ -56,9 +34,7 @@ class History(dict[str, Array]):
         return frame
 
     def __repr__(self) -> str:
-        rows = len(next(iter(self.values()), ()))
-        names = ", ".join(list(self)[:6]) + (", ..." if len(self) > 6 else "")
-        return f"History({rows} rows, {len(self)} columns: {names})"
+        return f"History({len(next(iter(self.values()), ()))} rows of {', '.join(self)})"
 
 
 class Interval(NamedTuple):
@@ -79,7 +55,7 @@ class Record(dict[str, Any]):
             raise AttributeError(f"there is no '{name}'; there are {', '.join(self)}") from None
 
     def __repr__(self) -> str:
-        return listed("Record", self)
+        return f"Record({', '.join(self)})"
 
 
 class Mesh(NamedTuple):
@@ -97,9 +73,6 @@ class Mesh(NamedTuple):
     def centres(self) -> Array:
         """(k, 2): means of the corners."""
         return np.asarray(self.polygons.mean(axis=1))
-
-    def __repr__(self) -> str:
-        return f"Mesh({len(self.nodes)} nodes, {len(self.cells)} cells)"
 
 
 @dataclass(repr=False)
@@ -140,13 +113,8 @@ class StressMap:
         """(2, 2): mean stress over all cells [pressure]."""
         return np.asarray(np.einsum("k,kab->ab", self.area, self.stress) / self.area.sum())
 
-    def __repr__(self) -> str:
-        (xx, xy), (yx, yy) = self.total
-        return (f"StressMap({len(self.area)} cells, stress {brief(self.stress)}, mean [[{xx:.4g}, {xy:.4g}], [{yx:.4g}, {yy:.4g}]], "
-                f"outside_share={self.outside_share:.2g})")
 
-
-@dataclass(repr=False)
+@dataclass
 class Band:
     """A shear band: u = c + G x + (J/2) tanh((n.(x - centre) - offset) / half_width), n its normal with n_y >= 0."""
 
@@ -176,12 +144,8 @@ class Band:
         middle = self.centre + (self.offset + at * self.half_width) * self.normal
         return np.array([middle - along, middle + along])
 
-    def __repr__(self) -> str:
-        return (f"Band(angle_deg={self.angle_deg:.4g}, width_10_90={self.width_10_90:.4g}, offset={self.offset:.4g}, "
-                f"jump={self.jump:.4g}, r_squared={self.r_squared:.4g})")
 
-
-@dataclass(repr=False)
+@dataclass
 class BandReport:
     """Bands of a displacement field, the strongest first. No band: the field is diffuse."""
 
@@ -192,7 +156,3 @@ class BandReport:
     residual: Array  # (3): misfit / |platen increment|
     n_effective: float  # independent samples assumed
     frame: dict[str, Any] = field(repr=False)  # reference lengths: centre, width, height, ...
-
-    def __repr__(self) -> str:
-        angles = ", ".join(f"{band.angle_deg:.4g} deg" for band in self.bands)
-        return f"BandReport(bands={len(self.bands)}{': ' + angles if angles else ''}; {self.verdict!r}, converged={self.converged})"

@@ -22,7 +22,7 @@ class _Panel:
     """The common part of both panels."""
 
     _columns: Callable[[], dict[str, tuple[str, str]]]
-    _table: str  # name of its files
+    _save: Callable[[Any, str], None]
 
     def __init__(self, scene: _diptych.Scene, make: Callable[[], Any], on_step: OnStep) -> None:
         self._scene, self._make, self._panel, self._prepared = scene, make, make(), False
@@ -101,23 +101,16 @@ class _Panel:
 
     def write(self, folder: str | os.PathLike[str]) -> None:
         """Writes snapshots and history like the program (.h5, .xdmf, .csv). Raises FileNotFoundError if the folder does not exist.
-        Raises FileExistsError for a result folder of the program, whose files have checksums, and for a folder that holds a table
-        of this name without snapshots."""
+        Raises FileExistsError for a result folder of the program, whose files have checksums."""
         if not os.path.isdir(folder):
             raise FileNotFoundError(f"{os.fspath(folder)}: no such folder")
         for name in ("scene.prm", "ensemble.prm", "study_input.json", "calibration_input.json"):
             if os.path.exists(os.path.join(folder, name)):
                 raise FileExistsError(f"{os.fspath(folder)}: holds {name}, a result of diptych; name another folder")
-        name = self._table
-        if os.path.exists(os.path.join(folder, name + ".csv")) and not os.path.exists(os.path.join(folder, name + ".h5")):
-            raise FileExistsError(f"{os.fspath(folder)}: holds {name}.csv without the snapshots of a panel; name another folder")
-        self._write(self._results(), os.fspath(folder))
+        self._save(self._results(), os.fspath(folder))
 
     def _results(self) -> Any:
         return self._panel.results(self.snapshots)
-
-    def _write(self, results: Any, folder: str) -> None:
-        raise NotImplementedError
 
     def _checked(self, status: str) -> str:
         self.status = status
@@ -147,15 +140,12 @@ class DiscretePanel(_Panel):
     """
 
     _columns = staticmethod(_diptych.discrete_columns)
-    _table = "discrete"
+    _save = staticmethod(_diptych.write_grains)
 
     def __init__(self, scene: scenes.SceneLike, on_step: OnStep = None, grains: Mapping[str, Any] | None = None) -> None:
         read = scenes.read(scene)
         own = (None, None) if grains is None else (grains["position"], grains["radius"])
         super().__init__(read, lambda: _diptych.GrainPanel(read, *own), on_step)
-
-    def _write(self, results: Any, folder: str) -> None:
-        _diptych.write_grains(results, folder)
 
 
 class ContinuumPanel(_Panel):
@@ -170,12 +160,9 @@ class ContinuumPanel(_Panel):
     """
 
     _columns = staticmethod(_diptych.continuum_columns)
-    _table = "continuum"
+    _save = staticmethod(_diptych.write_nodes)
 
     def __init__(self, scene: scenes.SceneLike, grains: Any = None, on_step: OnStep = None) -> None:
         read = scenes.read(scene)
         compiled = importlib.import_module("diptych._continuum")  # loads deal.II only now
         super().__init__(read, lambda: compiled.ContinuumPanel(read, grains), on_step)
-
-    def _write(self, results: Any, folder: str) -> None:
-        _diptych.write_nodes(results, folder)

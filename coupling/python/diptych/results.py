@@ -29,9 +29,6 @@ class PanelResults:
     def _results(self) -> Any:
         return self._kept
 
-    def __repr__(self) -> str:
-        return f"PanelResults({len(self.snapshots)} snapshots, {len(self.history['time'])} steps)"
-
 
 @dataclass(repr=False)
 class Results:
@@ -42,10 +39,6 @@ class Results:
     discrete: PanelResults | None
     continuum: PanelResults | None
     coarse: PanelResults | None
-
-    def __repr__(self) -> str:
-        panels = [name for name in ("discrete", "continuum", "coarse") if getattr(self, name) is not None]
-        return f"Results({self.folder!r}: {', '.join(panels)})"
 
 
 @dataclass(repr=False)
@@ -59,10 +52,6 @@ class Comparison:
     def mesh(self, stage: int = -1) -> Mesh:
         """The deformed mesh of the continuum at a stage."""
         return Mesh(self.fields[stage]["nodes"], self.fields[stage]["cells"])
-
-    def __repr__(self) -> str:
-        cells = len(self.fields[-1]["cells"]) if self.fields else 0
-        return f"Comparison({len(self.fields)} stages, {len(self.numbers.get('windows') or [])} windows, mesh of {cells} cells)"
 
 
 def _panel(folder: str, name: str) -> PanelResults | None:

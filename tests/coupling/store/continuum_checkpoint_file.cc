@@ -161,7 +161,7 @@ namespace
     const std::string file = folder / "checkpoint.h5";
     expect_refusal_naming(file, "missing");
     write_text(file, "step,axial_strain\n");
-    expect_refusal_naming(file, "no HDF5 file");
+    expect_refusal_naming(file, "not an HDF5 file");
     write_continuum_checkpoint(file, example_checkpoint());
     relink(file, "format", "other");
     expect_refusal_naming(file, "diptych continuum checkpoint");

@@ -62,7 +62,7 @@ namespace
     EXPECT_EQ(complaint_about("a,b\n# nothing\n"), ": holds no line of numbers below the header; allowed: 1 or more");
     EXPECT_EQ(complaint_about("# x\na,c\n1,2\n"), ", line 2: column 'b' is missing");
     EXPECT_EQ(complaint_about("a,b,bb\n1,2,3\n"), ", line 1: unknown column 'bb'; the nearest is 'b'");
-    EXPECT_EQ(complaint_about("a,b,a\n1,2,3\n"), ", line 1: column 'a' is named twice");
+    EXPECT_EQ(complaint_about("a,b,a\n1,2,3\n"), ", line 1: column 'a' occurs twice");
     EXPECT_EQ(complaint_about("a,,b\n1,2,3\n"), ", line 1: column 2 has no name");
     EXPECT_EQ(complaint_about("1,2\n3,4\n"), ", line 1: '1' is a number, not a column's name; the header line is missing");
   }
@@ -147,6 +147,6 @@ namespace
     const std::string pipe = path + ".fifo";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
     for (const std::string &file : {pipe, std::string("/dev/zero")})
-      expect_refused({file + ": is no regular file"}, [&] { (void)read_input(file, 1000); });
+      expect_refused({file + ": is not a regular file"}, [&] { (void)read_input(file, 1000); });
   }
 } // namespace

@@ -10,57 +10,46 @@ from diptych_report.data.panels import PANEL_NAMES
 
 def distribution(increment):
     """Share of grains whose major principal stress exceeds a multiple of the mean, inside and outside the band."""
-    chains = increment.panel("discrete").get("force_chains") or {}
-    levels = np.array(chains.get("quantiles") or [], dtype=float)
-    figure, (axes,) = frame("distribution", (4.5, 3.1), [[0.15, 0.16, 0.825, 0.8]])
-    drawn = []
-    for key, colour, dashes in (("inside", GRAINS, "-"), ("outside", INK, (0, (5, 1.5)))):
-        part = chains.get(key) or {}
-        values = np.array(part.get("values") or [], dtype=float)
-        if not len(levels) or len(values) != len(levels):
-            continue
-        above = 1 - levels
-        keep = np.isfinite(values) & (above > 0)
-        axes.plot(values[keep], above[keep], color=colour, linestyle=dashes, label=f"{key} ({part.get('grains', '?')} grains)")
-        drawn.append(key)
-    if not drawn:
+    chains = increment.panel("discrete").get("force_chains")
+    if not chains:
         return None
+    above = 1 - np.array(chains["quantiles"])
+    figure, (axes,) = frame("distribution", (4.5, 3.1), [[0.15, 0.16, 0.825, 0.8]])
+    for key, colour, dashes in (("inside", GRAINS, "-"), ("outside", INK, (0, (5, 1.5)))):
+        values = np.array(chains[key]["values"], dtype=float)
+        keep = np.isfinite(values) & (above > 0)
+        axes.plot(values[keep], above[keep], color=colour, linestyle=dashes, label=f"{key} ({chains[key]['grains']} grains)")
     axes.axvline(1, color=INK, linewidth=0.7, linestyle=":")
     logarithmic(axes)
     axes.set(xlabel="major principal stress of a grain / mean", ylabel="share of grains above", xlim=(0, None))
     axes.legend(loc="best", title="10–90 % width of the band", title_fontsize=8.5)
-    where = " and ".join(drawn)
-    return svg(figure, f"Distribution of the major principal stress of single grains {where} the band, {increment.title}.")
+    return svg(figure, "Distribution of the major principal stress of single grains inside and outside the band, "
+               f"{increment.title}.")
 
 
 def traction(increment):
     """Mean normal and shear traction on strips parallel to the band of the grains; uniform in equilibrium."""
-    stored = {panel: increment.panel(panel).get("band_traction") or {} for panel in PANEL_NAMES}
+    stored = {panel: increment.panel(panel).get("band_traction") for panel in PANEL_NAMES}
+    if not all(stored.values()):
+        return None
     figure, both = frame("traction", (4.5, 3.9), [[0.15, 0.57 - 0.44 * k, 0.825, 0.385] for k in range(2)])
-    drawn = []
     for k, (part, axes) in enumerate(zip(("normal", "shear"), both)):
         for panel, record in stored.items():
-            edges, values = (np.array(record.get(name) or [], dtype=float) for name in ("edges_d", part))
-            if len(edges) != len(values) + 1 or not np.isfinite(values).any():
-                continue
+            edges, values = (np.array(record[name], dtype=float) for name in ("edges_d", part))
             spread = plain(record.get("variation_" + part))
             label = PANEL_NAMES[panel] + ("" if spread is None else f": {100 * spread:.0f} %")
             axes.stairs(values, edges, baseline=None, color=PANEL_COLOURS[panel], linestyle=PANEL_LINES[panel], linewidth=1.4,
                         label=label)
-            error = record.get(part + "_error")
-            if error and len(error) == len(values):
-                middle, error = (edges[1:] + edges[:-1]) / 2, np.array(error, dtype=float)
+            if record.get(part + "_error"):  # only of grains
+                middle, error = (edges[1:] + edges[:-1]) / 2, np.array(record[part + "_error"], dtype=float)
                 known = np.isfinite(error) & np.isfinite(values)
                 axes.errorbar(middle[known], values[known], error[known], fmt="none", elinewidth=0.8, capsize=1.5,
                               color=PANEL_COLOURS[panel])
-            drawn.append(panel)
         axes.set_ylabel(f"{part} traction (P)")
         axes.tick_params(labelbottom=k == 1)
-        if drawn:
-            low, high = axes.get_ylim()
-            low, high = min(low, 0), max(high, 0)
-            axes.set_ylim(low, high + 0.45 * (high - low))
-            axes.legend(loc="upper left", ncol=2, title="variation", title_fontsize=8.5, alignment="left")
+        low, high = axes.get_ylim()
+        low, high = min(low, 0), max(high, 0)
+        axes.set_ylim(low, high + 0.45 * (high - low))
+        axes.legend(loc="upper left", ncol=2, title="variation", title_fontsize=8.5, alignment="left")
     axes.set_xlabel("distance along the normal of the band / d")
-    alt = f"Normal and shear traction on strips parallel to the band, both panels, {increment.title}."
-    return svg(figure, alt) if drawn else None
+    return svg(figure, f"Normal and shear traction on strips parallel to the band, both panels, {increment.title}.")

@@ -13,45 +13,38 @@ PARTS = (("normal", "normal (P)"), ("tangential", "tangential (P)"))
 
 def pair(increment):
     """Both panels on the same axes. A picture is None if no circle is stored."""
-    stored = {panel: _columns(increment.panel(panel).get("circular_probe")) for panel in PANEL_NAMES}
-    known = [columns for columns in stored.values() if columns]
-    if not known:
+    circles = {panel: increment.panel(panel).get("circular_probe") for panel in PANEL_NAMES}
+    if not all(circles.values()):
         return Pair(None, None)
+    stored = {panel: _columns(circle) for panel, circle in circles.items()}
     spans = {}
     for part, _ in PARTS:
         every = np.concatenate([np.concatenate([c[part] + sign * c[part + "_error"], c["predicted_" + part]])
-                                for c in known for sign in (-1, 1)])
+                                for c in stored.values() for sign in (-1, 1)])
         room = 0.08 * max(np.nanmax(every) - np.nanmin(every), 1e-6)
         spans[part] = (min(np.nanmin(every) - room, 0), np.nanmax(every) + room)
-    return Pair(*[_panel(increment, panel, stored[panel], spans) for panel in PANEL_NAMES], caption=_sampling(increment))
+    pictures = [_panel(increment, panel, stored[panel], spans) for panel in PANEL_NAMES]
+    return Pair(*pictures, caption=_sampling(circles["discrete"]))
 
 
-def _sampling(increment):
+def _sampling(circle):
     """Explains the bars. In equilibrium, neighbouring blocks compensate each other, so the difference is smaller than the bars."""
-    alone = plain((increment.panel("discrete").get("circular_probe") or {}).get("independent_blocks"))
+    alone = plain(circle.get("independent_blocks"))
     return "" if alone is None else ("Bars: standard errors for independent blocks along the diameter. Independent blocks would "
                                      f"differ from the mean stress by {100 * alone:.1f}\u00a0%.")
 
 
 def _columns(circle):
-    """The columns of the probe as arrays of equal length; None if one is missing."""
+    """The columns of the probe as arrays of equal length, and its relative_l2."""
     names = ["angles_deg"] + [prefix + part for part, _ in PARTS for prefix in ("", "predicted_")]
-    if not circle or any(not circle.get(name) for name in names):
-        return None
     columns = {name: np.array(circle[name], dtype=float) for name in names}  # null becomes nan
-    if len({len(column) for column in columns.values()}) != 1 or not np.isfinite(columns["normal"]).any():
-        return None
     for part, _ in PARTS:
-        error = circle.get(part + "_error")
-        same = error and len(error) == len(columns[part])
-        columns[part + "_error"] = np.nan_to_num(np.array(error, dtype=float)) if same else np.zeros(len(columns[part]))
-    columns["relative_l2"] = circle.get("relative_l2")
-    return columns
+        error = circle.get(part + "_error") or [0] * len(columns[part])  # only of grains
+        columns[part + "_error"] = np.nan_to_num(np.array(error, dtype=float))
+    return {**columns, "relative_l2": circle["relative_l2"]}
 
 
 def _panel(increment, panel, columns, spans):
-    if columns is None:
-        return None
     figure, both = frame("circular", (4.5, 3.9), [[0.14, 0.555 - 0.435 * k, 0.835, 0.375] for k in range(len(PARTS))])
     for k, ((part, label), axes) in enumerate(zip(PARTS, both)):
         axes.errorbar(columns["angles_deg"], columns[part], columns[part + "_error"], fmt="o", markersize=3, elinewidth=0.8,

@@ -78,7 +78,6 @@ def dots(verdict, quantities, label, scale=1.0):
 def curves(results, name, label, scale=1.0):
     """Running mean of every seed, their mean and its 95 % interval, both panels. None if nothing is stored."""
     figure, axes = chart(results, label)
-    drawn = False
     for panel, colour in PANEL_COLOURS.items():
         curve = results.curves.get(f"{panel}/{name}")
         if curve is None or not np.size(curve["members"]):
@@ -89,8 +88,7 @@ def curves(results, name, label, scale=1.0):
         axes.fill_between(across, scale * curve["low"], scale * curve["high"], where=known, color=colour, alpha=BAND, linewidth=0)
         axes.plot(across, scale * curve["mean"], color=colour, linewidth=1.8, linestyle=PANEL_LINES[panel],
                   label=PANEL_NAMES[panel])
-        drawn = True
-    if not drawn:
+    if not axes.lines:
         return None
     axes.set_xlim(left=0)
     if name == "stress_ratio":

@@ -22,14 +22,13 @@ def _energies(result):
     caption = ("Energies since the start. Grains: work = friction + impacts + change of kinetic energy; the accuracy table gives the residual. "
                "Continuum: plastic work.")
     figure, axes = chart(result, "energy (P d²)")
-    unit, drawn = result.units.size("pressure length^2"), 0
+    unit = result.units.size("pressure length^2")
     for panel, lines in ENERGIES.items():
         for name, label, colour, dashes in lines:
             found = result.history(panel, name)
             if found is not None:
                 axes.plot(*thin(result.walk.factor * found[0], found[1] / unit), color=colour, linestyle=dashes, label=label)
-                drawn += 1
-    if not drawn:
+    if not axes.lines:
         return None, caption
     axes.set_xlim(left=0)
     axes.set_ylim(bottom=0)

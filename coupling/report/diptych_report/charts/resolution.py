@@ -27,17 +27,17 @@ def verdict(result):
     return result.part("resolution_study").get("verdict") or ""
 
 
-def _frame(figure, k, label, study, widths):
-    axes = ruled(figure.add_axes([0.15, 0.57 - 0.44 * k, 0.825, 0.385]))
-    plateau = study.get("plateau_d")
-    if plateau:
-        axes.axvspan(plateau[0], plateau[1], color=FAINT, alpha=0.22, linewidth=0)
+def _frame(figure, box, study):
+    axes = ruled(figure.add_axes(box))
+    if study.get("plateau_d"):
+        axes.axvspan(*study["plateau_d"], color=FAINT, alpha=0.22, linewidth=0)
+    return axes
+
+
+def _ticks(axes, widths):
     axes.set_xscale("log")
     axes.set_xticks(widths, [f"{w:g}" for w in widths])
     axes.minorticks_off()
-    axes.set_ylabel(label)
-    axes.tick_params(labelbottom=k == 1)
-    return axes
 
 
 def _points(rows, key, words, study):
@@ -45,9 +45,11 @@ def _points(rows, key, words, study):
     if not names:
         return None
     figure = Figure(figsize=(4.5, 3.9))
-    widths = [row[key] for row in rows]
     for k, (quantity, label) in enumerate((("s", "mean stress s (P)"), ("t_over_s", "stress ratio t/s"))):
-        axes = _frame(figure, k, label, study, widths)
+        axes = _frame(figure, [0.15, 0.57 - 0.44 * k, 0.825, 0.385], study)
+        _ticks(axes, [row[key] for row in rows])
+        axes.set_ylabel(label)
+        axes.tick_params(labelbottom=k == 1)
         for name, (colour, mark, dashes) in zip(names, LOOKS):
             points = [(row[key], plain(p.get(quantity))) for row in rows for p in row.get("points") or []
                       if p.get("name") == name and plain(p.get(quantity)) is not None]
@@ -63,20 +65,14 @@ def _points(rows, key, words, study):
 
 def _scatter(rows, key, words, study):
     figure = Figure(figsize=(4.5, 3.1))
-    axes = ruled(figure.add_axes([0.15, 0.16, 0.825, 0.8]))
-    if study.get("plateau_d"):
-        axes.axvspan(*study["plateau_d"], color=FAINT, alpha=0.22, linewidth=0)
-    drawn = False
+    axes = _frame(figure, [0.15, 0.16, 0.825, 0.8], study)
     for quantity, label, colour, mark in (("scatter_s", "s", GRAINS, "o"), ("scatter_t", "t", INK, "s")):
         points = [(row[key], 100 * plain(row.get(quantity))) for row in rows if plain(row.get(quantity)) is not None]
         if points:
             axes.plot(*zip(*points), color=colour, marker=mark, markersize=4, label=label)
-            drawn = True
-    if not drawn:
+    if not axes.lines:
         return None
-    axes.set_xscale("log")
-    axes.set_xticks([row[key] for row in rows], [f"{row[key]:g}" for row in rows])
-    axes.minorticks_off()
+    _ticks(axes, [row[key] for row in rows])
     axes.set(xlabel=words, ylabel="scatter (% of the mean)", ylim=(0, None))
     axes.legend(loc="upper right")
     return svg(figure, f"Scatter of mean and deviatoric stress over the sample against the {words}.")

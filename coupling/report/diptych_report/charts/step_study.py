@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
 from diptych_report.charts.style import GRAINS, INK, THIRD, decades, ruled, set_up
+from diptych_report.data.files import read_csv, read_json, require
 
 LOOKS = ((THIRD, (0, (5, 1.5))), (GRAINS, (0, (1.5, 1))), (INK, "-"))
 # (column of study_step.csv, title, line width)
@@ -21,26 +22,31 @@ PANELS = (("stress_ratio_mean", "stress ratio t/s, running mean", 1.5),
 LOGARITHMIC = ("kinetic_energy", "max_penetration")
 
 
-def draw(study, folder):
-    """Writes study_step.png of a data.step_study.StepStudy, in the units of the scene."""
+def draw(folder):
+    """Writes study_step.png, in the units of the scene. Raises InputError if a file is missing or broken."""
+    paths = [os.path.join(folder, name) for name in ("study_step.json", "study_step.csv")]
+    require(paths)
+    record, table = read_json(paths[0]), read_csv(paths[1])
+    runs = [(step, {name: column[table["step"] == step] for name, column in table.items()}) for step in record["steps"]]
     set_up()
     figure = Figure(figsize=(10.5, 6.4))
     for k, panel in enumerate(PANELS):
         axes = ruled(figure.add_axes([0.05 + 0.325 * (k % 3), 0.525 - 0.46 * (k // 3), 0.285, 0.35]))
-        _panel(axes, study, *panel)
+        _panel(axes, runs, *panel)
         axes.tick_params(labelbottom=k >= 3)
         axes.set_xlabel("time" if k >= 3 else "")
     handles, labels = axes.get_legend_handles_labels()
     figure.legend(handles, labels, loc="upper center", ncol=len(labels) or 1, bbox_to_anchor=(0.5, 0.965))
-    figure.suptitle(study.verdict, fontsize=9.5, y=0.99)
+    figure.suptitle(record["verdict"], fontsize=9.5, y=0.99)
     path = os.path.join(folder, "study_step.png")
     FigureCanvasAgg(figure)
     figure.savefig(path + ".part", format="png", dpi=120)
     os.replace(path + ".part", path)
 
 
-def _panel(axes, study, name, label, width):
-    known = [(step, run["time"], run[name]) for step, run in study.runs if name in run]
+def _panel(axes, runs, name, label, width):
+    """runs: [(step, {column: array})], the longest step first."""
+    known = [(step, run["time"], run[name]) for step, run in runs if name in run]
     for (step, time, values), (colour, dashes) in zip(known, LOOKS * len(known)):
         axes.plot(time, values, color=colour, linestyle=dashes, linewidth=width, label=f"step {step:g}")
     axes.set_title(label, loc="left", fontsize=9.5)

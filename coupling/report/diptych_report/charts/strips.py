@@ -12,35 +12,22 @@ LARGEST_TURN = 10  # degrees; fits of bands with a larger angle to the strips ar
 
 
 def pair(increment):
-    """Both panels on the same axes. A picture is None if no strips are stored."""
-    stored = {panel: increment.panel(panel).get("strips") or {} for panel in PANEL_NAMES}
-    profiles = {panel: _profile(strips) for panel, strips in stored.items()}
-    known = [profile for profile in profiles.values() if profile is not None]
-    if not known:
-        return Pair(None, None)
-    lowest = min(min(0.0, np.nanmin(mean)) for _, mean, _ in known)
-    highest = max(max(1.0, np.nanmax(mean)) for _, mean, _ in known)
-    reach = max(np.abs(edges).max() for edges, _, _ in known)
+    """Both panels on the same axes."""
+    # edges [d] (n+1), mean (n), deviation (n); null becomes nan: an empty strip
+    stored = {panel: increment.panel(panel)["strips"] for panel in PANEL_NAMES}
+    profiles = {panel: [np.array(strips[name], dtype=float) for name in ("edges_d", "mean", "deviation")]
+                for panel, strips in stored.items()}
+    lowest = min(min(0.0, np.nanmin(mean)) for _, mean, _ in profiles.values())
+    highest = max(max(1.0, np.nanmax(mean)) for _, mean, _ in profiles.values())
+    reach = max(np.abs(edges).max() for edges, _, _ in profiles.values())
     box = (-reach, reach, lowest - 0.12, highest + 0.35)
-    angles = {panel: plain(strips.get("angle_deg")) for panel, strips in stored.items()}
+    angles = {panel: strips["angle_deg"] for panel, strips in stored.items()}
     pictures = [_panel(increment, panel, profiles[panel], box, angles[panel]) for panel in PANEL_NAMES]
-    words = [f"{PANEL_NAMES[panel].lower()} {signed(f'{angle:.1f}°')}" for panel, angle in angles.items() if angle is not None]
-    return Pair(*pictures, caption=f"Inclination of the strips: {', '.join(words)}; {increment.title}." if words else "")
-
-
-def _profile(strips):
-    """(edges [d] (n+1), mean (n), deviation (n)); NaN: an empty strip."""
-    if not strips or not strips.get("edges_d"):
-        return None
-    edges = np.asarray(strips["edges_d"], dtype=float)
-    columns = [np.array(strips.get(name) or [None] * (len(edges) - 1), dtype=float)  # null becomes nan
-               for name in ("mean", "deviation")]
-    return (edges, *columns) if np.isfinite(columns[0]).any() else None
+    words = [f"{PANEL_NAMES[panel].lower()} {signed(f'{angle:.1f}°')}" for panel, angle in angles.items()]
+    return Pair(*pictures, caption=f"Inclination of the strips: {', '.join(words)}; {increment.title}.")
 
 
 def _panel(increment, panel, profile, box, angle):
-    if profile is None:
-        return None
     edges, mean, deviation = profile
     middle, colour = (edges[1:] + edges[:-1]) / 2, PANEL_COLOURS[panel]
     figure, (axes,) = frame("strips", (4.5, 3.3), [[0.14, 0.15, 0.84, 0.76]])
@@ -52,7 +39,7 @@ def _panel(increment, panel, profile, box, angle):
                   label="standard deviation")
     bands = increment.bands(panel)
     # A band across the strips has no profile in them.
-    parallel = [band for band in bands if angle is None or _turn(band, angle) < LARGEST_TURN]
+    parallel = [band for band in bands if _turn(band, angle) < LARGEST_TURN]
     # The linear background belongs to the first band of the panel.
     straight = [plain(increment.panel(panel)["strips"].get(name)) for name in ("background", "background_slope")]
     for band in parallel:
@@ -71,19 +58,15 @@ def _panel(increment, panel, profile, box, angle):
 
 def _turn(band, angle):
     """Angle between a band and the strips, in [0, 90] degrees."""
-    found = plain(band.get("angle_deg"))
-    return 90.0 if found is None else abs((found - angle + 90) % 180 - 90)
+    return abs((plain(band["angle_deg"]) - angle + 90) % 180 - 90)
 
 
 def _draw_fit(axes, band, box, background):
     """u = a + b x + (jump/2) tanh((x - offset)/delta); background: a and b of the strips, or None; 10-90 % width shaded."""
-    jump, offset, delta, width = (plain(band.get(name)) for name in ("jump", "offset_d", "half_width_d", "width_10_90_d"))
-    ends = interval(band.get("width_10_90_d"))
-    label = "" if width is None else f"10–90 % width {width:.1f} d"
-    if ends:
-        label += signed(f" [{ends[0]:.1f}, {ends[1]:.1f}]")
-    if None not in (*background, jump, offset) and delta:
+    jump, offset, delta, width = (plain(band[name]) for name in ("jump", "offset_d", "half_width_d", "width_10_90_d"))
+    ends = interval(band["width_10_90_d"])
+    label = f"10–90 % width {width:.1f} d" + (signed(f" [{ends[0]:.1f}, {ends[1]:.1f}]") if ends else "")
+    if None not in background:
         x = np.linspace(box[0], box[1], 150)
         axes.plot(x, background[0] + background[1] * x + jump / 2 * np.tanh((x - offset) / delta), color=INK, label="fit")
-    if width is not None and offset is not None:
-        axes.axvspan(offset - width / 2, offset + width / 2, color=INK, alpha=0.08, linewidth=0, label=label)
+    axes.axvspan(offset - width / 2, offset + width / 2, color=INK, alpha=0.08, linewidth=0, label=label)

@@ -4,16 +4,13 @@
 
 import base64
 import io
-import re
 from dataclasses import dataclass
 
 import matplotlib
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 from matplotlib.transforms import Bbox, blended_transform_factory
-from PIL import Image
 
 from diptych_report.data.numbers import interval, plain
 
@@ -28,7 +25,6 @@ NO_VALUE = "#c4c4c4"
 PANEL_COLOURS = {"discrete": GRAINS, "continuum": CONTINUUM}
 PANEL_LINES = {"discrete": "-", "continuum": (0, (5, 1.5))}
 PANEL_MARKS = {"discrete": "o", "continuum": "s"}
-MAP_DPI = 110
 POINTS = 1500       # per curve
 
 
@@ -162,50 +158,10 @@ def signed(text):
     return text.replace("-", "−")
 
 
-def band_axes(angle_deg):
-    """Unit vectors along a band (angle from the horizontal, in (-90, 90]) and normal to it (90 degrees further)."""
-    angle = np.radians(angle_deg)
-    return np.array([np.cos(angle), np.sin(angle)]), np.array([-np.sin(angle), np.cos(angle)])
-
-
-def png(figure, alt, dpi=MAP_DPI):
-    """Raster picture for maps of thousands of shapes. A palette of 255 colours takes a third of the bytes."""
-    canvas = FigureCanvasAgg(figure)
-    figure.set_dpi(dpi)
-    canvas.draw()
-    image = Image.frombuffer("RGBA", canvas.get_width_height(), canvas.buffer_rgba(), "raw", "RGBA", 0, 1)
-    image = image.convert("RGB").quantize(255, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
-    stream = io.BytesIO()
-    image.save(stream, "png", compress_level=7)
-    return _picture(figure, "image/png", stream, alt)
-
-
 def svg(figure, alt):
     """Vector picture for curves. It has no date, so the same results give the same bytes."""
     stream = io.BytesIO()
     figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
-    return _picture(figure, "image/svg+xml", io.BytesIO(_lean(stream.getvalue())), alt)
-
-
-DECIMALS = re.compile(rb"(\.\d\d)\d+")  # only coordinates, which are inside tags; numbers in labels stay
-# (pattern, replacement) for the text of a picture.
-LEAN = [(re.compile(pattern, re.DOTALL), new) for pattern, new in (
-    (rb"<\?xml.*?>\n", b""), (rb"<[^>]*>", lambda tag: DECIMALS.sub(rb"\1", tag.group())), (rb"\n *", b"\n"), (rb"<metadata>.*?</metadata>\n", b""), (rb"<!DOCTYPE.*?>\n", b""),
-    (rb'<g id="[^"]*">', b"<g>"), (rb' transform="rotate\(-0 [^)]*\)"', b""), (rb"font: ([\d.]+px) [^;\"]*", rb"font-size:\1"),
-    (rb" ?\n([LCQz])", rb"\1"), (rb"([\d\"])([LCQ]) (?=[-\d])", rb"\1\2"), (rb">\n<", b"><"),
-    (rb'(<use [^>]*) style="stroke: #\w+; stroke-width: [\d.]+"/>', rb"\1/>"))]  # the path of the tick has the style
-
-
-def _lean(text):
-    """The same picture in half the bytes: coordinates to a hundredth of a point, no names of groups, one rule for the fonts, no
-    rotations by zero."""
-    for pattern, new in LEAN:
-        text = pattern.sub(new, text)
-    fonts = ", ".join(f"'{name}'" if " " in name else name for name in matplotlib.rcParams["font.sans-serif"])
-    return text.replace(b"*{", b"text{font-family: " + fonts.encode() + b"} *{", 1)
-
-
-def _picture(figure, kind, stream, alt):
     width, height = figure.get_size_inches()
-    uri = f"data:{kind};base64," + base64.b64encode(stream.getvalue()).decode("ascii")
+    uri = "data:image/svg+xml;base64," + base64.b64encode(stream.getvalue()).decode("ascii")
     return Picture(uri, alt, round(96 * width), round(96 * height))

@@ -81,15 +81,13 @@ def _stress_difference(result):
         for row in (stage.record.get("difference") or {}).get("stress") or []:
             rows.setdefault(row.get("label", ""), []).append((result.walk.factor * stage.end, row))
     figure, axes = chart(result, "difference of the stress (%)")
-    drawn = False
     for (label, found), colour in zip(rows.items(), (INK, PANEL_COLOURS["discrete"], THIRD)):
         for key, dashes, words in (("relative_l2", "-", label), ("sampling_alone", "--", None)):
             points = [(x, 100 * plain(row.get(key))) for x, row in found if plain(row.get(key)) is not None]
             if points:
                 axes.plot(*zip(*points), color=colour, linestyle=dashes, linewidth=1.3, label=words,
                           marker="o" if dashes == "-" else None, markersize=3.5)
-                drawn = True
-    if not drawn:
+    if not axes.lines:
         return None, caption
     axes.set_xlim(left=0)
     axes.set_ylim(bottom=0)

@@ -1,12 +1,11 @@
 # diptych: reads a calibration
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Reads calibration.json and calibration_cost.json."""
-
 import os
 
 import numpy as np
 
-from diptych_report.data.files import InputError, read_json
+from diptych_report import InputError
+from diptych_report.data.files import read_json
 
 FORMAT = 1
 
@@ -16,14 +15,7 @@ class Calibration:
 
     def __init__(self, record, cost):
         self.record, self.cost = record, cost
-
-    @property
-    def paths(self):
-        return self.record["paths"]
-
-    @property
-    def parameters(self):
-        return self.record["parameters"]
+        self.paths, self.parameters = record["paths"], record["parameters"]
 
     def names(self):
         return [label(p) for p in self.parameters]
@@ -37,9 +29,7 @@ def label(parameter):
 def load(folder):
     """Raises InputError if a file is missing, broken or has another format, or if the calibration did not finish."""
     path = os.path.join(folder, "calibration.json")
-    record = read_json(path)
-    if record.get("format") != FORMAT:
-        raise InputError(f"{path}: format {record.get('format')!r}; this report reads {FORMAT}")
+    record = read_json(path, FORMAT)
     if record["status"] != "finished":
         raise InputError(f"{path}: the calibration is not finished ({record['status']})")
     return Calibration(record, read_json(os.path.join(folder, "calibration_cost.json")))

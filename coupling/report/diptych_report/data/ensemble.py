@@ -1,16 +1,12 @@
 # diptych: reads an ensemble of seeds
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Reads ensemble.json and ensemble.h5, the meaning of numbers from comparison.json of a member, and the optional files ensemble.prm
-and provenance.json."""
-
 import os
 import re
 from dataclasses import dataclass
 
 import numpy as np
 
-from diptych_report.data.arrays import open_arrays
-from diptych_report.data.files import InputError, read_json, read_provenance, read_text
+from diptych_report.data.files import open_arrays, read_json, read_provenance, read_text
 from diptych_report.data.numbers import Descriptions
 from diptych_report.data.panels import PANEL_NAMES
 from diptych_report.data.scene import scene_value
@@ -53,19 +49,10 @@ class Ensemble:
     def span(self, value):
         return self.walk.text(value).replace(" ", "\u00a0")
 
-    def quantity(self, name):
-        return self.quantities.get(name)
-
 
 def load(folder):
     """The ensemble of a folder. Raises InputError if ensemble.json is missing, broken or has another format."""
-    path = os.path.join(folder, "ensemble.json")
-    record = read_json(path)
-    if record.get("format") != FORMAT:
-        raise InputError(f"{path}: format {record.get('format')!r}, but this report reads format {FORMAT}")
-    missing = [key for key in ("seeds", "done", "failed", "quantities", "bands", "verdicts") if key not in record]
-    if missing:
-        raise InputError(f"{path}: missing {', '.join(missing)}")
+    record = read_json(os.path.join(folder, "ensemble.json"), FORMAT)
     progress, curves, averaging = _curves(os.path.join(folder, "ensemble.h5"))
     member, provenance = _member(folder, record["done"]), os.path.join(folder, "provenance.json")
     return Ensemble(folder, record, {q["name"]: q for q in record["quantities"]}, Descriptions(member.get("numbers")),
@@ -83,11 +70,8 @@ def _member(folder, seeds):
 def _curves(path):
     if not os.path.isfile(path):
         return None, {}, None
-    try:
-        with open_arrays(path) as file:
-            curves = {f"{panel}/{name}": {key: item[()] for key, item in group.items()}
-                      for panel in PANEL_NAMES for name, group in file.get(panel, {}).items()}
-            averaging = file.attrs.get("averaging_width")
-            return file["progress"][()], curves, None if averaging is None else float(averaging)
-    except KeyError as error:
-        raise InputError(f"{path}: {error}") from error
+    with open_arrays(path) as file:
+        curves = {f"{panel}/{name}": {key: item[()] for key, item in group.items()}
+                  for panel in PANEL_NAMES for name, group in file.get(panel, {}).items()}
+        averaging = file.attrs.get("averaging_width")
+        return file["progress"][()], curves, None if averaging is None else float(averaging)

@@ -1,33 +1,36 @@
-# diptych: reads text files of a result folder
+# diptych: reads the files of a result folder
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
+import contextlib
 import csv
 import json
 import os
 
+import h5py
 import numpy as np
 
-from diptych_report.data.input_error import InputError
+from diptych_report import InputError
 
 
-def require(folder, names):
+def require(paths):
     """Raises InputError with the missing files."""
-    missing = [name for name in names if not os.path.isfile(os.path.join(folder, name))]
+    missing = [path for path in paths if not os.path.isfile(path)]
     if missing:
-        raise InputError(f"{folder}: missing {', '.join(missing)}")
+        raise InputError(f"missing: {', '.join(missing)}")
 
 
-def read_json(path):
-    """The object of a JSON file. Raises InputError if it cannot be read or is not an object."""
+def read_json(path, format=None):
+    """The object of a JSON file. Raises InputError if it cannot be read, is no object or does not have the format."""
     try:
         with open(path, encoding="utf-8") as stream:
             value = json.load(stream)
-    except OSError as error:
+    except (OSError, ValueError) as error:
         raise InputError(f"{path}: {error}") from error
-    except ValueError as error:
-        raise InputError(f"{path}: not valid JSON: {error}") from error
     if not isinstance(value, dict):
         raise InputError(f"{path}: an object is expected")
+    if format and value.get("format") != format:
+        raise InputError(f"{path}: format {value.get('format')!r}, but this report reads format {format}; "
+                         "compute it again with this version")
     return value
 
 
@@ -39,19 +42,23 @@ def read_provenance(path):
     return record
 
 
-def read_csv(path):
-    """{column: array of numbers}; NaN: no number. Raises InputError if there is no header."""
+@contextlib.contextmanager
+def open_arrays(path):
+    """The open HDF5 file. Raises InputError if it is damaged."""
     try:
-        with open(path, encoding="utf-8", newline="") as stream:
-            rows = list(csv.reader(stream))
-    except OSError as error:
+        with h5py.File(path, "r") as file:
+            yield file
+    except (OSError, RuntimeError) as error:  # h5py raises either for a damaged file
         raise InputError(f"{path}: {error}") from error
-    if not rows:
-        raise InputError(f"{path}: empty")
-    names = [name.strip() for name in rows[0]]
+
+
+def read_csv(path):
+    """{column: array of numbers}; NaN: no number."""
+    with open(path, encoding="utf-8", newline="") as stream:
+        rows = list(csv.reader(stream))
     # A killed run may leave an incomplete last line.
-    rows = [row for row in rows[1:] if len(row) == len(names)]
-    return {name: np.array([number(row[k]) for row in rows]) for k, name in enumerate(names)}
+    columns = zip(*[row for row in rows[1:] if len(row) == len(rows[0])])
+    return {name: np.array([number(value) for value in values]) for name, values in zip(rows[0], columns)}
 
 
 def read_text(path):
@@ -66,5 +73,5 @@ def number(text):
     """The text as a float; NaN: no number."""
     try:
         return float(text)
-    except (TypeError, ValueError):
+    except ValueError:
         return float("nan")

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import h5py
 import numpy as np
 
-from diptych_report.data.input_error import InputError
+from diptych_report import InputError
 from diptych_report.data.numbers import Description
 from diptych_report.data.walk import Walk, walk_of
 
@@ -22,8 +22,8 @@ class Increment:
     arrays: datasets by path in the group, as "cells/discrete_stress" (C, 2, 2) [P]; "cells/corners" (C, 4, 2) [d] is the mesh.
     state: arrays of the stage that ends at the same progress (a stage's own): stresses and forces at that instant.
     record: {"discrete": PANEL, "continuum": PANEL, ...} of comparison.json. end_record: of the stage that ends at the same
-    progress, {} without one. centre: of the sample (2) [d], from which the bands' offsets count; None if not stored.
-    displacement_unit, velocity_unit: the upper platen's [d], [d/time]; None if not stored.
+    progress, {} without one. centre: of the sample (2) [d], from which the bands' offsets count.
+    displacement_unit, velocity_unit: the upper platen's [d], [d/time]; None if unknown or zero.
     """
 
     key: str
@@ -71,11 +71,11 @@ def read(comparison, file, units):
     """
     walk = walk_of(comparison.get("walk"))
     increments, groups = [], {}
-    for k, window in enumerate(comparison.get("windows") or []):
+    for k, window in enumerate(comparison["windows"]):
         increments.append(Increment(f"window-{k}", "window", window["from"], window["to"], window, walk))
         groups[f"window-{k}"] = f"window_{k}"
     start = 0.0
-    for k, stage in enumerate(comparison.get("stages") or []):
+    for k, stage in enumerate(comparison["stages"]):
         increments.append(Increment(f"stage-{k}", "stage", start, stage["progress"], stage, walk))
         groups[f"stage-{k}"] = f"stage_{k + 1:04d}"
         start = stage["progress"]
@@ -123,14 +123,10 @@ def _group_of(increment, name, file):
 
 def _take_group(increment, group, units, described):
     arrays = increment.arrays = read_arrays(group, units, described)
-    for mesh in MESHES:
-        node, cell = arrays.pop(mesh + "/node_position", None), arrays.pop(mesh + "/nodes", None)
-        if node is not None and cell is not None:
-            arrays[mesh + "/corners"] = node[:, :2][cell.astype(int)]
-    attributes = group.attrs
-    increment.start = float(attributes.get("from", increment.start))
-    if "centre" in attributes:
-        increment.centre = np.asarray(attributes["centre"], dtype=float) / units.diameter
+    for mesh in [mesh for mesh in MESHES if mesh in group]:
+        arrays[mesh + "/corners"] = arrays.pop(mesh + "/node_position")[arrays.pop(mesh + "/nodes").astype(int)]
+    increment.start = float(group.attrs["from"])
+    increment.centre = group.attrs["centre"] / units.diameter
     for name in ("displacement_unit", "velocity_unit"):
-        value = float(attributes.get(name, np.nan)) / units.diameter
+        value = group.attrs[name] / units.diameter
         setattr(increment, name, value if np.isfinite(value) and value > 0 else None)

@@ -1,16 +1,13 @@
 # diptych: reads a result folder, with lengths in d and stresses in P
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Reads comparison.json, comparison.h5, discrete.csv, continuum.csv, provenance.json, and the optional scene.prm and import.json."""
-
 import os
 from dataclasses import dataclass
 
 import numpy as np
 
-from diptych_report.data.arrays import open_arrays
-from diptych_report.data.files import InputError, read_csv, read_json, read_provenance, read_text, require
+from diptych_report.data.files import open_arrays, read_csv, read_json, read_provenance, read_text, require
 from diptych_report.data.increments import read, read_arrays
-from diptych_report.data.numbers import Descriptions, Units, plain
+from diptych_report.data.numbers import Descriptions, Units
 from diptych_report.data.panels import PANEL_NAMES
 from diptych_report.data.walk import Walk, walk_of
 
@@ -42,8 +39,7 @@ class Result:
     @property
     def averaging(self):
         """The range of the running means as text."""
-        width = plain(self.comparison.get("averaging_width"))
-        return "a part of the loading" if width is None else f"the last {self.walk.text(width)} of {self.walk.word}"
+        return f"the last {self.walk.text(self.comparison['averaging_width'])} of {self.walk.word}"
 
     def part(self, key):
         """A group of the comparison, or {}."""
@@ -51,9 +47,8 @@ class Result:
 
     def history(self, panel, name):
         """(progress, values) of the rows with finite numbers; None: no such column, or fewer than two rows."""
-        columns = self.histories[panel]
-        progress, values = columns.get("progress"), columns.get(name)
-        if progress is None or values is None or len(progress) != len(values):
+        progress, values = self.histories[panel]["progress"], self.histories[panel].get(name)
+        if values is None:
             return None
         good = np.isfinite(progress) & np.isfinite(values)
         return (progress[good], values[good]) if good.sum() > 1 else None
@@ -74,31 +69,16 @@ def load(folder, next_folder):
         newer = os.path.join(next_folder, name)
         return newer if os.path.isfile(newer) else os.path.join(folder, name)
 
-    missing = [name for name in REQUIRED if not os.path.isfile(path_of(name))]
-    if missing:
-        raise InputError(f"{folder}: missing {', '.join(missing)}")
-    comparison = read_json(path_of("comparison.json"))
-    if comparison.get("format") != FORMAT:
-        raise InputError(f"{folder}/comparison.json: format {comparison.get('format')!r}, but this report reads format {FORMAT}; "
-                         "`diptych compare` writes it")
-    units = Units(comparison.get("mean_diameter") or 1.0, comparison.get("pressure") or 1.0)
-    numbers = Descriptions(comparison.pop("numbers", {}))
+    require([path_of(name) for name in REQUIRED])
+    comparison = read_json(path_of("comparison.json"), FORMAT)
+    units = Units(comparison["mean_diameter"], comparison["pressure"])
+    numbers = Descriptions(comparison.pop("numbers"))
     comparison = numbers.shown_in(comparison, units)
     histories = {panel: read_csv(path_of(panel + ".csv")) for panel in PANEL_NAMES}
-    path = path_of("comparison.h5")
-    try:
-        with open_arrays(path) as file:
-            increments, arrays = read(comparison, file, units)
-            for panel, columns in histories.items():
-                if f"histories/{panel}" in file:
-                    means = read_arrays(file[f"histories/{panel}"], units, arrays)
-                    columns.update({name: values for name, values in means.items() if name not in columns})
-    except (KeyError, TypeError) as error:
-        raise InputError(f"{folder}/comparison.json, {path}: a stage or a window is incomplete: {error}") from error
+    with open_arrays(path_of("comparison.h5")) as file:
+        increments, arrays = read(comparison, file, units)
+        for panel, columns in histories.items():
+            columns.update(read_arrays(file[f"histories/{panel}"], units, arrays))
+    imported = os.path.join(folder, "import.json")
     return Result(comparison, read_provenance(path_of("provenance.json")), histories, increments, units, numbers, arrays,
-                  read_text(path_of("scene.prm")), imported_of(folder))
-
-
-def imported_of(folder):
-    path = os.path.join(folder, "import.json")
-    return read_json(path) if os.path.exists(path) else {}
+                  read_text(path_of("scene.prm")), read_json(imported) if os.path.exists(imported) else {})

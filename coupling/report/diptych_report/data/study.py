@@ -1,12 +1,9 @@
 # diptych: reads a study
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Reads study.json, study_cost.json and the optional study.h5."""
-
 import os
 from dataclasses import dataclass
 
-from diptych_report.data.arrays import open_arrays
-from diptych_report.data.files import InputError, read_json
+from diptych_report.data.files import open_arrays, read_json
 
 FORMAT = 1
 CURVES = ("stress_ratio", "volumetric_strain")
@@ -61,22 +58,12 @@ class Study:
 
 def load(folder):
     """The study of a folder. Raises InputError if a file is missing, broken or has another format."""
-    record, bill = (_read(os.path.join(folder, name)) for name in ("study.json", "study_cost.json"))
+    record, bill = (read_json(os.path.join(folder, name), FORMAT) for name in ("study.json", "study_cost.json"))
     return Study(folder, record, bill, {c["point"]: c for c in bill["points"]}, _curves(os.path.join(folder, "study.h5")))
-
-
-def _read(path):
-    value = read_json(path)
-    if value.get("format") != FORMAT:
-        raise InputError(f"{path}: format {value.get('format')!r}, but this report reads format {FORMAT}")
-    return value
 
 
 def _curves(path):
     if not os.path.isfile(path):
         return {}
-    try:
-        with open_arrays(path) as file:
-            return {panel: (group["progress"][()], {name: group[name][()] for name in CURVES}) for panel, group in file.items()}
-    except KeyError as error:
-        raise InputError(f"{path}: {error}") from error
+    with open_arrays(path) as file:
+        return {panel: (group["progress"][()], {name: group[name][()] for name in CURVES}) for panel, group in file.items()}

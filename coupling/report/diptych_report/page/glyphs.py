@@ -1,6 +1,6 @@
 # diptych: arrows, crosses, forces and probes of one increment, for the browser
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Every function returns entries of a Store; {} or None: nothing is stored."""
+"""Entries of a Store; {} or None: nothing is stored."""
 
 import numpy as np
 
@@ -13,14 +13,10 @@ PRINCIPAL = ("major_stress", "minor_stress", "stress_direction")
 
 
 def short(values):
-    """Nested lists of numbers with five digits."""
+    """Nested lists of numbers with five digits; None stays."""
     if isinstance(values, (list, tuple, np.ndarray)):
         return [short(value) for value in values]
-    return float(f"{values:.5g}")
-
-
-def or_none(number):
-    return None if number is None else short(number)
+    return None if values is None else float(f"{values:.5g}")
 
 
 def thinned(position):
@@ -36,13 +32,12 @@ def thinned(position):
 
 def arrows(increment, store):
     """Moreau 1997, figure 1: displacement increments, for grains also velocities, in units of those of the platen."""
-    found, unit = {}, increment.displacement_unit
+    found = {}
+    if increment.displacement_unit is None:
+        return found
     for panel, group in (("discrete", "discrete"), ("continuum", "nodes")):
-        position = increment.arrays.get(group + "/position")
-        moved = increment.arrays.get(group + "/displacement_increment")
-        if position is None or moved is None or not len(position) or unit is None:
-            continue
-        position, moved = position[:, :2], moved[:, :2] / unit
+        position = increment.arrays[group + "/position"]
+        moved = increment.arrays[group + "/displacement_increment"] / increment.displacement_unit
         chosen = thinned(position)
         found[panel] = {"increment": _field(store, position, moved, chosen)}
         speed = _velocity(increment) if panel == "discrete" else moved
@@ -54,58 +49,56 @@ def arrows(increment, store):
 def _velocity(increment):
     """Velocity of the grains at the end of the increment over that of the platen, (N, 2)."""
     values = increment.state.get("discrete/velocity")
-    return None if values is None or increment.velocity_unit is None else values[:, :2] / increment.velocity_unit
+    return None if values is None or increment.velocity_unit is None else values / increment.velocity_unit
+
+
+def _stored(store, chosen, **columns):
+    return {name: store.add(values[chosen]) for name, values in columns.items()}
 
 
 def _field(store, position, vectors, chosen):
-    return {name: store.add(values[chosen]) for name, values in (
-        ("x", position[:, 0]), ("y", position[:, 1]), ("u", vectors[:, 0]), ("v", vectors[:, 1]))}
+    return _stored(store, chosen, x=position[:, 0], y=position[:, 1], u=vectors[:, 0], v=vectors[:, 1])
 
 
 def crosses(increment, store):
     """Moreau 1997, figure 2: principal stresses of each grain and of each cell of the continuum."""
     state, found = increment.state, {}
-    position, corners = state.get("discrete/position"), state.get("cells/corners")
-    places = {"discrete": ("discrete/", position), "continuum": ("cells/continuum_", None if corners is None else
-                                                                 corners.mean(axis=1))}
+    if not state:
+        return found
+    places = {"discrete": ("discrete/", state["discrete/position"]),
+              "continuum": ("cells/continuum_", state["cells/corners"].mean(axis=1))}
     for panel, (prefix, centre) in places.items():
-        major, minor, angle = (state.get(prefix + name) for name in PRINCIPAL)
-        if centre is None or major is None or minor is None or angle is None:
-            continue
+        major, minor, angle = (state[prefix + name] for name in PRINCIPAL)
         known = np.flatnonzero(np.isfinite(major) & np.isfinite(minor) & np.isfinite(angle))
         chosen = np.sort(known[np.argsort(-np.abs(major[known]), kind="stable")[:MOST_DRAWN]])
-        found[panel] = {name: store.add(values[chosen]) for name, values in (
-            ("x", centre[:, 0]), ("y", centre[:, 1]), ("s1", major), ("s2", minor), ("a", angle))}
+        found[panel] = _stored(store, chosen, x=centre[:, 0], y=centre[:, 1], s1=major, s2=minor, a=angle)
     return found
 
 
 def cross_unit(increments):
     """Half length of the line of a stress of 1 P [d], so that the crosses of the continuum fill their cells."""
     units = []
-    for increment in increments:
-        major, corners = increment.state.get("cells/continuum_major_stress"), increment.state.get("cells/corners")
-        if major is not None and corners is not None and np.isfinite(major).any():
-            side = np.sqrt(np.ptp(corners, axis=1).prod(axis=1).mean())
-            units.append(0.5 * side / max(np.nanpercentile(major, 98), 1e-9))
+    for state in (i.state for i in increments if i.state):
+        side = np.sqrt(np.ptp(state["cells/corners"], axis=1).prod(axis=1).mean())
+        units.append(0.5 * side / max(np.nanpercentile(state["cells/continuum_major_stress"], 98), 1e-9))
     return short(np.median(units)) if units else 0.5
 
 
 def forces(increment, store):
     """Moreau 1997, figure 3: contact forces, averaged over the stage [P d]."""
-    point, force = increment.state.get("window/point"), increment.state.get("window/force")
-    if point is None or force is None:
+    if not increment.state:
         return None
-    size = np.linalg.norm(force[:, :2], axis=1)
+    point, force = increment.state["window/point"], increment.state["window/force"]
+    size = np.linalg.norm(force, axis=1)
     chosen = np.sort(np.argsort(-size, kind="stable")[:MOST_DRAWN])
     chosen = chosen[size[chosen] > 0]
-    return {name: store.add(values[chosen]) for name, values in (
-        ("x", point[:, 0]), ("y", point[:, 1]), ("f", size), ("a", np.arctan2(force[:, 1], force[:, 0])))}
+    return _stored(store, chosen, x=point[:, 0], y=point[:, 1], f=size, a=np.arctan2(force[:, 1], force[:, 0]))
 
 
 def force_unit(increments):
     """Thickness of the line of a force of 1 P d [d], so that the largest 1 % are at least 0.7 d thick."""
-    found = [increment.state.get("window/force") for increment in increments]
-    largest = [np.percentile(np.linalg.norm(f[:, :2], axis=1), 99) for f in found if f is not None and len(f)]
+    found = [i.state["window/force"] for i in increments if i.state]
+    largest = [np.percentile(np.linalg.norm(force, axis=1), 99) for force in found if len(force)]
     return short(0.7 / max(np.median(largest), 1e-9)) if largest else 0.1
 
 
@@ -114,10 +107,9 @@ def probes(increment):
     found = {}
     for panel in PANEL_NAMES:
         record = increment.end_panel(panel)
-        rectangles = [{"name": p.get("name", ""), "polygon": short(p["polygon"]),
-                       **{key: or_none(plain(p.get(key))) for key in ("s1", "s2", "direction_deg", "t_over_s")}}
-                      for p in record.get("probes") or [] if p.get("polygon")]
-        circle = record.get("circular_probe") or {}
-        found[panel] = {"rectangles": rectangles,
-                        "circle": short([*circle["centre"], circle["radius"]]) if circle.get("radius") else None}
+        rectangles = [{"name": p["name"], "polygon": short(p["polygon"]),
+                       **{key: short(plain(p[key])) for key in ("s1", "s2", "direction_deg", "t_over_s")}}
+                      for p in record.get("probes") or [] if p["polygon"]]
+        circle = record.get("circular_probe")
+        found[panel] = {"rectangles": rectangles, "circle": short([*circle["centre"], circle["radius"]]) if circle else None}
     return found

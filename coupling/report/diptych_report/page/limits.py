@@ -10,19 +10,12 @@ MARGIN = 2.0      # d, around the sample
 
 
 def box(increments):
-    """(x0, x1, y0, y1) [d] around all grains and cells of all increments, so that stepping does not move the axes; None: no data."""
+    """(x0, x1, y0, y1) [d] around all grains and cells of all increments, so that stepping does not move the axes."""
     low, high = [], []
-    for increment in increments:
-        position, radius = increment.arrays.get("discrete/position"), increment.arrays.get("discrete/radius")
-        if position is not None and radius is not None and len(position):
-            low.append((position[:, :2] - radius[:, None]).min(axis=0))
-            high.append((position[:, :2] + radius[:, None]).max(axis=0))
-        corners = increment.arrays.get("cells/corners")
-        if corners is not None and len(corners):
-            low.append(corners.min(axis=(0, 1)))
-            high.append(corners.max(axis=(0, 1)))
-    if not low:
-        return None
+    for arrays in (i.arrays for i in increments):
+        position, radius, corners = arrays["discrete/position"], arrays["discrete/radius"][:, None], arrays["cells/corners"]
+        low += [(position - radius).min(axis=0), corners.min(axis=(0, 1))]
+        high += [(position + radius).max(axis=0), corners.max(axis=(0, 1))]
     (x0, y0), (x1, y1) = np.min(low, axis=0) - MARGIN, np.max(high, axis=0) + MARGIN
     return x0, x1, y0, y1
 

@@ -54,9 +54,6 @@ class Quantity:
         values = (increment.state if self.of_state else increment.arrays).get(path)
         if values is None or not np.isfinite(values).any():
             return None
-        mesh = path.split("/")[0]
-        if mesh != "discrete" and len(values) != len(corners(increment, mesh) if corners(increment, mesh) is not None else ()):
-            return None
         values = np.asarray(values, dtype=float)
         return self.factor(result) * (values[(slice(None), *self.component)] if self.component else values)
 

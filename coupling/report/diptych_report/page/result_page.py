@@ -4,9 +4,20 @@
 from diptych_report.charts import chains, circular, histories, ledgers, probes, resolution, strips, style, trends
 from diptych_report.charts.style import Pair
 from diptych_report.data.result import load
-from diptych_report.page import opening, viewer
+from diptych_report.page import viewer
 from diptych_report.page.writing import template, write
 from diptych_report.tables import accounts, accuracy, bands, stage, summary, wording
+
+
+def end_of(increments):
+    """Progress at which the page opens: the end of the last window, or of the last stage if there is no window."""
+    windows = [i for i in increments if i.kind == "window"]
+    return (windows or increments)[-1].end
+
+
+def opens_at(increments, end):
+    """The first increment that reaches `end`, or the last one; windows come before stages."""
+    return next((i for i in increments if i.end >= end - 1e-9), increments[-1])
 
 
 class Part:
@@ -18,23 +29,22 @@ class Part:
 
     def __init__(self, name, title, increments, end, content, maps=""):
         self.name, self.title, self.maps = name, title, maps
-        first = opening.opens_at(increments, end)
+        first = opens_at(increments, end)
         self.items = [{"key": i.key, "label": i.label, "kind": i.kind, "title": i.title, "end": f"{i.end:.9g}",
                        "open": i is first, **content(i)} for i in increments]
 
 
 def parts(result):
     """The parts in the order of the page. A new part is an entry here and its explanation in templates/result.html."""
-    mapped = [i for i in result.increments if i.arrays]
-    stages, end = [i for i in mapped if i.kind == "stage"], opening.end_of(result.increments)
+    every, stages, end = result.increments, result.stages, end_of(result.increments)
     return [
-        Part("maps", "Grains and continuum at the same instant", mapped, end, lambda i: {
+        Part("maps", "Grains and continuum at the same instant", every, end, lambda i: {
             "tables": [bands.bands(result, i)], "notes": bands.notes(result, i)}, "quantity"),
-        Part("difference", "Difference on the same cells", mapped, end, lambda i: {
+        Part("difference", "Difference on the same cells", every, end, lambda i: {
             "tables": [stage.stress_difference(result, i), stage.dissipation(result, i)],
             "notes": paragraph((i.record.get("difference") or {}).get("stress_verdict"))}, "difference"),
-        Part("arrows", "Displacements and velocities", mapped, end, lambda i: {}, "arrows"),
-        Part("strips", "Sixteen strips parallel to the band", result.increments, end, lambda i: {"pair": strips.pair(i)}),
+        Part("arrows", "Displacements and velocities", every, end, lambda i: {}, "arrows"),
+        Part("strips", "Sixteen strips parallel to the band", every, end, lambda i: {"pair": strips.pair(i)}),
         Part("probes", "Probes: mean stress and contact normals", stages, end, lambda i: {
             "roses": probes.roses(i), "notes": [], "tables": [
                 stage.probes(result, i), stage.differences(result, i), stage.grain_pressures(result, i)]}, "probes"),
@@ -51,20 +61,18 @@ def paragraph(sentence):
     return [wording.typeset(sentence[0].upper() + sentence[1:].rstrip(".") + ".")] if sentence else []
 
 
-def draw(folder, next_folder):
-    """Writes the page to next_folder, whose files take the place of older ones in folder. Raises InputError if a file is missing,
-    broken or has another format."""
-    result = load(folder, next_folder)
+def draw(folder, next_folder=None):
+    """Writes the page to next_folder, whose files take the place of older ones in folder; default: folder. Raises InputError if a
+    file is missing, broken or has another format."""
+    result = load(folder, next_folder or folder)
     style.set_up()
-    write(next_folder, page(result))
+    write(next_folder or folder, page(result))
 
 
 def page(result):
-    maps = viewer.data(result)
     return template("result.html").render(
-        comparison=result.comparison, imported=result.imported, parts=parts(result), maps=maps,
-        map_json=viewer.as_json(maps) if maps else "",
-        still=opening.still_pair(result), curves=histories.figures(result) + ledgers.figures(result),
+        comparison=result.comparison, imported=result.imported, parts=parts(result), maps=viewer.data(result),
+        curves=histories.figures(result) + ledgers.figures(result),
         solver=ledgers.solver(result), trends=trends.figures(result),
         resolution=resolution.figures(result), resolution_verdict=paragraph(resolution.verdict(result)),
         stages=bands.stages(result), mapping=stage.mapping(result), accuracy=accuracy.table(result),

@@ -1,21 +1,15 @@
-# diptych: arrays of the maps, with 12 bits per number, each stored once
+# diptych: arrays of the maps, with 16 bits per number, each stored once
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 import base64
 
 import numpy as np
 
-LARGEST = 4094  # code of the largest value; 4095 is NaN
-
-
-def packed(codes):
-    """Bytes of 12-bit codes. Three bytes per pair: low 8 bits of the first; its high 4 bits with the low 4 of the second; the rest."""
-    first, second = np.append(codes, np.zeros(len(codes) % 2, codes.dtype)).reshape(-1, 2).T
-    return np.stack([first & 255, first >> 8 | (second & 15) << 4, second >> 4], axis=1).astype(np.uint8).tobytes()
+LARGEST = 65534  # code of the largest value; 65535 is NaN
 
 
 class Store:
-    """Arrays as {"low", "high", "size", "data"}: value = low + code (high - low)/4094, two codes in three bytes (packed), base64.
+    """Arrays as {"low", "high", "data"}: value = low + code (high - low)/65534, codes of 16 bits, low byte first, in base64.
 
     Equal arrays share one entry, such as the positions of grains at the end of a window and of the stage that ends there.
     """
@@ -32,10 +26,10 @@ class Store:
         finite = values[np.isfinite(values)]
         low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 0.0)
         scale = LARGEST / (high - low) if high > low else 0.0
-        codes = np.where(np.isfinite(values), np.rint((np.nan_to_num(values) - low) * scale), LARGEST + 1).astype(np.uint16)
-        data = base64.b64encode(packed(codes)).decode("ascii")
-        key = (low, high, len(values), data)
+        codes = np.where(np.isfinite(values), np.rint((np.nan_to_num(values) - low) * scale), LARGEST + 1).astype("<u2")
+        data = base64.b64encode(codes).decode("ascii")
+        key = (low, high, data)
         if key not in self._known:
             self._known[key] = len(self.entries)
-            self.entries.append({"low": low, "high": high, "size": len(values), "data": data})
+            self.entries.append({"low": low, "high": high, "data": data})
         return self._known[key]

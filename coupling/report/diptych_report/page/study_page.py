@@ -1,8 +1,6 @@
 # diptych: report.html of a study
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
-import json
-
 import numpy as np
 
 from diptych_report.charts import study as figures
@@ -30,7 +28,7 @@ def page(study):
         record=study.record, n_points=len(study.points) - len(study.references), counts=tables.counts(study), cheapest=tables.cheapest(study), disturbed=tables.disturbed(study),
         charts=[chart for chart in charts if chart[0]], missing=[name for picture, name in charts if not picture],
         maps=[one for one in maps if one[1]], classes=CLASSES, orders=tables.orders(study), points=tables.points(study),
-        curves=json.dumps(curves(study)), curve_names=[f"{PANEL_WORDS[panel]}, {words}" for panel in study.curves
+        curves=curves(study), curve_names=[f"{PANEL_WORDS[panel]}, {words}" for panel in study.curves
                                                        for words in CURVE_NAMES.values()],
         provenance=tables.provenance(study))
 

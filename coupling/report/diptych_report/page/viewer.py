@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The browser draws the maps (draw.js). So a map of 4000 grains takes 8 kB per quantity and is sharp on screens and on paper."""
 
-import json
-
 import matplotlib
 import matplotlib.colors
 import numpy as np
@@ -12,18 +10,15 @@ from diptych_report.charts.style import NO_VALUE, PANEL_COLOURS
 from diptych_report.data.numbers import plain
 from diptych_report.data.panels import PANEL_NAMES
 from diptych_report.page import glyphs
-from diptych_report.page.glyphs import or_none, short
+from diptych_report.page.glyphs import short
 from diptych_report.page.limits import box, limits
 from diptych_report.page.quantities import PLACES, QUANTITIES, corners
 from diptych_report.page.store import Store
 
 
 def data(result):
-    """The object, or None if no increment has arrays. Its "arrays" are entries of a Store; the rest refers to them by index."""
-    drawn = [i for i in result.increments if i.arrays]
-    if not drawn:
-        return None
-    store = Store()
+    """The object. Its "arrays" are entries of a Store; the rest refers to them by index."""
+    drawn, store = result.increments, Store()
     rules = {(q.key, place): limits(q, place, drawn, result) for q in QUANTITIES for place in PLACES}
     places = {q.key: [place for place in PLACES if rules[q.key, place]] for q in QUANTITIES}
     used = [q for q in QUANTITIES if places[q.key]]
@@ -35,11 +30,6 @@ def data(result):
             "quantities": [_quantity(q, places[q.key], result) for q in used],
             "cross_unit": glyphs.cross_unit(drawn), "force_unit": glyphs.force_unit(drawn),
             "increments": increments, "arrays": store.entries}
-
-
-def as_json(value):
-    """JSON text that is safe inside a <script> of HTML."""
-    return json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
 
 
 def _quantity(quantity, places, result):
@@ -54,19 +44,16 @@ def _table(name):
 
 def _frame(increment, store):
     """Places of grains, cells, outline and bands."""
-    arrays, state = increment.arrays, increment.state
-    position, radius = arrays.get("discrete/position"), arrays.get("discrete/radius")
-    grains = position is not None and radius is not None
+    position, state = increment.arrays["discrete/position"], increment.state
     return {"key": increment.key, "kind": increment.kind, "label": increment.label, "title": increment.title,
             "end": f"{increment.end:.9g}",
             "discs": {"x": store.add(position[:, 0]), "y": store.add(position[:, 1]),
-                      "r": store.add(radius)} if grains else None,
+                      "r": store.add(increment.arrays["discrete/radius"])},
             "cells": store.add(corners(increment, "cells")), "grid": store.add(corners(increment, "grid")),
-            "centre": None if increment.centre is None else short(increment.centre),
+            "centre": short(increment.centre),
             "outline": [short(state[side]) for side in ("outline/left", "outline/right") if len(state.get(side, ()))],
-            "bands": {panel: [[or_none(plain(band.get(key))) for key in ("angle_deg", "offset_d", "width_10_90_d", "jump")]
-                              for band in increment.bands(panel)] if "bands" in increment.panel(panel) else None
-                      for panel in PANEL_NAMES}}
+            "bands": {panel: [[short(plain(band.get(key))) for key in ("angle_deg", "offset_d", "width_10_90_d", "jump")]
+                              for band in increment.bands(panel)] for panel in PANEL_NAMES}}
 
 
 def _values(quantity, increment, result, rules, store):

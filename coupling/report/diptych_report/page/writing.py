@@ -17,9 +17,6 @@ def template(name):
 def write(folder, text):
     """Writes report.html. The old page stays until the new one is complete."""
     path = os.path.join(folder, "report.html")
-    try:
-        with open(path + ".part", "w", encoding="utf-8") as stream:
-            stream.write(text)
-        os.replace(path + ".part", path)
-    except OSError as error:  # a failed write does not name the file
-        raise OSError(error.errno, error.strerror, path) from error
+    with open(path + ".part", "w", encoding="utf-8") as stream:
+        stream.write(text)
+    os.replace(path + ".part", path)

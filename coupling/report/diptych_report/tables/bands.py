@@ -4,7 +4,7 @@
 
 from diptych_report.data.numbers import interval, plain
 from diptych_report.data.panels import DIFFUSE, PANEL_NAMES, THEORY
-from diptych_report.tables.wording import ABSENT, MESH_SET, number, rounded, shown
+from diptych_report.tables.wording import MESH_SET, number, rounded, shown
 
 BAND_KEYS = ("angle_deg", "width_10_90_d", "half_width_d", "offset_d", "jump", "dilation_deg", "r_squared", "r_squared_strips")
 
@@ -13,9 +13,9 @@ def bands(result, increment):
     """Bands of both panels for one increment: one column per band, then the difference continuum - grains."""
     columns = []
     for panel, heading in PANEL_NAMES.items():
-        found = increment.panel(panel).get("bands")
-        for k, band in enumerate(found or [DIFFUSE if found is not None else ABSENT]):
-            columns.append((f"{heading}, band {k + 1}" if len(found or []) > 1 else heading, band))
+        found = increment.bands(panel)
+        for k, band in enumerate(found or [DIFFUSE]):
+            columns.append((f"{heading}, band {k + 1}" if len(found) > 1 else heading, band))
     place = increment.place("discrete/bands")
     rows = [[result.numbers.meaning(f"{place}/{key}")] + [_band_cell(result, band, f"{place}/{key}") for _, band in columns]
             for key in BAND_KEYS]
@@ -117,7 +117,5 @@ def stages(result):
 
 
 def _of_bands(result, stage, panel, key):
-    found = stage.panel(panel).get("bands")
-    if found is None:
-        return ABSENT
-    return "; ".join(shown(result.numbers, f"stages/{panel}/bands/{key}", band.get(key)) for band in found) or "diffuse"
+    texts = [shown(result.numbers, f"stages/{panel}/bands/{key}", band.get(key)) for band in stage.bands(panel)]
+    return "; ".join(texts) or "diffuse"

@@ -5,7 +5,7 @@ import os
 
 from diptych_report.data.ensemble import MOST_CURVES
 from diptych_report.data.panels import PANEL_NAMES
-from diptych_report.tables.wording import DECIMALS, number, rounded, shown_unit
+from diptych_report.tables.wording import DECIMALS, ending, fixed, number, rounded, shown_unit
 
 AXIS_UNITS = {"": "", "%": " (%)", "°": " (°)", " d": " (d)"}
 
@@ -37,27 +37,17 @@ def text_of(results, verdict):
 def panel_quantities(results, verdict):
     place, key = place_of(verdict)
     names = {p: f"{place} {p} band {key}" if place else f"{p}_summary {key}" for p in PANEL_NAMES}
-    return {p: results.quantity(name) for p, name in names.items()}
+    return {p: results.quantities.get(name) for p, name in names.items()}
 
 
 def with_interval(record, unit):
     """"16.9 [14.7, 19.1] d", with the unit once so that columns stay narrow."""
     if record is None or record["mean"] is None:
         return "–"
-    text = _plain(record["mean"], unit)
+    text = fixed(record["mean"], unit)
     if record["low"] is not None and record["high"] is not None:
-        text += f" [{_plain(record['low'], unit)}, {_plain(record['high'], unit)}]"
-    return text + _suffix(unit)
-
-
-def _plain(value, unit, decimals=None):
-    decimals = DECIMALS.get(unit, 3) if decimals is None else decimals
-    value = round(100 * value if unit == "%" else value, decimals) + 0.0  # no minus sign before zero
-    return f"{value:.{decimals}f}".replace("-", "−")
-
-
-def _suffix(unit):
-    return {"%": "\u00a0%", " d": "\u00a0d"}.get(unit, unit)
+        text += f" [{fixed(record['low'], unit)}, {fixed(record['high'], unit)}]"
+    return text + ending(unit)
 
 
 def verdict_rows(results):
@@ -71,23 +61,23 @@ def verdict_rows(results):
         rows.append({
             "text": text_of(results, verdict), "relative": verdict["relative"],
             "means": [with_interval(means[p], own_unit) for p in PANEL_NAMES],
-            "difference": _signed(verdict["difference"]["value"], unit, decimals, _suffix(unit)),
+            "difference": _signed(verdict["difference"]["value"], unit, decimals, ending(unit)),
             "intervals": [_ends(verdict[key], unit, decimals) for key in ("difference_90", "difference")],
-            "margin": "± " + number(margin) + _suffix(unit), "n": verdict["n"], "verdict": verdict["verdict"]})
+            "margin": "± " + number(margin) + ending(unit), "n": verdict["n"], "verdict": verdict["verdict"]})
     return rows
 
 
 def _signed(value, unit, decimals, suffix=""):
     if value is None:
         return "–"
-    text = _plain(value, unit, decimals)
+    text = fixed(value, unit, decimals)
     return ("" if text.startswith("−") or float(text) == 0 else "+") + text + suffix
 
 
 def _ends(interval, unit, decimals):
     if interval["low"] is None or interval["high"] is None:
         return "unknown"
-    return f"{_signed(interval['low'], unit, decimals)} to {_signed(interval['high'], unit, decimals)}{_suffix(unit)}"
+    return f"{_signed(interval['low'], unit, decimals)} to {_signed(interval['high'], unit, decimals)}{ending(unit)}"
 
 
 def captions(results):
@@ -124,7 +114,7 @@ def members(results):
     record = results.record
     failed = {member["seed"]: member for member in record["failed"]}
     place = {seed: k for k, seed in enumerate(record["done"])}
-    peaks = [results.quantity(f"{p}_summary peak_stress_ratio") for p in PANEL_NAMES]
+    peaks = [results.quantities.get(f"{p}_summary peak_stress_ratio") for p in PANEL_NAMES]
     rows = []
     for seed in record["seeds"]:
         row = {"seed": seed, "log": f"seed_{seed}.log", "report": None, "values": ["–", "–"]}

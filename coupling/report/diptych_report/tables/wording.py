@@ -91,13 +91,31 @@ def origin(text):
     return text or "origin not stated in the scene (key comparison/parameters_from)"
 
 
+def ending(unit):
+    """The unit as it follows a number, without a line break between them."""
+    return (" %" if unit == "%" else unit).replace(" ", UNBROKEN, 1)
+
+
+def fixed(value, unit, decimals=None):
+    """A number without its unit, with the usual decimals of the unit."""
+    decimals = DECIMALS.get(unit, 3) if decimals is None else decimals
+    value = round(100 * value if unit == "%" else value, decimals) + 0.0  # no minus sign before zero
+    return f"{value:.{decimals}f}".replace("-", "−")
+
+
+def _with_ends(number, unit, form):
+    """form(number), followed by its interval without the unit and without line breaks."""
+    text = form(number["value"])
+    if number.get("low") is None or number.get("high") is None:
+        return text
+    ends = [form(number[end]).removesuffix(ending(unit)) for end in ("low", "high")]
+    return f"{text} [{ends[0]},{UNBROKEN}{ends[1]}]"
+
+
 def number(value, unit="", digits=4):
     """A number as text, with minus signs and powers of ten; its interval follows in brackets."""
     if isinstance(value, dict) and "value" in value:
-        text = number(value["value"], unit, digits)
-        if value.get("low") is None or value.get("high") is None:
-            return text
-        return f"{text} {_brackets([number(value[end], unit, digits) for end in ('low', 'high')], unit)}"
+        return _with_ends(value, unit, lambda one: number(one, unit, digits))
     if value is None or isinstance(value, (dict, list)):
         return ABSENT
     if isinstance(value, bool):
@@ -106,9 +124,8 @@ def number(value, unit="", digits=4):
         return value
     if not math.isfinite(value):
         return ABSENT
-    if unit == "%":
-        value, unit = 100 * value, " %"
-    unit, size = unit.replace(" ", UNBROKEN, 1), abs(value)
+    value, unit = 100 * value if unit == "%" else value, ending(unit)
+    size = abs(value)
     if isinstance(value, int) or 1e3 <= size < 1e12:
         return f"{value:,.0f}".replace(",", "\u202f").replace("-", "−") + unit
     if size and (size < 1e-3 or size >= 1e12):
@@ -118,22 +135,10 @@ def number(value, unit="", digits=4):
     return f"{value:.{digits}g}".replace("-", "−") + unit
 
 
-def _brackets(ends, unit):
-    """An interval without its unit and without line breaks."""
-    suffix = (" %" if unit == "%" else unit).replace(" ", UNBROKEN, 1)
-    return "[" + ",\u00a0".join(end.removesuffix(suffix) if suffix else end for end in ends) + "]"
-
-
 def rounded(value, unit, decimals=None):
     """As number(), but with a fixed number of decimals, so that columns align."""
     if isinstance(value, dict) and "value" in value:
-        text = rounded(value["value"], unit, decimals)
-        if value.get("low") is None or value.get("high") is None:
-            return text
-        return f"{text} {_brackets([rounded(value[end], unit, decimals) for end in ('low', 'high')], unit)}"
-    if isinstance(value, int) or not isinstance(value, float) or not math.isfinite(value):
+        return _with_ends(value, unit, lambda one: rounded(one, unit, decimals))
+    if not isinstance(value, float) or not math.isfinite(value):
         return number(value, unit)
-    decimals = DECIMALS.get(unit, 3) if decimals is None else decimals
-    scale, unit = (100, " %") if unit == "%" else (1, unit)
-    value = round(scale * value, decimals) + 0.0  # no minus sign before zero
-    return f"{value:.{decimals}f}".replace("-", "−") + unit.replace(" ", UNBROKEN, 1)
+    return fixed(value, unit, decimals) + ending(unit)

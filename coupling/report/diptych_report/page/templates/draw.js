@@ -9,14 +9,9 @@ const decoded = new Map();
 function values(id) {
   if (id === null || id === undefined) return null;
   if (!decoded.has(id)) {
-    const entry = data.arrays[id], text = atob(entry.data), out = new Float32Array(entry.size);
-    const step = (entry.high - entry.low) / 4094;
-    for (let k = 0; k < out.length; ++k) { // two codes of 12 bits in three bytes
-      const at = 3 * (k >> 1), middle = text.charCodeAt(at + 1);
-      const code = k % 2 ? (middle >> 4) + 16 * text.charCodeAt(at + 2) : text.charCodeAt(at) + 256 * (middle & 15);
-      out[k] = code === 4095 ? NaN : entry.low + code * step;
-    }
-    decoded.set(id, out);
+    const { low, high, data: text } = data.arrays[id];
+    const codes = new Uint16Array(Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0)).buffer);
+    decoded.set(id, Float32Array.from(codes, (code) => code === 65535 ? NaN : low + code * (high - low) / 65534));
   }
   return decoded.get(id);
 }
@@ -39,20 +34,24 @@ function numeral(value, digits) {
   return value.toFixed(digits).replace(/^-(0(\.0*)?)$/, "$1").replace("-", "\u2212");
 }
 
+// The white canvas of a given size, to draw in CSS pixels.
+function cleared(canvas, width, height, pixels) {
+  const c = canvas.getContext("2d");
+  canvas.width = Math.round(width * pixels);
+  canvas.height = Math.round(height * pixels);
+  canvas.style.aspectRatio = width + " / " + height;
+  c.setTransform(pixels, 0, 0, pixels, 0, 0);
+  c.fillStyle = "#ffffff";
+  c.fillRect(0, 0, width, height);
+  return c;
+}
+
 // Prepares a canvas of a given width. Both axes have the same scale, which gives the height.
 function viewOf(canvas, width, pixels) {
   const [x0, x1, y0, y1] = data.box, left = 38, right = 6, top = 6, bottom = 34;
   const scale = Math.max(0.1, (width - left - right) / (x1 - x0)), height = top + bottom + scale * (y1 - y0);
-  canvas.width = Math.round(width * pixels);
-  canvas.height = Math.round(height * pixels);
-  canvas.style.aspectRatio = width + " / " + height;
-  const c = canvas.getContext("2d");
-  c.setTransform(pixels, 0, 0, pixels, 0, 0);
-  c.fillStyle = "#ffffff";
-  c.fillRect(0, 0, width, height);
-  return { c, scale, width, height, left, top, right: width - right, bottom: height - bottom,
-           x: (x) => left + scale * (x - x0), y: (y) => top + scale * (y1 - y),
-           toX: (px) => x0 + (px - left) / scale, toY: (py) => y1 - (py - top) / scale };
+  return { c: cleared(canvas, width, height, pixels), scale, left, top, right: width - right, bottom: height - bottom,
+           x: (x) => left + scale * (x - x0), y: (y) => top + scale * (y1 - y) };
 }
 
 function clipToAxes(view) {
@@ -104,14 +103,10 @@ function drawDiscs(view, discs, numbers, map, limits) {
   }
 }
 
-function cellPath(view, corners, k) {
-  const c = view.c;
-  c.beginPath();
-  for (let n = 0; n < 4; ++n) {
-    const px = view.x(corners[8 * k + 2 * n]), py = view.y(corners[8 * k + 2 * n + 1]);
-    n ? c.lineTo(px, py) : c.moveTo(px, py);
-  }
-  c.closePath();
+// The path through a list of places [d].
+function path(view, places) {
+  view.c.beginPath();
+  places.forEach(([x, y], k) => k ? view.c.lineTo(view.x(x), view.y(y)) : view.c.moveTo(view.x(x), view.y(y)));
 }
 
 function drawCells(view, id, numbers, map, limits) {
@@ -120,7 +115,8 @@ function drawCells(view, id, numbers, map, limits) {
   for (let k = 0; 8 * k < corners.length; ++k) {
     // Edges in the colour of the face close the hairlines that anti-aliasing leaves between cells.
     c.fillStyle = c.strokeStyle = typeof numbers === "string" ? numbers : colourOf(map, limits, numbers[k]);
-    cellPath(view, corners, k);
+    path(view, [0, 2, 4, 6].map((n) => corners.subarray(8 * k + n, 8 * k + n + 2)));
+    c.closePath();
     c.fill();
     c.stroke();
   }
@@ -130,8 +126,7 @@ function drawOutline(view, increment) {
   view.c.strokeStyle = INK;
   view.c.lineWidth = 0.7;
   for (const side of increment.outline) {
-    view.c.beginPath();
-    side.forEach(([x, y], k) => k ? view.c.lineTo(view.x(x), view.y(y)) : view.c.moveTo(view.x(x), view.y(y)));
+    path(view, side);
     view.c.stroke();
   }
 }
@@ -140,9 +135,9 @@ function drawOutline(view, increment) {
 // dark rim. Bands with less than half of the largest jump are fainter.
 function drawBands(view, increment, panel, onColour) {
   const c = view.c, far = 4 * (data.box[1] - data.box[0] + data.box[3] - data.box[2]);
-  const bands = increment.bands[panel] || [], strongest = Math.max(0, ...bands.map((band) => Math.abs(band[3] || 0)));
+  const bands = increment.bands[panel], strongest = Math.max(0, ...bands.map((band) => Math.abs(band[3] || 0)));
   for (const [angle, offset, width, jump] of bands) {
-    if (angle === null || !increment.centre) continue;
+    if (angle === null) continue;
     const a = angle * Math.PI / 180, half = (width || 0) / 2;
     c.globalAlpha = Math.abs(jump || 0) < 0.5 * strongest ? 0.45 : 1;
     for (const shift of half > 0 ? [0, -half, half] : [0]) {
@@ -152,9 +147,7 @@ function drawBands(view, increment, panel, onColour) {
       for (const [colour, thick] of onColour ? [["#000000", 3], ["#ffffff", 1.5]] : [[INK, 1]]) {
         c.strokeStyle = colour;
         c.lineWidth = thick;
-        c.beginPath();
-        c.moveTo(view.x(x - far * Math.cos(a)), view.y(y - far * Math.sin(a)));
-        c.lineTo(view.x(x + far * Math.cos(a)), view.y(y + far * Math.sin(a)));
+        path(view, [-far, far].map((reach) => [x + reach * Math.cos(a), y + reach * Math.sin(a)]));
         c.stroke();
       }
     }
@@ -165,13 +158,7 @@ function drawBands(view, increment, panel, onColour) {
 
 // One colour bar for a pair of maps. An arrow at an end marks values beyond it.
 function drawBar(canvas, width, pixels, quantity, limits, beyond) {
-  const height = 46, inset = Math.max(24, 0.12 * width), c = canvas.getContext("2d");
-  canvas.width = Math.round(width * pixels);
-  canvas.height = Math.round(height * pixels);
-  canvas.style.aspectRatio = width + " / " + height;
-  c.setTransform(pixels, 0, 0, pixels, 0, 0);
-  c.fillStyle = "#ffffff";
-  c.fillRect(0, 0, width, height);
+  const inset = Math.max(24, 0.12 * width), c = cleared(canvas, width, 46, pixels);
   const long = width - 2 * inset, table = data.maps[quantity.map];
   // Each colour is painted to the end and the next one over it, so there are no seams.
   table.forEach((colour, k) => { c.fillStyle = colour; c.fillRect(inset + long * k / 256, 2, long * (1 - k / 256), 10); });

@@ -117,8 +117,7 @@ function drawProbes(view, increment, panel) {
     const [x, y] = [0, 1].map((n) => probe.polygon.reduce((sum, q) => sum + q[n], 0) / probe.polygon.length);
     c.strokeStyle = INK;
     c.lineWidth = 1;
-    c.beginPath();
-    probe.polygon.forEach((q, k) => k ? c.lineTo(view.x(q[0]), view.y(q[1])) : c.moveTo(view.x(q[0]), view.y(q[1])));
+    path(view, probe.polygon);
     c.closePath();
     c.stroke();
     if (probe.s1 !== null && probe.direction_deg !== null) {

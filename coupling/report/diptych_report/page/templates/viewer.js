@@ -16,7 +16,6 @@ function shown(increment, panel, quantity, place) {
 
 function bandText(increment, panel) {
   const bands = increment.bands[panel];
-  if (bands === null || bands === undefined) return "band not computed";
   return bands.length ? bands.map((band) => "band at " + numeral(band[0], 0) + " degrees").join("; ") : "no band detected";
 }
 
