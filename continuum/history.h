@@ -33,8 +33,8 @@ namespace diptych::continuum
     double          localisation_angle            = 0; // of the line with the least determinant [degrees from the horizontal]
     double          point_cpu_s = 0, assembly_cpu_s = 0, solve_cpu_s = 0, geometry_cpu_s = 0; // on the first process
     double          time = 0, shear_strain = 0; // since the start; travel of the upper platen to the right / initial height
-    double          progress = 0;               // loading variable: axial_strain, shear_strain or time
-    Walk            walk     = Walk::axial_strain;
+    double          progress         = 0;       // loading variable: axial_strain, shear_strain or time
+    LoadingVariable loading_variable = LoadingVariable::axial_strain;
   };
 
   // The meaning of a column that may hold NaN. A plain text means that all numbers are finite.
@@ -92,6 +92,6 @@ namespace diptych::continuum
     visit("progress", r.progress, "strain or time", "loading variable: axial strain, shear strain or time");
     visit("unstable_share", r.unstable_share, "-",
           "share of the area where the second-order work of the step is negative and plastic flow contracts");
-    visit("walk", r.walk, "-", "column that progress equals: axial_strain, shear_strain or time");
+    visit("walk", r.loading_variable, "-", "column that progress equals: axial_strain, shear_strain or time");
   }
 } // namespace diptych::continuum

@@ -10,23 +10,23 @@
 
 namespace diptych::continuum
 {
-  std::string text_of(const Walk walk, const double progress)
+  std::string text_of(const LoadingVariable loading_variable, const double progress)
   {
     std::ostringstream out;
     out.precision(4);
-    if (walk == Walk::time)
+    if (loading_variable == LoadingVariable::time)
       out << "time " << progress;
     else
-      out << 100 * progress << (walk == Walk::axial_strain ? " % axial strain" : " % shear strain");
+      out << 100 * progress << (loading_variable == LoadingVariable::axial_strain ? " % axial strain" : " % shear strain");
     return out.str();
   }
 
   Loading straight_loading(const double pressure, const Eigen::Vector2d &travel, std::vector<double> stages)
   {
     Loading loading;
-    loading.pressure = pressure;
-    loading.stages   = std::move(stages);
-    loading.walk     = travel.y() != 0 ? Walk::axial_strain : Walk::shear_strain;
+    loading.pressure         = pressure;
+    loading.stages           = std::move(stages);
+    loading.loading_variable = travel.y() != 0 ? LoadingVariable::axial_strain : LoadingVariable::shear_strain;
     for (unsigned int c = 0; c < 2; ++c)
       loading.platens[1][c].value = [rate = travel[c]](const double progress) { return rate * progress; };
     return loading;

@@ -15,20 +15,20 @@
 namespace diptych::continuum
 {
   // The loading variable, called progress.
-  enum class Walk
+  enum class LoadingVariable
   {
     axial_strain, // descent of the upper platen / initial height
     shear_strain, // travel of the upper platen to the right / initial height
     time
   };
-  constexpr auto choices(Walk)
+  constexpr auto choices(LoadingVariable)
   {
-    return std::array{std::pair{Walk::axial_strain, "axial_strain"}, std::pair{Walk::shear_strain, "shear_strain"},
-                      std::pair{Walk::time, "time"}};
+    return std::array{std::pair{LoadingVariable::axial_strain, "axial_strain"},
+                      std::pair{LoadingVariable::shear_strain, "shear_strain"}, std::pair{LoadingVariable::time, "time"}};
   }
 
   // Text for messages, such as "2.5 % axial strain", "1 % shear strain" or "time 3".
-  std::string text_of(Walk walk, double progress);
+  std::string text_of(LoadingVariable loading_variable, double progress);
 
   // One component of a platen's motion, a function of the progress.
   struct Drive
@@ -63,7 +63,7 @@ namespace diptych::continuum
     LateralCondition                    lateral;
     Eigen::Vector2d                     body_force = Eigen::Vector2d::Zero(); // weight per initial area [pressure / length]
     std::vector<double>                 stages; // values of the progress, ascending; the last one ends the loading
-    Walk                                walk              = Walk::axial_strain;
+    LoadingVariable                     loading_variable  = LoadingVariable::axial_strain;
     double                              time_per_progress = 1; // 1 / strain rate if the progress is a strain
   };
 

@@ -40,11 +40,11 @@ namespace diptych::continuum
   // One instant of the continuum panel as plain values. The nodes are all support points of the displacement.
   struct Snapshot
   {
-    double progress     = 0; // loading variable
-    double axial_strain = 0; // descent of the upper platen / initial height
-    double shear_strain = 0; // its travel to the right / initial height
-    double time         = 0; // since the start
-    Walk   walk         = Walk::axial_strain;
+    double          progress         = 0; // loading variable
+    double          axial_strain     = 0; // descent of the upper platen / initial height
+    double          shear_strain     = 0; // its travel to the right / initial height
+    double          time             = 0; // since the start
+    LoadingVariable loading_variable = LoadingVariable::axial_strain;
 
     std::vector<Eigen::Vector2d> position;     // current = initial + displacement [length], n_nodes
     std::vector<Eigen::Vector2d> displacement; // since the start [length], n_nodes

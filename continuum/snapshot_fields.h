@@ -53,7 +53,7 @@ namespace diptych::continuum
     visit("mean_stress", s.mean_stress, "pressure", "mean stress over the area");
     visit("shear_strain", s.shear_strain, "-", "travel of the upper platen to the right / initial height");
     visit("progress", s.progress, "strain or time", "loading variable: axial strain, shear strain or time");
-    visit("walk", s.walk, "-", "attribute that progress equals: axial_strain, shear_strain or time");
+    visit("walk", s.loading_variable, "-", "attribute that progress equals: axial_strain, shear_strain or time");
   }
 
   constexpr const char *cells_name = "cells/nodes";

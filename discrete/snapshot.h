@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "discrete/walk.h"
+#include "discrete/loading_variable.h"
 
 namespace diptych::discrete
 {
@@ -40,14 +40,14 @@ namespace diptych::discrete
   // One instant of the discrete panel. Tensors are positive in compression.
   struct Snapshot
   {
-    Walk   walk          = Walk::axial_strain; // loading variable
-    double progress      = 0;                  // its value: one of axial_strain, shear_strain and time
-    double axial_strain  = 0;                  // platen descent / initial height
-    double time          = 0;
-    double step          = 0; // h of the last step
-    double residual      = 0; // natural map relative to |r|, of the last step
-    double mean_diameter = 1;
-    double shear_strain  = 0; // travel of the upper platen to the right / initial height
+    LoadingVariable loading_variable = LoadingVariable::axial_strain; // loading variable
+    double          progress         = 0;                             // its value: one of axial_strain, shear_strain and time
+    double          axial_strain     = 0;                             // platen descent / initial height
+    double          time             = 0;
+    double          step             = 0; // h of the last step
+    double          residual         = 0; // natural map relative to |r|, of the last step
+    double          mean_diameter    = 1;
+    double          shear_strain     = 0; // travel of the upper platen to the right / initial height
 
     // Accuracy of the last step's grain stress. `stress_error`: estimated rms error / rms value (NaN: not estimated, infinity:
     // unknown). `error_over_residual`: measured once per run on a step that was solved further (NaN: not measured).

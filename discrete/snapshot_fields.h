@@ -77,7 +77,7 @@ namespace diptych::discrete
   // all attributes except those of is_always_told().
   template <class AnySnapshot, class Visit> void visit_attributes(AnySnapshot &s, Visit &&visit)
   {
-    visit("walk", s.walk, "-", "which attribute progress equals: axial_strain, shear_strain or time");
+    visit("walk", s.loading_variable, "-", "which attribute progress equals: axial_strain, shear_strain or time");
     visit("progress", s.progress, "strain or time", "loading variable: axial strain, shear strain or time");
     visit("axial_strain", s.axial_strain, "-", "descent of the upper platen / initial height");
     visit("shear_strain", s.shear_strain, "-", "travel of the upper platen to the right / initial height");

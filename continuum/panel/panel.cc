@@ -198,7 +198,7 @@ namespace diptych::continuum
     void end_early(const std::string &why)
     {
       report.status  = Status::not_converged;
-      report.message = "stopped at " + text_of(loading_.walk, problem_.progress()) + ": " + why;
+      report.message = "stopped at " + text_of(loading_.loading_variable, problem_.progress()) + ": " + why;
       if (driver_.was_stopped())
         note_stop();
       describe();

@@ -251,12 +251,12 @@ namespace diptych::continuum
 
     template <class Target> void set_progress(const BoundaryValueProblem &problem, const Loading &loading, Target &target)
     {
-      const Progress now  = progress_of(problem, loading);
-      target.progress     = now.progress;
-      target.axial_strain = now.axial_strain;
-      target.shear_strain = now.shear_strain;
-      target.time         = now.time;
-      target.walk         = loading.walk;
+      const Progress now      = progress_of(problem, loading);
+      target.progress         = now.progress;
+      target.axial_strain     = now.axial_strain;
+      target.shear_strain     = now.shear_strain;
+      target.time             = now.time;
+      target.loading_variable = loading.loading_variable;
     }
 
     void add_point_sums(const BoundaryValueProblem &problem, HistoryRow &row)
@@ -317,11 +317,11 @@ namespace diptych::continuum
   {
     const Eigen::Vector2d travel = problem.platen_travel(true) / problem.discretisation().extent.y();
     Progress              now{problem.progress(), -travel.y(), travel.x(), problem.progress() * loading.time_per_progress};
-    if (loading.walk == Walk::axial_strain)
+    if (loading.loading_variable == LoadingVariable::axial_strain)
       now.axial_strain = now.progress; // the prescribed value has no round-off
-    if (loading.walk == Walk::shear_strain)
+    if (loading.loading_variable == LoadingVariable::shear_strain)
       now.shear_strain = now.progress;
-    if (loading.walk == Walk::time)
+    if (loading.loading_variable == LoadingVariable::time)
       now.time = now.progress;
     return now;
   }

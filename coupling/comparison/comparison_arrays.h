@@ -255,7 +255,7 @@ namespace diptych::coupling
     visit(NumberEntry{"width0", "length", "area of the sample's outline over its height before the loading"},
           start.area / height);
     visit(NumberEntry{"walk", "-", "meaning of progress: axial_strain, shear_strain or time"},
-          std::string(discrete::name_of(discrete::walk_of(loading.mode))));
+          std::string(discrete::name_of(discrete::loading_variable_of(loading.mode))));
   }
 
   template <class Visit> void list_history_arrays(const HistoryTable &history, const double width, Visit &&visit)

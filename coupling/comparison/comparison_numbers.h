@@ -167,7 +167,7 @@ namespace diptych::coupling
     v({"scene", "-", "name of the scene", Kind::setting}, d.scene.name);
     v({"seed", "-", "seed of the random sample", Kind::setting}, d.scene.sample.seed);
     v({"walk", "-", "meaning of progress: axial_strain, shear_strain or time", Kind::setting},
-      discrete::name_of(discrete::walk_of(d.scene.loading.mode)));
+      discrete::name_of(discrete::loading_variable_of(d.scene.loading.mode)));
     v({"mean_diameter", "length", "mean diameter d of the grains", Kind::setting}, d.scene.sample.mean_diameter);
     v({"pressure", "pressure", "lateral pressure P on the sample", Kind::setting}, d.scene.loading.pressure);
     v({"averaging_width", "strain or time", "range of progress over which running means are taken", Kind::setting},

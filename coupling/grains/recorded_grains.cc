@@ -21,7 +21,8 @@ namespace diptych::coupling
         return "";
       std::ostringstream out;
       out.precision(2);
-      out << "snapshot at " << text_of(s.walk, s.progress) << ": residual " << s.residual << ", error of grain stress ";
+      out << "snapshot at " << text_of(s.loading_variable, s.progress) << ": residual " << s.residual
+          << ", error of grain stress ";
       if (std::isfinite(s.stress_error))
         out << 100 * s.stress_error << " % (estimated)";
       else

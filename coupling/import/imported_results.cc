@@ -15,8 +15,8 @@ namespace diptych::coupling
   namespace
   {
     using discrete::HistoryRow;
+    using discrete::LoadingVariable;
     using discrete::Snapshot;
-    using discrete::Walk;
 
     bool has_sides(const ArrivedFrame &f)
     {
@@ -159,12 +159,12 @@ namespace diptych::coupling
     {
       const ArrivedFrame &f = arrival.frames[k];
       HistoryRow          row;
-      row.step         = int(k);
-      row.time         = s.time;
-      row.axial_strain = s.axial_strain;
-      row.shear_strain = s.shear_strain;
-      row.progress     = s.progress;
-      row.walk         = s.walk;
+      row.step             = int(k);
+      row.time             = s.time;
+      row.axial_strain     = s.axial_strain;
+      row.shear_strain     = s.shear_strain;
+      row.progress         = s.progress;
+      row.loading_variable = s.loading_variable;
       row.stress.setZero();
       double discs = 0;
       for (std::size_t i = 0; i < s.internal_moment.size(); ++i)
@@ -198,7 +198,7 @@ namespace diptych::coupling
     }
 
     // The strain that grows from frame to frame.
-    Walk walk_of(const std::vector<Snapshot> &snapshots, const Arrival &arrival)
+    LoadingVariable loading_variable_of(const std::vector<Snapshot> &snapshots, const Arrival &arrival)
     {
       const auto ascends = [&](const auto &strain) {
         for (std::size_t k = 1; k < snapshots.size(); ++k)
@@ -214,9 +214,10 @@ namespace diptych::coupling
                          ": the frames are not a monotonic loading: neither the descent of the upper wall nor its motion to the "
                          "right grows from "
                          "frame to frame; import frames of one monotonic path, each once");
-      return axial && std::abs(snapshots.back().axial_strain) >= std::abs(snapshots.back().shear_strain) ? Walk::axial_strain
-             : axial && !shear                                                                           ? Walk::axial_strain
-                                                                                                         : Walk::shear_strain;
+      return axial && std::abs(snapshots.back().axial_strain) >= std::abs(snapshots.back().shear_strain)
+               ? LoadingVariable::axial_strain
+             : axial && !shear ? LoadingVariable::axial_strain
+                               : LoadingVariable::shear_strain;
     }
 
     void add_inertial_numbers(const Arrival &arrival, std::vector<HistoryRow> &rows)
@@ -246,11 +247,11 @@ namespace diptych::coupling
       }
     if (results.snapshots.size() > 1)
       {
-        const Walk walk = walk_of(results.snapshots, arrival);
+        const LoadingVariable loading_variable = loading_variable_of(results.snapshots, arrival);
         for (Snapshot &s : results.snapshots)
           {
-            s.walk     = walk;
-            s.progress = walk == Walk::axial_strain ? s.axial_strain : s.shear_strain;
+            s.loading_variable = loading_variable;
+            s.progress         = loading_variable == LoadingVariable::axial_strain ? s.axial_strain : s.shear_strain;
           }
       }
     for (std::size_t k = 0; k < arrival.frames.size(); ++k)

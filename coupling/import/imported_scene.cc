@@ -44,7 +44,7 @@ namespace diptych::coupling
 
   std::string imported_scene(const Arrival &arrival, const DiscreteResults &results, const std::optional<double> &pressure)
   {
-    const bool          axial = results.snapshots.back().walk == discrete::Walk::axial_strain;
+    const bool          axial = results.snapshots.back().loading_variable == discrete::LoadingVariable::axial_strain;
     const bool          sides = std::isfinite(results.snapshots.front().left_x);
     std::vector<double> stages;
     double              shortest = HUGE_VAL;

@@ -89,18 +89,18 @@ namespace diptych::coupling
       return same ? std::optional<double>(values[0]) : std::nullopt;
     }
 
-    continuum::Walk continuum_walk(const LoadingMode mode)
+    continuum::LoadingVariable continuum_walk(const LoadingMode mode)
     {
-      switch (discrete::walk_of(mode))
+      switch (discrete::loading_variable_of(mode))
         {
-        case discrete::Walk::axial_strain:
-          return continuum::Walk::axial_strain;
-        case discrete::Walk::shear_strain:
-          return continuum::Walk::shear_strain;
-        case discrete::Walk::time:
+        case discrete::LoadingVariable::axial_strain:
+          return continuum::LoadingVariable::axial_strain;
+        case discrete::LoadingVariable::shear_strain:
+          return continuum::LoadingVariable::shear_strain;
+        case discrete::LoadingVariable::time:
           break;
         }
-      return continuum::Walk::time;
+      return continuum::LoadingVariable::time;
     }
 
     continuum::LateralCondition lateral_of(const discrete::LateralOptions &o, const DriveKey &right, const double rate)
@@ -322,8 +322,8 @@ namespace diptych::coupling
     loading.body_force = scene.sample.density * sample.solid_fraction *
                          Eigen::Vector2d(scene.discrete.time.gravity_x, scene.discrete.time.gravity_y);
     loading.stages            = stages(scene.loading);
-    loading.walk              = continuum_walk(scene.loading.mode);
-    loading.time_per_progress = loading.walk == continuum::Walk::time ? 1. : 1 / rate;
+    loading.loading_variable  = continuum_walk(scene.loading.mode);
+    loading.time_per_progress = loading.loading_variable == continuum::LoadingVariable::time ? 1. : 1 / rate;
     set_mode(scene.loading, sample, loading);
     if (scene.discrete.method.method == discrete::Method::imported)
       {

@@ -62,7 +62,7 @@ namespace diptych::coupling
       for (const StageRecord &stage : c.stages)
         if (!(stage.mapping.total_relative_error < 1e-12))
           {
-            std::cerr << "the mapping at " << text_of(discrete::walk_of(scene.loading.mode), stage.progress)
+            std::cerr << "the mapping at " << text_of(discrete::loading_variable_of(scene.loading.mode), stage.progress)
                       << " misses the grains' total by " << stage.mapping.total_relative_error << std::endl;
             return invariant;
           }

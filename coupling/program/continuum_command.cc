@@ -102,14 +102,14 @@ namespace diptych::coupling
       };
       const auto largest = [&](const auto member) { return *std::max_element(rows.begin(), rows.end(), larger_by(member)); };
       const auto peak    = largest(&continuum::HistoryRow::stress_ratio);
-      const auto at      = [](const continuum::HistoryRow &row) { return text_of(row.walk, row.progress); };
+      const auto at      = [](const continuum::HistoryRow &row) { return text_of(row.loading_variable, row.progress); };
       std::ostringstream text;
       text.precision(4);
       text << part.title << ": largest t/s " << peak.stress_ratio << " at " << at(peak) << ", at the end "
            << rows.back().stress_ratio << " at " << at(rows.back()) << "; " << report.n_cells << " elements, "
            << report.n_unknowns << " unknowns, " << report.steps << " steps, " << report.cut_backs << " cut-backs";
       if (report.localisation_progress)
-        text << "\n  localisation possible at one point from " << text_of(peak.walk, *report.localisation_progress)
+        text << "\n  localisation possible at one point from " << text_of(peak.loading_variable, *report.localisation_progress)
              << " on (singular acoustic tensor), band at " << report.localisation_angle << " degrees";
       if (const double share = largest(&continuum::HistoryRow::viscous_share).viscous_share; share > 0)
         text << "\n  viscosity carries up to " << 100 * share << " % of the shear strength where the sample yields";
@@ -132,7 +132,7 @@ namespace diptych::coupling
       if (report.status == continuum::Status::finished || !is_first_process())
         return;
       std::cerr << part.title << ": " << report.message << "; reached "
-                << text_of(discrete::walk_of(scene.loading.mode), report.progress) << ", kept in " << part.directory;
+                << text_of(discrete::loading_variable_of(scene.loading.mode), report.progress) << ", kept in " << part.directory;
       if (report.status == continuum::Status::stopped_by_user && std::filesystem::exists(part.checkpoint()))
         std::cerr << "; to go on: " << (n_processes() > 1 ? "mpirun -np " + std::to_string(n_processes()) + " " : "")
                   << "diptych " << name_of(line.command) << ' ' << line.target << " --output " << scene.output.directory

@@ -182,7 +182,8 @@ namespace diptych::coupling
         return done;
       std::cerr << "discrete panel: "
                 << (report.status == discrete::Status::stopped_by_user ? "stopped on request" : report.message) << "; reached "
-                << text_of(discrete::walk_of(scene.loading.mode), report.progress) << ", kept in " << scene.output.directory;
+                << text_of(discrete::loading_variable_of(scene.loading.mode), report.progress) << ", kept in "
+                << scene.output.directory;
       if (report.status == discrete::Status::stopped_by_user && std::filesystem::exists(grain_checkpoint(scene.output.directory)))
         std::cerr << "; to go on: diptych " << name_of(line.command) << ' ' << line.target << " --output "
                   << scene.output.directory << " --resume (with the same --set)";
@@ -235,7 +236,8 @@ namespace diptych::coupling
           runs.push_back({*part.discrete.time.step,
                           history_table(discrete::read_rows<discrete::HistoryRow>(discrete_csv(part.output.directory)))});
         }
-      const StepComparison comparison = compare_steps(runs, averaging_width(scene), discrete::walk_of(scene.loading.mode));
+      const StepComparison comparison = compare_steps(runs, averaging_width(scene),
+                                                      discrete::loading_variable_of(scene.loading.mode));
       write_step_comparison(scene.output.directory, runs, comparison);
       draw(Drawing::step_study, scene.output.directory);
       say(line, comparison.verdict);

@@ -22,8 +22,9 @@ namespace diptych::coupling
                                                  [](const auto &a, const auto &b) { return a.stress_ratio < b.stress_ratio; });
       std::ostringstream text;
       text.precision(6);
-      text << "peak stress ratio " << peak->stress_ratio << " at " << text_of(continuum::Walk::axial_strain, peak->axial_strain)
-           << ", " << report.rows.back().stress_ratio << " at " << text_of(continuum::Walk::axial_strain, report.axial_strain);
+      text << "peak stress ratio " << peak->stress_ratio << " at "
+           << text_of(continuum::LoadingVariable::axial_strain, peak->axial_strain) << ", " << report.rows.back().stress_ratio
+           << " at " << text_of(continuum::LoadingVariable::axial_strain, report.axial_strain);
       return text.str();
     }
 

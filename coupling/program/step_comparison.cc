@@ -57,7 +57,9 @@ namespace diptych::coupling
     }
   } // namespace
 
-  StepComparison compare_steps(const std::vector<StepRun> &runs, const double width, const discrete::Walk walk)
+  StepComparison compare_steps(const std::vector<StepRun>     &runs,
+                               const double                    width,
+                               const discrete::LoadingVariable loading_variable)
   {
     if (runs.size() < 2)
       throw std::invalid_argument("a study of the step needs at least two runs");
@@ -103,8 +105,8 @@ namespace diptych::coupling
     text.precision(3);
     text << "step " << runs.front().step << " against " << runs.back().step << ": "
          << (comparison.largest <= margin ? "the step does not matter" : "the step matters") << ", largest difference "
-         << 100 * comparison.largest << " % (" << worst->name << ", at " << text_of(walk, worst->at_progress) << "; margin "
-         << 100 * margin << " %)";
+         << 100 * comparison.largest << " % (" << worst->name << ", at " << text_of(loading_variable, worst->at_progress)
+         << "; margin " << 100 * margin << " %)";
     comparison.verdict = text.str();
     return comparison;
   }

@@ -7,7 +7,7 @@
 
 #include "coupling/numbers/number_entry.h"
 #include "coupling/statistics/history_table.h"
-#include "discrete/walk.h"
+#include "discrete/loading_variable.h"
 
 namespace diptych::coupling
 {
@@ -57,9 +57,9 @@ namespace diptych::coupling
   // Columns of study_step.csv, one row per instant of a run.
   std::vector<NumberEntry> step_study_columns();
 
-  // Runs from the coarsest to the finest, all loaded along `walk`. `width`: range of the running means in the unit of `walk`.
-  // Throws std::invalid_argument for fewer than two runs.
-  StepComparison compare_steps(const std::vector<StepRun> &runs, double width, discrete::Walk walk);
+  // Runs from the coarsest to the finest, all loaded along `loading_variable`. `width`: range of the running means in the unit of
+  // `loading_variable`. Throws std::invalid_argument for fewer than two runs.
+  StepComparison compare_steps(const std::vector<StepRun> &runs, double width, discrete::LoadingVariable loading_variable);
 
   // Writes study_step.csv and study_step.json.
   void write_step_comparison(const std::string &directory, const std::vector<StepRun> &runs, const StepComparison &comparison);

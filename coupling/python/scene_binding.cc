@@ -107,8 +107,10 @@ namespace diptych::python
       .def("identity", identity_of)
       .def("input_files", &coupling::input_files)
       .def("averaging_width", &coupling::averaging_width)
-      .def("walk",
-           [](const coupling::Scene &scene) { return std::string(discrete::name_of(discrete::walk_of(scene.loading.mode))); })
+      .def("loading_variable",
+           [](const coupling::Scene &scene) {
+             return std::string(discrete::name_of(discrete::loading_variable_of(scene.loading.mode)));
+           })
       .def("in_folder", in_folder)
       .def_property_readonly("directory", [](const coupling::Scene &scene) { return scene.output.directory; })
       .def("unused_keys",

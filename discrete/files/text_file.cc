@@ -104,9 +104,9 @@ namespace diptych::discrete
     require_regular_file(path);
     std::string text = whole_text(path, most_bytes, check_stop);
     if (const std::size_t bad = first_non_utf8(text); bad < most_bytes && bad != std::string::npos)
-      throw std::invalid_argument(path + ", line " +
-                                  std::to_string(1 + std::count(text.begin(), text.begin() + off_t(bad), '\n')) + ": byte " +
-                                  std::to_string(static_cast<unsigned char>(text[bad])) + " is not valid UTF-8");
+      throw std::invalid_argument(
+        path + ", line " + std::to_string(1 + std::count(text.begin(), text.begin() + off_t(bad), '\n')) +
+        ": contains a byte of value " + std::to_string(static_cast<unsigned char>(text[bad])) + ", which is not UTF-8 text");
     if (text.size() > most_bytes)
       throw std::invalid_argument(path + ": is longer than the " + std::to_string(most_bytes) +
                                   " bytes that such a file may have");

@@ -7,7 +7,7 @@
 
 #include "discrete/meaning.h"
 #include "discrete/stepping/time_stepping.h"
-#include "discrete/walk.h"
+#include "discrete/loading_variable.h"
 
 namespace diptych::discrete
 {
@@ -36,7 +36,7 @@ namespace diptych::discrete
     double          platen_sliding    = 0; // share of the force-carrying platen contacts that are at their Coulomb bound
     double          skew_moment       = 0; // norm of the grains' skew moments / norm of the symmetric ones
     double          progress          = 0; // of the loading variable: one of axial_strain, shear_strain and time
-    Walk            walk              = Walk::axial_strain;
+    LoadingVariable loading_variable  = LoadingVariable::axial_strain;
   };
 
   // Calls visit(column, value, unit, meaning) for every number of a row in the order of discrete.csv.
@@ -89,7 +89,7 @@ namespace diptych::discrete
     visit("platen_sliding", r.platen_sliding, "-", "share of the force-carrying platen contacts at their Coulomb bound");
     visit("skew_moment", r.skew_moment, "-", "norm of the grains' skew moments / norm of the symmetric ones");
     visit("progress", r.progress, "strain or time", "loading variable: axial strain, shear strain or time");
-    visit("walk", r.walk, "-", "which column progress equals: axial_strain, shear_strain or time");
+    visit("walk", r.loading_variable, "-", "which column progress equals: axial_strain, shear_strain or time");
   }
 
   struct Reference

@@ -7,7 +7,7 @@
 
 #include "discrete/bodies/boundary.h"
 #include "discrete/choices.h"
-#include "discrete/walk.h"
+#include "discrete/loading_variable.h"
 
 namespace diptych::discrete
 {
@@ -25,9 +25,11 @@ namespace diptych::discrete
                       std::pair{LoadingMode::plane_shear, "plane_shear"}, std::pair{LoadingMode::time, "time"}};
   }
 
-  constexpr Walk walk_of(const LoadingMode mode)
+  constexpr LoadingVariable loading_variable_of(const LoadingMode mode)
   {
-    return mode == LoadingMode::descent ? Walk::axial_strain : mode == LoadingMode::time ? Walk::time : Walk::shear_strain;
+    return mode == LoadingMode::descent ? LoadingVariable::axial_strain
+           : mode == LoadingMode::time  ? LoadingVariable::time
+                                        : LoadingVariable::shear_strain;
   }
 
   struct Loading

@@ -78,10 +78,10 @@ namespace diptych::discrete
       const double friction = presses() ? options_.penalty.preload_friction : prepared.report.friction;
       setting.law           = {friction, friction, 0, 0, friction};
       setting.mean_diameter = setting_.mean_diameter;
-      prepared_       = make_snapshot(now.state, prepared.last_step, {}, make_reference(now.state, setting_.mean_diameter, 0.),
-                                      setting);
-      prepared_->walk = walk_of(loading_.mode);
-      prepared_->time = 0; // the time of the preparation does not count
+      prepared_ = make_snapshot(now.state, prepared.last_step, {}, make_reference(now.state, setting_.mean_diameter, 0.),
+                                setting);
+      prepared_->loading_variable = loading_variable_of(loading_.mode);
+      prepared_->time             = 0; // the time of the preparation does not count
       start_loading(now.state, {loading_, options_.lateral, options_.drives, rate_});
       now.reference = make_reference(now.state, setting_.mean_diameter, loading_.mode == LoadingMode::time ? 0. : rate_);
       return true;
@@ -128,7 +128,7 @@ namespace diptych::discrete
       Snapshot snapshot            = make_snapshot(now.state, last_, now.window, now.reference, setting);
       snapshot.error_over_residual = now.report.error_over_residual;
       snapshot.progress            = now.report.progress;
-      snapshot.walk                = walk_of(loading_.mode);
+      snapshot.loading_variable    = loading_variable_of(loading_.mode);
       return snapshot;
     }
 
@@ -248,9 +248,9 @@ namespace diptych::discrete
     bool note_failure(const SolveReport &solve)
     {
       now.report.status  = Status::not_converged;
-      now.report.message = failure_text(
-        {now.row.step + 1, text_of(walk_of(loading_.mode), now.report.progress), solve, setting_.solver.tolerance, setting_.step},
-        options_);
+      now.report.message = failure_text({now.row.step + 1, text_of(loading_variable_of(loading_.mode), now.report.progress),
+                                         solve, setting_.solver.tolerance, setting_.step},
+                                        options_);
       return false;
     }
 
@@ -312,8 +312,8 @@ namespace diptych::discrete
       if (now.steps_left % now.interval == 0)
         {
           describe_state(now.state, last_, now.reference, setting_, now.row);
-          now.row.progress = now.report.progress;
-          now.row.walk     = walk_of(loading_.mode);
+          now.row.progress         = now.report.progress;
+          now.row.loading_variable = loading_variable_of(loading_.mode);
           if (hooks_.on_row)
             hooks_.on_row(now.row);
           now.row.max_penetration = now.row.momentum_residual = now.row.sweeps = 0;

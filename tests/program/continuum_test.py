@@ -195,7 +195,7 @@ def period(folder):
 
 
 class Resume(Folder):
-    """A walk that was interrupted gives the curve of one left alone, up to the tolerance of the equilibrium (1e-5)."""
+    """An interrupted run gives the curve of an uninterrupted one, up to the tolerance of the equilibrium (1e-5)."""
 
     @classmethod
     def setUpClass(cls):
@@ -253,7 +253,7 @@ class Resume(Folder):
         self.expect_same_curves()
 
     def test_killed_in_the_first_steps(self):
-        """The stages of the rest are those of the loading, not of a walk that knows none."""
+        """The stages of the rest are those of the loading, not of a loading that knows none."""
         self.interrupt(signal.SIGKILL, "continuum_checkpoint.h5", 0, *setting(continuum_checkpoint_minutes=0))
         self.assertLess(len(self.rows()["axial_strain"]), 20)
         self.continuum(*LONG, "--resume")

@@ -73,7 +73,7 @@ class Import(Case):
         self.done("compare", self.path("both"), "--quiet")
         self.done("report", self.path("both"), "--quiet")
 
-    def test_the_continuum_walks_as_the_walls_did(self):
+    def test_the_continuum_is_loaded_as_the_walls_moved(self):
         self.done("import", "lammps", *LAMMPS, "--output", self.path("mine"), "--quiet")
         scene = self.path("mine", "scene.prm")
         self.done("continuum", scene, "--output", self.path("pressed"), "--quiet", *COARSE)

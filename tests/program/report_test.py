@@ -27,7 +27,7 @@ from diptych_report.charts.strips import _turn  # noqa: E402
 from diptych_report.data.ensemble import Ensemble  # noqa: E402
 from diptych_report.data.increments import Increment  # noqa: E402
 from diptych_report.data.numbers import Descriptions, Units  # noqa: E402
-from diptych_report.data.walk import WALKS  # noqa: E402
+from diptych_report.data.loading_variable import LOADING_VARIABLES  # noqa: E402
 from diptych_report.page.result_page import end_of, opens_at  # noqa: E402
 from diptych_report.tables import stage as tables  # noqa: E402
 
@@ -196,10 +196,10 @@ class OtherFolders(unittest.TestCase):
         self.assertNotIn("</script><b>", read(self.folder.name))
 
     def test_axes_name_the_loading_variable(self):
-        for walk, label, averaging in (("shear_strain", "shear strain (%)", "mean over the last 0.5 % of shear strain"),
+        for loading_variable, label, averaging in (("shear_strain", "shear strain (%)", "mean over the last 0.5 % of shear strain"),
                                        ("time", ">time<", "mean over the last 0.005 of time")):
             write_folder(self.folder.name)
-            write_json(self.folder.name, "comparison.json", dict(report_folder.comparison_of_two_stages(), walk=walk))
+            write_json(self.folder.name, "comparison.json", dict(report_folder.comparison_of_two_stages(), loading_variable=loading_variable))
             outcome = run(self.folder.name)
             self.assertEqual((outcome.returncode, outcome.stderr), (0, ""))
             text = read(self.folder.name)
@@ -266,7 +266,7 @@ class Formulas(unittest.TestCase):
         self.assertEqual({unit: Units(2.0, 10.0).size(unit) for unit in expected}, expected)
 
     def test_a_standard_error_stands_where_there_is_no_interval(self):
-        increment = Increment("stage-0", "stage", 0.0, 0.01, {"discrete": report_folder.panel([])}, WALKS["axial_strain"])
+        increment = Increment("stage-0", "stage", 0.0, 0.01, {"discrete": report_folder.panel([])}, LOADING_VARIABLES["axial_strain"])
         increment.record["discrete"]["probes"][0]["fabric_to_stress_deg"] = report_folder.within(2.0, -3.0, 7.0)
         table = tables.probes(types.SimpleNamespace(numbers=Descriptions(report_folder.numbers())), increment)
         row = dict(zip(table["head"], table["rows"][0]))
@@ -277,7 +277,7 @@ class Formulas(unittest.TestCase):
         self.assertAlmostEqual(_turn({"angle_deg": -89.0}, 89.0), 2.0)  # not 178
 
     def test_an_ensembles_places_keep_their_ends_apart(self):
-        results = Ensemble("", {}, {}, None, WALKS["axial_strain"], None, {}, None, "", {})
+        results = Ensemble("", {}, {}, None, LOADING_VARIABLES["axial_strain"], None, {}, None, "", {})
         self.assertEqual(results.place("window 1e-05-0.02"), ("window", "0.001–2\u00a0%"))
 
     def test_the_page_opens_on_the_last_window_or_stage(self):

@@ -214,15 +214,15 @@ namespace
   // Both panels have the same loading variable and take the same time for it.
   TEST(ContinuumLoading, BothPanelsHaveTheSameLoadingVariable)
   {
-    for (const auto &[mode, walk] : {std::pair{LoadingMode::descent, continuum::Walk::axial_strain},
-                                     {LoadingMode::shear, continuum::Walk::shear_strain},
-                                     {LoadingMode::plane_shear, continuum::Walk::shear_strain},
-                                     {LoadingMode::time, continuum::Walk::time}})
+    for (const auto &[mode, loading_variable] : {std::pair{LoadingMode::descent, continuum::LoadingVariable::axial_strain},
+                                                 {LoadingMode::shear, continuum::LoadingVariable::shear_strain},
+                                                 {LoadingMode::plane_shear, continuum::LoadingVariable::shear_strain},
+                                                 {LoadingMode::time, continuum::LoadingVariable::time}})
       {
         const continuum::Loading loading = continuum_loading(scene_with(mode), sample);
-        EXPECT_EQ(loading.walk, walk);
+        EXPECT_EQ(loading.loading_variable, loading_variable);
         EXPECT_EQ(loading.time_per_progress, mode == LoadingMode::time ? 1 : 100);
-        EXPECT_EQ(discrete::name_of(discrete::walk_of(mode)), continuum::name_of(walk));
+        EXPECT_EQ(discrete::name_of(discrete::loading_variable_of(mode)), continuum::name_of(loading_variable));
       }
   }
 } // namespace

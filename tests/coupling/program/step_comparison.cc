@@ -12,7 +12,7 @@
 namespace
 {
   using namespace diptych::coupling;
-  using diptych::discrete::Walk;
+  using diptych::discrete::LoadingVariable;
 
   // A loading to 4 % in n rows with the stress ratio 0.3 and the work 10 x strain. Friction takes 8 of it and impacts 1.
   HistoryTable history(const int n)
@@ -58,9 +58,11 @@ namespace
     return table;
   }
 
-  StepComparison compared(const std::vector<StepRun> &runs, const Walk walk = Walk::axial_strain, const double window = 0.005)
+  StepComparison compared(const std::vector<StepRun> &runs,
+                          const LoadingVariable       loading_variable = LoadingVariable::axial_strain,
+                          const double                window           = 0.005)
   {
-    return compare_steps(runs, window, walk);
+    return compare_steps(runs, window, loading_variable);
   }
 
   void expect_says(const StepComparison &comparison, const std::string &words)
@@ -123,7 +125,7 @@ namespace
     EXPECT_LT(c.largest, 0.3 / 12);
     expect_says(c, "does not matter");
     // Without the mean they would fail: a window of one row shows the scatter.
-    EXPECT_GT(compared(runs, Walk::axial_strain, 0.0004).largest, 0.1);
+    EXPECT_GT(compared(runs, LoadingVariable::axial_strain, 0.0004).largest, 0.1);
   }
 
   // A lasting shift is not scatter.
@@ -142,11 +144,11 @@ namespace
     std::vector<StepRun> runs = three_runs();
     for (double &work : runs[0].history["external_work"])
       work *= work > 0.2 ? 2 : 1; // the first half is unchanged
-    const StepComparison c = compared(runs, Walk::shear_strain);
+    const StepComparison c = compared(runs, LoadingVariable::shear_strain);
     expect_says(c, "the step matters");
     expect_says(c, "% shear strain");
     EXPECT_NEAR(quantity(c, "external_work").largest_difference[0], 1, 1e-6);
-    expect_says(compared(runs, Walk::time), "at time 0.0");
+    expect_says(compared(runs, LoadingVariable::time), "at time 0.0");
   }
 
   TEST(StepComparison, RejectsASingleRun)

@@ -192,7 +192,7 @@ namespace
     for (HistoryRow &row : rows)
       visit_columns(row, [&](const char *, auto &value, const char *, const char *) { next(value); });
     rows[2].max_equivalent_plastic_strain = 5e-324;
-    rows[1].walk                          = continuum::Walk::time;
+    rows[1].loading_variable              = continuum::LoadingVariable::time;
     {
       discrete::TableFile table(folder / "continuum.csv", discrete::csv_header<HistoryRow>());
       for (const HistoryRow &row : rows)

@@ -30,7 +30,7 @@ namespace diptych::coupling::files
     double                                operator()() { return std::sin(++n) / 3; }
     void                                  operator()(double &value) { value = (*this)(); }
     void                                  operator()(int &value) { value = ++n; }
-    void                                  operator()(continuum::Walk &) {}
+    void                                  operator()(continuum::LoadingVariable &) {}
     template <int rows, int columns> void operator()(Eigen::Matrix<double, rows, columns> &m)
     {
       for (int k = 0; k < m.size(); ++k)
@@ -45,7 +45,7 @@ namespace diptych::coupling::files
     Numbers  next{int(1e6 * progress)};
     visit_attributes(s, [&](const char *, auto &value, const char *, const char *) { next(value); });
     s.progress              = progress;
-    s.walk                  = continuum::Walk::shear_strain;
+    s.loading_variable      = continuum::LoadingVariable::shear_strain;
     const unsigned int side = 2 * n + 1;
     for (unsigned int k = 0; k < side * side; ++k)
       {
@@ -77,7 +77,7 @@ namespace diptych::coupling::files
            std::equal(a.begin(), a.end(), b.begin(), [](const T &x, const T &y) { return same_bits(x, y); });
   }
 
-  inline bool same_bits(const continuum::Walk a, const continuum::Walk b)
+  inline bool same_bits(const continuum::LoadingVariable a, const continuum::LoadingVariable b)
   {
     return a == b;
   }
@@ -104,13 +104,13 @@ namespace diptych::coupling::files
 
   inline void expect_same(const Snapshot &x, const Snapshot &y)
   {
-    const auto &[progress, axial_strain, shear_strain, time, walk, position, displacement, rotation, weight, cells, states, lower,
-                 upper, mean_stress, area] = x;
+    const auto &[progress, axial_strain, shear_strain, time, loading_variable, position, displacement, rotation, weight, cells,
+                 states, lower, upper, mean_stress, area] = x;
     EXPECT_TRUE(same_bits(progress, y.progress));
     EXPECT_TRUE(same_bits(axial_strain, y.axial_strain));
     EXPECT_TRUE(same_bits(shear_strain, y.shear_strain));
     EXPECT_TRUE(same_bits(time, y.time));
-    EXPECT_EQ(walk, y.walk);
+    EXPECT_EQ(loading_variable, y.loading_variable);
     EXPECT_TRUE(same_bits(position, y.position));
     EXPECT_TRUE(same_bits(displacement, y.displacement));
     EXPECT_TRUE(same_bits(rotation, y.rotation));

@@ -71,14 +71,15 @@ namespace
     for (std::size_t k = 0; k < read.size(); ++k)
       EXPECT_EQ(csv_line(read[k]), csv_line(written[k])); // the text is exact
     EXPECT_EQ(read[7].stress(0, 1), written[7].stress(0, 1));
-    EXPECT_EQ(read[7].walk, written[7].walk);
+    EXPECT_EQ(read[7].loading_variable, written[7].loading_variable);
   }
 
   TEST_F(Table, AWordThatIsNoValueOfItsColumnIsNamed)
   {
     Dice             dice;
     const HistoryRow row = random_row(dice);
-    for (const auto &[from, to] : {std::pair{name_of(row.walk), "sideways"}, std::pair{std::to_string(row.contacts), "many"}})
+    for (const auto &[from, to] :
+         {std::pair{name_of(row.loading_variable), "sideways"}, std::pair{std::to_string(row.contacts), "many"}})
       {
         std::string       line  = csv_line(row);
         const std::size_t place = line.rfind(from);

@@ -66,8 +66,8 @@ namespace
   inline std::vector<std::uint64_t> bits(const Snapshot &s)
   {
     Bits b;
-    b(double(s.walk), s.progress, s.axial_strain, s.time, s.step, s.residual, s.mean_diameter, s.shear_strain, s.stress_error,
-      s.stress_change, s.error_over_residual);
+    b(double(s.loading_variable), s.progress, s.axial_strain, s.time, s.step, s.residual, s.mean_diameter, s.shear_strain,
+      s.stress_error, s.stress_change, s.error_over_residual);
     b(s.position, s.displacement, s.velocity, s.rotation, s.spin, s.radius, s.mass, s.internal_moment, s.mean_internal_moment);
     b(s.mean_spin_term, s.rattler, s.fixed, s.contacts, s.gap, s.status, s.applied_force, s.window_forces, s.window_time,
       s.window_dissipation, s.window_impact_dissipation);

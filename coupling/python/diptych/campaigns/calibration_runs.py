@@ -276,7 +276,7 @@ def read_target(target: Target, more: Sequence[Setting] = ()) -> _diptych.Scene:
     if target.curve and mesh != "rectangle":
         raise SceneError(f"{target.scene}: continuum/mesh = {mesh}: a measured curve has no grains with an outline; set "
                          "mesh = rectangle, rectangle_width and rectangle_height")
-    if target.curve and scene.walk() != "axial_strain":
+    if target.curve and scene.loading_variable() != "axial_strain":
         raise SceneError(f"{target.scene}: loading/mode = {mode}: a measured curve needs mode = descent, whose progress is the "
                          "axial strain")
     return scene

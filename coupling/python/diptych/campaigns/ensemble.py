@@ -131,7 +131,7 @@ def _record(scene: Any, seeds: Sequence[int], failed: Sequence[dict[str, Any]], 
         _demand_member(scene, seed)
         members.append(member_of(os.path.join(folder, "comparison.json"), folded))
     return {"format": 1, "scene": scene.name, "seeds": list(seeds), "done": done, "failed": list(failed),
-            "interrupted": list(interrupted), "margins": margins, "walk": scene.walk(), "folded": folded,
+            "interrupted": list(interrupted), "margins": margins, "walk": scene.loading_variable(), "folded": folded,
             "student_t_95": student_quantile(0.975, n - 1) if n > 1 else math.nan, **evaluate(members, margins)}
 
 

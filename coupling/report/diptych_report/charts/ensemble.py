@@ -82,7 +82,7 @@ def curves(results, name, label, scale=1.0):
         curve = results.curves.get(f"{panel}/{name}")
         if curve is None or not np.size(curve["members"]):
             continue
-        across, members = results.walk.factor * results.progress, curve["members"][:MOST_CURVES]
+        across, members = results.loading_variable.factor * results.progress, curve["members"][:MOST_CURVES]
         axes.plot(across, scale * members.T, color=colour, linewidth=0.5, alpha=min(0.5, 8 / len(members)))
         known = np.isfinite(curve["low"]) & np.isfinite(curve["high"])
         axes.fill_between(across, scale * curve["low"], scale * curve["high"], where=known, color=colour, alpha=BAND, linewidth=0)

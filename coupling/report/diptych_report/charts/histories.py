@@ -29,7 +29,7 @@ def figures(result):
 def _both(result, columns, scale, label, caption):
     """columns: (name for every step, name for the thick line)."""
     figure, axes = chart(result, label)
-    across, drawn, (every, thick) = result.walk.factor, [], columns
+    across, drawn, (every, thick) = result.loading_variable.factor, [], columns
     for panel, colour in PANEL_COLOURS.items():
         raw, mean = result.history(panel, every), result.history(panel, thick)
         if raw is not None and thick != every:
@@ -57,7 +57,7 @@ def _both(result, columns, scale, label, caption):
 def _platens(result):
     caption = f"Vertical force of each platen on the sample. Thin: every step of the grains; thick: mean over {result.averaging}."
     figure, axes = chart(result, "vertical platen force (P d)")
-    across, unit, drawn = result.walk.factor, result.units.size("pressure length"), 0
+    across, unit, drawn = result.loading_variable.factor, result.units.size("pressure length"), 0
     for panel, colour in PANEL_COLOURS.items():
         for side, line in (("lower", "-"), ("upper", (0, (4, 2)))):
             raw, mean = result.history(panel, side + "_fy"), result.history(panel, side + "_fy_mean")
@@ -81,7 +81,7 @@ def _platen_difference(result):
     if found is None or not (found[1] > 0).any():
         return None, caption
     good = found[1] > 0
-    progress, difference = result.walk.factor * found[0][good], 100 * found[1][good]
+    progress, difference = result.loading_variable.factor * found[0][good], 100 * found[1][good]
     figure, axes = chart(result, "difference of platen forces (%)", log=True)
     axes.plot(*thin(progress, difference), color=PANEL_COLOURS["discrete"], linewidth=0.6)
     axes.axhline(1, color=INK, linewidth=1, linestyle="--")

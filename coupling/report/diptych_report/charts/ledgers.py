@@ -27,7 +27,7 @@ def _energies(result):
         for name, label, colour, dashes in lines:
             found = result.history(panel, name)
             if found is not None:
-                axes.plot(*thin(result.walk.factor * found[0], found[1] / unit), color=colour, linestyle=dashes, label=label)
+                axes.plot(*thin(result.loading_variable.factor * found[0], found[1] / unit), color=colour, linestyle=dashes, label=label)
     if not axes.lines:
         return None, caption
     axes.set_xlim(left=0)
@@ -43,7 +43,7 @@ def _kinetic_energy(result):
     if found is None or not (found[1] > 0).any():
         return None, caption
     good = found[1] > 0
-    progress, ratio = result.walk.factor * found[0][good], found[1][good]
+    progress, ratio = result.loading_variable.factor * found[0][good], found[1][good]
     figure, axes = chart(result, "kinetic energy / (M|V|²/4)", log=True)
     axes.set_ylim(decades(ratio))
     axes.plot(*thin(progress, ratio), color=PANEL_COLOURS["discrete"], linewidth=0.6)
@@ -68,10 +68,10 @@ def solver(result):
     for k, ((progress, values), label) in enumerate(((sweeps, "sweeps"), (residual, "residual"))):
         axes = ruled(figure.add_axes([0.15, 0.6 - 0.43 * k, 0.825, 0.36]))
         good = values > 0
-        axes.plot(*thin(result.walk.factor * progress[good], values[good]), color=PANEL_COLOURS["discrete"], linewidth=0.6)
+        axes.plot(*thin(result.loading_variable.factor * progress[good], values[good]), color=PANEL_COLOURS["discrete"], linewidth=0.6)
         axes.set(ylabel=label, ylim=decades(values[good]))
         logarithmic(axes)
         axes.set_xlim(left=0)
         axes.tick_params(labelbottom=k == 1)
-    axes.set_xlabel(result.walk.label)
+    axes.set_xlabel(result.loading_variable.label)
     return svg(figure, "Sweeps and residual of the contact solver against the loading, logarithmic."), caption

@@ -24,7 +24,7 @@ def _points(axes, result, numbers):
     drawn = False
     for k, panel in enumerate(PANEL_NAMES):
         # The panels are half a line width apart, so that equal values stay visible.
-        x = [result.walk.factor * s.end * (1 + 0.004 * (2 * k - 1)) for s in result.stages]
+        x = [result.loading_variable.factor * s.end * (1 + 0.004 * (2 * k - 1)) for s in result.stages]
         drawn |= with_intervals(axes, x, [numbers(s, panel) for s in result.stages], fmt=PANEL_MARKS[panel], markersize=4.5,
                                 color=PANEL_COLOURS[panel], label=PANEL_NAMES[panel])
     axes.set_xlim(left=0)
@@ -65,7 +65,7 @@ def _dissipation(result):
     if not _points(axes, result, of):
         return None, caption
     shares = [(s.end, plain((s.panel("discrete").get("dissipation") or {}).get("area_share"))) for s in result.stages]
-    area = [(result.walk.factor * end, 100 * share) for end, share in shares if share is not None]
+    area = [(result.loading_variable.factor * end, 100 * share) for end, share in shares if share is not None]
     if area:
         axes.plot(*zip(*area), color=FAINT, linestyle="--", linewidth=1.2, label="share of the area")
     axes.set_ylim(0, 100)
@@ -79,7 +79,7 @@ def _stress_difference(result):
     rows = {}
     for stage in result.stages:
         for row in (stage.record.get("difference") or {}).get("stress") or []:
-            rows.setdefault(row.get("label", ""), []).append((result.walk.factor * stage.end, row))
+            rows.setdefault(row.get("label", ""), []).append((result.loading_variable.factor * stage.end, row))
     figure, axes = chart(result, "difference of the stress (%)")
     for (label, found), colour in zip(rows.items(), (INK, PANEL_COLOURS["discrete"], THIRD)):
         for key, dashes, words in (("relative_l2", "-", label), ("sampling_alone", "--", None)):

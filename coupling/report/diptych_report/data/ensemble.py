@@ -10,7 +10,7 @@ from diptych_report.data.files import open_arrays, read_json, read_provenance, r
 from diptych_report.data.numbers import Descriptions
 from diptych_report.data.panels import PANEL_NAMES
 from diptych_report.data.scene import scene_value
-from diptych_report.data.walk import Walk, walk_of
+from diptych_report.data.loading_variable import LoadingVariable, loading_variable_of
 
 FORMAT = 1
 MOST_CURVES = 200  # members with a drawn curve
@@ -28,7 +28,7 @@ class Ensemble:
     record: dict
     quantities: dict
     numbers: Descriptions
-    walk: Walk
+    loading_variable: LoadingVariable
     progress: np.ndarray
     curves: dict
     averaging: float
@@ -44,10 +44,10 @@ class Ensemble:
         kind, at = text.split(" ", 1)
         # The dash between two ends is not a minus sign.
         ends = [float(x) for x in NUMBER.findall(re.sub(r"(?<=[0-9.])-", " ", at))]
-        return kind, "–".join([self.walk.number(x) for x in ends[:-1]] + [self.span(ends[-1])])
+        return kind, "–".join([self.loading_variable.number(x) for x in ends[:-1]] + [self.span(ends[-1])])
 
     def span(self, value):
-        return self.walk.text(value).replace(" ", "\u00a0")
+        return self.loading_variable.text(value).replace(" ", "\u00a0")
 
 
 def load(folder):
@@ -56,7 +56,7 @@ def load(folder):
     progress, curves, averaging = _curves(os.path.join(folder, "ensemble.h5"))
     member, provenance = _member(folder, record["done"]), os.path.join(folder, "provenance.json")
     return Ensemble(folder, record, {q["name"]: q for q in record["quantities"]}, Descriptions(member.get("numbers")),
-                    walk_of(record.get("walk", member.get("walk"))), progress, curves, averaging,
+                    loading_variable_of(record.get("walk", member.get("walk"))), progress, curves, averaging,
                     read_text(os.path.join(folder, "ensemble.prm")),
                     read_provenance(provenance) if os.path.isfile(provenance) else {})
 

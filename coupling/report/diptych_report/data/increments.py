@@ -9,7 +9,7 @@ import numpy as np
 
 from diptych_report import InputError
 from diptych_report.data.numbers import Description
-from diptych_report.data.walk import Walk, walk_of
+from diptych_report.data.loading_variable import LoadingVariable, loading_variable_of
 
 MESHES = ("cells", "grid")
 SAME = 1e-6  # tolerance of progress
@@ -31,7 +31,7 @@ class Increment:
     start: float
     end: float
     record: dict
-    walk: Walk
+    loading_variable: LoadingVariable
     arrays: dict = field(default_factory=dict)
     state: dict = field(default_factory=dict)
     end_record: dict = field(default_factory=dict)
@@ -54,13 +54,13 @@ class Increment:
 
     @property
     def label(self):
-        return (self.walk.number(self.start) + "–" if self.kind == "window" else "") + self.walk.text(self.end)
+        return (self.loading_variable.number(self.start) + "–" if self.kind == "window" else "") + self.loading_variable.text(self.end)
 
     @property
     def title(self):
         if self.kind == "window":
             return f"window {self.label}"
-        return f"stage {self.label} (since {self.walk.text(self.start)})"
+        return f"stage {self.label} (since {self.loading_variable.text(self.start)})"
 
 
 def read(comparison, file, units):
@@ -69,14 +69,14 @@ def read(comparison, file, units):
     comparison: converted to `units`. Raises KeyError if a stage or window has no progress, InputError if comparison.h5 does not have
     the stage or window.
     """
-    walk = walk_of(comparison.get("walk"))
+    loading_variable = loading_variable_of(comparison.get("walk"))
     increments, groups = [], {}
     for k, window in enumerate(comparison["windows"]):
-        increments.append(Increment(f"window-{k}", "window", window["from"], window["to"], window, walk))
+        increments.append(Increment(f"window-{k}", "window", window["from"], window["to"], window, loading_variable))
         groups[f"window-{k}"] = f"window_{k}"
     start = 0.0
     for k, stage in enumerate(comparison["stages"]):
-        increments.append(Increment(f"stage-{k}", "stage", start, stage["progress"], stage, walk))
+        increments.append(Increment(f"stage-{k}", "stage", start, stage["progress"], stage, loading_variable))
         groups[f"stage-{k}"] = f"stage_{k + 1:04d}"
         start = stage["progress"]
     described = {}

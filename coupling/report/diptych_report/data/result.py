@@ -9,7 +9,7 @@ from diptych_report.data.files import open_arrays, read_csv, read_json, read_pro
 from diptych_report.data.increments import read, read_arrays
 from diptych_report.data.numbers import Descriptions, Units
 from diptych_report.data.panels import PANEL_NAMES
-from diptych_report.data.walk import Walk, walk_of
+from diptych_report.data.loading_variable import LoadingVariable, loading_variable_of
 
 REQUIRED = ("comparison.json", "comparison.h5", "discrete.csv", "continuum.csv", "provenance.json")
 FORMAT = 2
@@ -33,13 +33,13 @@ class Result:
     imported: dict    # import.json of an imported sample, or {}
 
     @property
-    def walk(self) -> Walk:
-        return walk_of(self.comparison.get("walk"))
+    def loading_variable(self) -> LoadingVariable:
+        return loading_variable_of(self.comparison.get("walk"))
 
     @property
     def averaging(self):
         """The range of the running means as text."""
-        return f"the last {self.walk.text(self.comparison['averaging_width'])} of {self.walk.word}"
+        return f"the last {self.loading_variable.text(self.comparison['averaging_width'])} of {self.loading_variable.word}"
 
     def part(self, key):
         """A group of the comparison, or {}."""

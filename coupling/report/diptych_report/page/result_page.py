@@ -84,4 +84,4 @@ def page(result):
         fitted=wording.origin(result.part("continuum_summary").get("parameters_from")), absent=wording.ABSENT,
         thickness_note=bands.thickness_note(result),
         thickness_reason=wording.MESH_SET_REASON if bands.internal_length(result) is None else wording.LENGTH_SET_REASON,
-        walk=result.walk, averaging=result.averaging)
+        loading_variable=result.loading_variable, averaging=result.averaging)

@@ -96,18 +96,18 @@ def thickness_note(result):
 
 def stages(result):
     """The comparison as two tables of readable width: stress and volume; bands. The program computed the differences."""
-    stress = {"head": [result.walk.word, "t/s, grains", "t/s, continuum", "difference", "volumetric strain, grains",
+    stress = {"head": [result.loading_variable.word, "t/s, grains", "t/s, continuum", "difference", "volumetric strain, grains",
                        "volumetric strain, continuum", "difference"], "rows": []}
-    inclined = {"head": [result.walk.word, "inclination, grains", "inclination, continuum", "difference", "10–90 % width, grains",
+    inclined = {"head": [result.loading_variable.word, "inclination, grains", "inclination, continuum", "difference", "10–90 % width, grains",
                          ("10–90 % width, continuum", thickness_note(result)), "difference", "R², grains", "R², continuum"],
                 "rows": []}
     for stage in result.stages:
         panels, difference = (stage.panel("discrete"), stage.panel("continuum")), stage.record.get("difference") or {}
-        row = [result.walk.text(stage.end)]
+        row = [result.loading_variable.text(stage.end)]
         for key in ("stress_ratio", "volumetric_strain"):
             row += [shown(result.numbers, f"stages/discrete/{key}", source.get(key)) for source in (*panels, difference)]
         stress["rows"].append(row)
-        row = [result.walk.text(stage.end)]
+        row = [result.loading_variable.text(stage.end)]
         for key in ("angle_deg", "width_10_90_d"):
             change = difference.get(key)
             row += [_of_bands(result, stage, panel, key) for panel in PANEL_NAMES]

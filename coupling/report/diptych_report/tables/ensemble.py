@@ -97,7 +97,7 @@ def captions(results):
 def curve_caption(results):
     """Explains the lines in the charts of histories."""
     more = "" if len(results.record["done"]) <= MOST_CURVES else f" Curves of the first {MOST_CURVES} seeds."
-    width = "" if results.averaging is None else f", mean over the last {results.span(results.averaging)} of {results.walk.word}"
+    width = "" if results.averaging is None else f", mean over the last {results.span(results.averaging)} of {results.loading_variable.word}"
     return (f" Thin: every seed{width}. Thick: mean of the seeds. Shaded: 95 % interval of this mean (Student)." + more)
 
 

@@ -67,11 +67,11 @@ def stress_difference(result, increment):
 
 def mapping(result):
     """Errors of the mapping at each stage."""
-    rows = [[result.walk.text(stage.end), str(kept.get("method", "")), number(kept.get("total_relative_error"), "", 2),
+    rows = [[result.loading_variable.text(stage.end), str(kept.get("method", "")), number(kept.get("total_relative_error"), "", 2),
              number(kept.get("nodal_residual"), "", 2), rounded(kept.get("outside_share"), "%", 2)]
             for stage in result.stages for kept in [stage.record.get("mapping") or {}] if kept]
     words = [result.numbers.meaning(f"stages/mapping/{key}") for key in ("total_relative_error", "nodal_residual", "outside_share")]
-    return {"head": [result.walk.word, "method", *words], "rows": rows} if rows else None
+    return {"head": [result.loading_variable.word, "method", *words], "rows": rows} if rows else None
 
 
 def dissipation(result, increment):

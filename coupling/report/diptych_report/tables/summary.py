@@ -23,5 +23,5 @@ def _text(result, place, key, value):
     if value is None and key in NULLS:
         return NULLS[key]
     if result.numbers.unit(place) == "strain or time" and isinstance(value, (int, float)):
-        return result.walk.text(value)
+        return result.loading_variable.text(value)
     return number(value, shown_unit(result.numbers, place))

@@ -9,19 +9,19 @@
 namespace diptych::discrete
 {
   // Loading variable. Stages are values of it. Shear strain is the travel of the upper platen / initial height.
-  enum class Walk
+  enum class LoadingVariable
   {
     axial_strain,
     shear_strain,
     time
   };
 
-  constexpr auto choices(Walk)
+  constexpr auto choices(LoadingVariable)
   {
-    return std::array{std::pair{Walk::axial_strain, "axial_strain"}, std::pair{Walk::shear_strain, "shear_strain"},
-                      std::pair{Walk::time, "time"}};
+    return std::array{std::pair{LoadingVariable::axial_strain, "axial_strain"},
+                      std::pair{LoadingVariable::shear_strain, "shear_strain"}, std::pair{LoadingVariable::time, "time"}};
   }
 
   // Text for messages: "2.5 % axial strain", "1 % shear strain", "time 3".
-  std::string text_of(Walk walk, double progress);
+  std::string text_of(LoadingVariable loading_variable, double progress);
 } // namespace diptych::discrete

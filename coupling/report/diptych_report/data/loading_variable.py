@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
-class Walk:
+class LoadingVariable:
     """Text of a progress: factor times the stored number, then the unit."""
 
     word: str
@@ -24,9 +24,9 @@ class Walk:
         return self.number(progress) + self.unit
 
 
-WALKS = {"axial_strain": Walk("axial strain"), "shear_strain": Walk("shear strain"), "time": Walk("time", "", 1.0)}
+LOADING_VARIABLES = {"axial_strain": LoadingVariable("axial strain"), "shear_strain": LoadingVariable("shear strain"), "time": LoadingVariable("time", "", 1.0)}
 
 
-def walk_of(name):
-    """For the entry `walk` of a file; if it is missing, a Walk without name or unit."""
-    return WALKS.get(name, Walk("progress", "", 1.0))
+def loading_variable_of(name):
+    """For the entry `walk` of a file; if it is missing, one without name or unit."""
+    return LOADING_VARIABLES.get(name, LoadingVariable("progress", "", 1.0))
