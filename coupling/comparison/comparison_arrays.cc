@@ -11,31 +11,76 @@
 
 namespace diptych::coupling
 {
+  namespace
+  {
+    double mean_of(const Eigen::Matrix2d &m)
+    {
+      return 0.5 * m.trace();
+    }
+
+    // t of the symmetric part: half the difference of the principal stresses.
+    double deviator_of(const Eigen::Matrix2d &m)
+    {
+      return 0.5 * std::hypot(m(0, 0) - m(1, 1), m(0, 1) + m(1, 0));
+    }
+
+    template <class Of> std::vector<double> of_each(const std::vector<Eigen::Matrix2d> &stress, Of &&of)
+    {
+      std::vector<double> values;
+      values.reserve(stress.size());
+      for (const Eigen::Matrix2d &m : stress)
+        values.push_back(of(m));
+      return values;
+    }
+
+    std::vector<Eigen::Vector2d> moved_cells(const continuum::Snapshot &from, const continuum::Snapshot &to)
+    {
+      return continuum_fields(from, to).displacement_increment;
+    }
+
+    void write_stage(discrete::Hdf5Writer &file,
+                     const std::string    &group,
+                     const StageRecord    &stage,
+                     const Results        &results,
+                     std::size_t           k)
+    {
+      const auto &snapshots = results.discrete.snapshots;
+      list_increment_arrays(stage.increment, snapshots[k], IntoGroup{file, group});
+      list_grain_arrays(stage.increment, snapshots[k - 1], snapshots[k], IntoGroup{file, group});
+      for (const auto &[name, fields] : {std::pair{"/cells", &stage.fields}, std::pair{"/grid", &stage.grid}})
+        {
+          list_mesh_arrays(fields->mesh, IntoGroup{file, group + name});
+          list_cell_arrays(*fields, motion_units(stage.increment), IntoGroup{file, group + name});
+        }
+      list_increment_attributes(stage.increment, IntoGroup{file, group});
+    }
+
+    void write_window(discrete::Hdf5Writer &file, const std::string &group, const Increment &window, const Results &results)
+    {
+      const std::size_t from = snapshot_at(results.discrete.snapshots, window.from).value();
+      const std::size_t to   = snapshot_at(results.discrete.snapshots, window.to).value();
+      list_increment_arrays(window, results.discrete.snapshots[to], IntoGroup{file, group});
+      list_mesh_arrays(window.mesh, IntoGroup{file, group + "/cells"});
+      list_window_cell_arrays(window, moved_cells(results.continuum.snapshots[from], results.continuum.snapshots[to]),
+                              IntoGroup{file, group + "/cells"});
+      list_increment_attributes(window, IntoGroup{file, group});
+    }
+
+    VtuGrid vtu_of(const CellFields &fields, const MotionUnits &unit)
+    {
+      VtuGrid grid{fields.mesh.node, {}, VtkCell::quadrilateral, {}};
+      for (const auto &cell : fields.mesh.cell)
+        grid.cells.insert(grid.cells.end(), cell.begin(), cell.end());
+      list_cell_arrays(fields, unit, [&](const ArrayEntry &entry, const auto &values) {
+        using Value = typename std::decay_t<decltype(values)>::value_type;
+        grid.fields.push_back({entry.key, unsigned(discrete::n_components<Value>), discrete::flat(values)});
+      });
+      return grid;
+    }
+  } // namespace
+
   namespace arrays
   {
-    namespace
-    {
-      double mean_of(const Eigen::Matrix2d &m)
-      {
-        return 0.5 * m.trace();
-      }
-
-      // t of the symmetric part: half the difference of the principal stresses.
-      double deviator_of(const Eigen::Matrix2d &m)
-      {
-        return 0.5 * std::hypot(m(0, 0) - m(1, 1), m(0, 1) + m(1, 0));
-      }
-
-      template <class Of> std::vector<double> of_each(const std::vector<Eigen::Matrix2d> &stress, Of &&of)
-      {
-        std::vector<double> values;
-        values.reserve(stress.size());
-        for (const Eigen::Matrix2d &m : stress)
-          values.push_back(of(m));
-        return values;
-      }
-    } // namespace
-
     std::vector<double> mean_stress(const std::vector<Eigen::Matrix2d> &stress)
     {
       return of_each(stress, mean_of);
@@ -102,54 +147,6 @@ namespace diptych::coupling
   {
     return {i.displacement_unit, i.duration > 0 ? i.displacement_unit / i.duration : NAN};
   }
-
-  namespace
-  {
-    std::vector<Eigen::Vector2d> moved_cells(const continuum::Snapshot &from, const continuum::Snapshot &to)
-    {
-      return continuum_fields(from, to).displacement_increment;
-    }
-
-    void write_stage(discrete::Hdf5Writer &file,
-                     const std::string    &group,
-                     const StageRecord    &stage,
-                     const Results        &results,
-                     std::size_t           k)
-    {
-      const auto &snapshots = results.discrete.snapshots;
-      list_increment_arrays(stage.increment, snapshots[k], IntoGroup{file, group});
-      list_grain_arrays(stage.increment, snapshots[k - 1], snapshots[k], IntoGroup{file, group});
-      for (const auto &[name, fields] : {std::pair{"/cells", &stage.fields}, std::pair{"/grid", &stage.grid}})
-        {
-          list_mesh_arrays(fields->mesh, IntoGroup{file, group + name});
-          list_cell_arrays(*fields, motion_units(stage.increment), IntoGroup{file, group + name});
-        }
-      list_increment_attributes(stage.increment, IntoGroup{file, group});
-    }
-
-    void write_window(discrete::Hdf5Writer &file, const std::string &group, const Increment &window, const Results &results)
-    {
-      const std::size_t from = snapshot_at(results.discrete.snapshots, window.from).value();
-      const std::size_t to   = snapshot_at(results.discrete.snapshots, window.to).value();
-      list_increment_arrays(window, results.discrete.snapshots[to], IntoGroup{file, group});
-      list_mesh_arrays(window.mesh, IntoGroup{file, group + "/cells"});
-      list_window_cell_arrays(window, moved_cells(results.continuum.snapshots[from], results.continuum.snapshots[to]),
-                              IntoGroup{file, group + "/cells"});
-      list_increment_attributes(window, IntoGroup{file, group});
-    }
-
-    VtuGrid vtu_of(const CellFields &fields, const MotionUnits &unit)
-    {
-      VtuGrid grid{fields.mesh.node, {}, VtkCell::quadrilateral, {}};
-      for (const auto &cell : fields.mesh.cell)
-        grid.cells.insert(grid.cells.end(), cell.begin(), cell.end());
-      list_cell_arrays(fields, unit, [&](const ArrayEntry &entry, const auto &values) {
-        using Value = typename std::decay_t<decltype(values)>::value_type;
-        grid.fields.push_back({entry.key, unsigned(discrete::n_components<Value>), discrete::flat(values)});
-      });
-      return grid;
-    }
-  } // namespace
 
   void write_comparison_h5(const std::string &directory, const ComparisonDocument &document, const Results &results)
   {

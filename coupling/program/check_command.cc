@@ -1,6 +1,6 @@
 // diptych: run SCENE --check: whether a scene can run
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupling/program/check_command.h"
+#include "coupling/program/commands.h"
 
 #include <algorithm>
 

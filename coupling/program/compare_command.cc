@@ -9,6 +9,7 @@
 #include "coupling/comparison/comparison_output.h"
 #include "coupling/processes/progress.h"
 #include "coupling/processes/stop_signal.h"
+#include "coupling/program/commands.h"
 #include "coupling/program/report_command.h"
 #include "coupling/scene/scene_file.h"
 #include "coupling/store/file_names.h"

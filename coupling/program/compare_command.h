@@ -14,6 +14,4 @@ namespace diptych::coupling
   // Compares both panels' results and draws the report if the scene asks for it. Both are written to the folder `next`; then all
   // that it holds is moved to scene.output.directory. Returns an ExitCode.
   int compare_and_report(const CommandLine &line, const Scene &scene, const Results &results, const std::string &next);
-
-  int compare_again(const CommandLine &line); // compare DIR: a result folder or an ensemble
 } // namespace diptych::coupling

@@ -12,6 +12,7 @@
 #include "coupling/panels/interrupted_continuum.h"
 #include "coupling/panels/recorded_continuum.h"
 #include "coupling/panels/processes.h"
+#include "coupling/program/commands.h"
 #include "coupling/program/resource_estimate.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"

@@ -35,6 +35,4 @@ namespace diptych::coupling
 
   // As continuum_panel(), to that folder, with the grains in scene.output.directory. Collective. Returns an ExitCode.
   int continuum_beside_grains(const CommandLine &line, const Scene &scene, const std::string &folder, ContinuumTask task);
-
-  int run_continuum(const CommandLine &line); // continuum SCENE; on all processes together
 } // namespace diptych::coupling

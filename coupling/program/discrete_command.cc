@@ -16,6 +16,7 @@
 #include "coupling/grains/recorded_grains.h"
 #include "coupling/processes/progress.h"
 #include "coupling/processes/stop_signal.h"
+#include "coupling/program/commands.h"
 #include "coupling/program/report_command.h"
 #include "coupling/program/resource_estimate.h"
 #include "coupling/scene/identity.h"

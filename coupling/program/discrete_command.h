@@ -22,6 +22,4 @@ namespace diptych::coupling
   // --resume finds grains, or for imported grains. Throws std::invalid_argument if a wanted solid fraction cannot be reached or a
   // file is wrong, and StoppedOnRequest.
   std::unique_ptr<RecordedGrains> prepared_early(const CommandLine &line, const Scene &scene);
-
-  int run_discrete(const CommandLine &line); // discrete SCENE
 } // namespace diptych::coupling

@@ -1,6 +1,6 @@
 // diptych: export FOLDER: our prepared sample as a start for other codes
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupling/program/export_command.h"
+#include "coupling/program/commands.h"
 
 #include <filesystem>
 

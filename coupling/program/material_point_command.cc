@@ -4,7 +4,7 @@
 #include <iostream>
 #include <sstream>
 
-#include "coupling/program/material_point_command.h"
+#include "coupling/program/commands.h"
 #include "continuum/laws/material_point.h"
 #include "coupling/scene/scene_error.h"
 #include "coupling/store/file_names.h"

@@ -8,11 +8,9 @@
 
 #include "coupling/panels/processes.h"
 #include "coupling/processes/stop_signal.h"
-#include "coupling/program/check_command.h"
+#include "coupling/program/commands.h"
 #include "coupling/program/continuum_command.h"
 #include "coupling/program/discrete_command.h"
-#include "coupling/program/material_point_command.h"
-#include "coupling/program/run_command.h"
 #include "coupling/program/worker_command.h"
 #include "coupling/scene/scene_error.h"
 

@@ -8,6 +8,7 @@
 #include "coupling/processes/child_process.h"
 #include "coupling/processes/progress.h"
 #include "coupling/processes/stop_signal.h"
+#include "coupling/program/commands.h"
 #include "coupling/scene/scene_error.h"
 #include "coupling/store/file_names.h"
 #include "coupling/store/provenance.h"

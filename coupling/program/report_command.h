@@ -22,6 +22,4 @@ namespace diptych::coupling
   // Draws the results of a folder, in a child process. Files in the folder `next`, if given, take the place of older ones, and
   // the page is written there. Throws std::runtime_error if it fails.
   void draw(Drawing drawing, const std::string &directory, const std::string &next = "");
-
-  int report_again(const CommandLine &line); // report DIR: comparison, ensemble or study
 } // namespace diptych::coupling

@@ -1,6 +1,6 @@
 // diptych: run SCENE: both panels, homogenisation, comparison, report
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupling/program/run_command.h"
+#include "coupling/program/commands.h"
 
 #include <iostream>
 #include <stdexcept>

@@ -1,9 +1,9 @@
 // diptych: one stored contact problem, solved and measured
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupling/program/solve_command.h"
+#include "coupling/program/commands.h"
 
-#include <filesystem>
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <sstream>
 #include <stdexcept>

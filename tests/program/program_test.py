@@ -281,7 +281,7 @@ class WrongInput(unittest.TestCase):
 
     def test_words_of_the_command_line(self):
         self.expect_wrong(["run"], "SCENE is required")
-        self.expect_wrong(["rnu", QUICK], "'rnu' is no command", "'run'")
+        self.expect_wrong(["rnu", QUICK], "'rnu' is not a command", "'run'")
         self.expect_wrong(["run", QUICK, "--outptu", "x"], "'--outptu x' is not used", "nearest option is '--output'")
         self.expect_wrong(["run", QUICK, "--outptu=x"], "'--outptu=x' is not used", "nearest option is '--output'")
         self.expect_wrong(["run", QUICK, "--seed", "3"], "nearest option is '--seeds'")

@@ -199,7 +199,7 @@ class OtherFolders(unittest.TestCase):
         for loading_variable, label, averaging in (("shear_strain", "shear strain (%)", "mean over the last 0.5 % of shear strain"),
                                        ("time", ">time<", "mean over the last 0.005 of time")):
             write_folder(self.folder.name)
-            write_json(self.folder.name, "comparison.json", dict(report_folder.comparison_of_two_stages(), loading_variable=loading_variable))
+            write_json(self.folder.name, "comparison.json", dict(report_folder.comparison_of_two_stages(), walk=loading_variable))
             outcome = run(self.folder.name)
             self.assertEqual((outcome.returncode, outcome.stderr), (0, ""))
             text = read(self.folder.name)

@@ -125,10 +125,10 @@ namespace
 
   TEST(Scene, WhatIsNoTextIsRefusedWithItsLine)
   {
-    expect_words(error_of("subsection output\n  set directory = m\xfc\nend\n"), {".prm", "line 2", "byte 252", "UTF-8"});
-    expect_words(error_of(std::string("# one\n\n\0", 8)), {".prm", "line 3", "byte 0"});
+    expect_words(error_of("subsection output\n  set directory = m\xfc\nend\n"), {".prm", "line 2", "byte of value 252", "UTF-8"});
+    expect_words(error_of(std::string("# one\n\n\0", 8)), {".prm", "line 3", "byte of value 0"});
     expect_words(error_of("{\"sample\":\n {\"seed\": \"\xed\xa0\x80\"}}", {}, ".json"),
-                 {".json", "line 2", "byte 237"}); // a surrogate
+                 {".json", "line 2", "byte of value 237"}); // a surrogate
     EXPECT_EQ(error_of("# \xc3\xa4 \xe2\x82\xac \xf0\x9f\x98\x80\n"), "");
     EXPECT_EQ(error_of("\xef\xbb\xbfsubsection sample\r\n  set seed = 2\r\nend\r\n"), ""); // of an editor on Windows
     expect_words(error_of(std::string(17 << 20, ' ')), {".prm", "longer than"});

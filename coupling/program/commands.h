@@ -1,0 +1,27 @@
+// diptych: the commands
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "coupling/program/command_line.h"
+
+namespace diptych::coupling
+{
+  // Each returns an ExitCode. Wrong input is thrown as std::invalid_argument, a system failure as std::runtime_error.
+
+  int run_both(const CommandLine &line);      // run SCENE: both panels, comparison, report
+  int run_discrete(const CommandLine &line);  // discrete SCENE
+  int run_continuum(const CommandLine &line); // continuum SCENE; on all processes together
+  int compare_again(const CommandLine &line); // compare DIR: a result folder or an ensemble
+  int report_again(const CommandLine &line);  // report DIR: comparison, ensemble, study or calibration
+  int export_sample(const CommandLine &line); // export DIR
+
+  int run_material_point(const CommandLine &line); // material-point SCENE: writes material_point.csv
+
+  // run SCENE --check: checks the scene and its first sample and prints the resources of all samples (--seeds), as before an
+  // ensemble. With --resume the sample is not prepared.
+  int check_run(const CommandLine &line);
+
+  // solve PROBLEM.h5: solves a problem in the layout of FCLIB from r = 0 to line.tolerance (natural map relative to |r|). Prints
+  // the cost, one `name: value` per line. With --output it writes the problem and the reached solution, converged or not.
+  int solve_stored_problem(const CommandLine &line);
+} // namespace diptych::coupling
