@@ -1,7 +1,8 @@
-// diptych: differences between the strongest bands of the two panels
+// diptych: differences between the bands of the two panels
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/comparison/band_difference.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "coupling/cells/principal_axes.h"
@@ -19,9 +20,13 @@ namespace diptych::coupling
     const std::vector<Band> &grains = increment.discrete.band.bands, &nodes = increment.continuum.band.bands;
     if (grains.empty() || nodes.empty())
       return {};
-    const BandIntervals &a = grains[0].interval, &b = nodes[0].interval;
-    const Interval       turn = difference_of(a.angle_deg, b.angle_deg);
-    const double         line = line_turn(turn.value, 0) - turn.value; // whole half turns
+    const auto          turn_to = [&](const Band &band) { return std::abs(line_turn(band.angle_deg, grains[0].angle_deg)); };
+    const auto          nearer  = [&](const Band &one, const Band &other) { return turn_to(one) < turn_to(other); };
+    const bool          folds   = increment.is_mirror_symmetric;
+    const BandIntervals a       = (folds ? folded(grains[0]) : grains[0]).interval;
+    const BandIntervals b       = (folds ? folded(nodes[0]) : *std::min_element(nodes.begin(), nodes.end(), nearer)).interval;
+    const Interval      turn    = difference_of(a.angle_deg, b.angle_deg);
+    const double        line    = line_turn(turn.value, 0) - turn.value; // whole half turns
     return {{turn.value + line, turn.low + line, turn.high + line},
             difference_of(a.half_width, b.half_width),
             difference_of(a.width_10_90, b.width_10_90),

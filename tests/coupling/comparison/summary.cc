@@ -79,6 +79,8 @@ namespace
   {
     Increment increment;
     Band      a, b;
+    a.angle_deg          = grains_angle.value;
+    b.angle_deg          = nodes_angle.value;
     a.interval.angle_deg = grains_angle, b.interval.angle_deg = nodes_angle;
     a.interval.half_width = {4, 3, 6}, b.interval.half_width = {5, 4.5, 6};
     increment.discrete.band.bands = {a}, increment.continuum.band.bands = {b};
@@ -100,6 +102,22 @@ namespace
     EXPECT_NEAR(d.angle_deg.value, 2, 1e-12);
     EXPECT_NEAR(d.angle_deg.low, 2 - std::sqrt(2.), 1e-12);
     EXPECT_NEAR(d.angle_deg.high, 2 + std::sqrt(2.), 1e-12);
+  }
+
+  // Two equally strong bands cross; chance makes one of them the stronger in each panel.
+  TEST(Summary, MirrorImagesOfABandAreNotSubtracted)
+  {
+    Increment increment      = with_bands({-57, -58, -56}, {55, 55, 55});
+    Band      other          = increment.continuum.band.bands[0];
+    other.angle_deg          = -55.5;
+    other.interval.angle_deg = {-55.5, -55.5, -55.5};
+    increment.continuum.band.bands.push_back(other);
+    EXPECT_NEAR(band_difference(increment).angle_deg.value, 1.5, 1e-12) << "the nearest band";
+    increment.is_mirror_symmetric = true;
+    const BandDifference d        = band_difference(increment);
+    EXPECT_NEAR(d.angle_deg.value, -2, 1e-12) << "the strongest bands, mirrored";
+    EXPECT_NEAR(d.angle_deg.low, -3, 1e-12);
+    EXPECT_NEAR(d.half_width.value, 1, 1e-12);
   }
 
   TEST(Summary, WithoutABandThereIsNoDifference)
