@@ -14,6 +14,12 @@ namespace diptych::coupling
   // stronger: there, the strongest band of each panel is compared, mirrored to a positive angle. Otherwise it is the grains'
   // strongest band and the continuum's band with the nearest angle. Angles are rotations of lines, anticlockwise. Lengths
   // [length]. NaN if a panel has no band.
+  struct ComparedBands
+  {
+    BandIntervals grains, continuum; // NaN without a band
+  };
+  ComparedBands compared_bands(const Increment &increment);
+
   struct BandDifference
   {
     Interval angle_deg, half_width, width_10_90, offset, jump, dilation_deg;
