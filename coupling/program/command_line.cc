@@ -243,7 +243,7 @@ namespace diptych::coupling
         CLI::App *in = add(Command::import_sample, "check a sample of another code and store it like results of the grains");
         in->add_option("FORMAT", line.target, "code that wrote the files, or a Python file that registers your own reader")
           ->required()
-          ->check(CLI::IsMember({"lammps", "liggghts", "yade", "lmgc90", "mercurydpm", "csv"}) | CLI::ExistingFile);
+          ->check(format_or_file);
         in->add_option("FILES", ignored_words, "files of grains, contacts and walls, in any order")->required();
         in->add_option("--output", line.output, "folder of the imported sample")->check(is_filled)->type_name("DIR")->required();
         in->add_option("--columns", ignored_words,
