@@ -206,6 +206,8 @@ namespace
     const std::string all = explain("");
     expect_words(all, {"sample", "grains", "loading", "inertial_number", "discrete", "tolerance", "continuum",
                        "friction_angle_peak", "comparison", "window_edges", "output", "directory"});
+    EXPECT_EQ(explain("platen_friction").find("discrete\n  platen_friction = "), 0);
+    EXPECT_EQ(explain("discrete/friction").find("discrete\n  friction = "), 0);
     EXPECT_THROW(explain("sampel"), SceneError);
   }
 
