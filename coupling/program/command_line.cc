@@ -174,7 +174,7 @@ namespace diptych::coupling
                        "quantities, separated by commas: peak_stress_ratio, strength (both by default), final_volumetric_strain, "
                        "width_10_90, angle, or a number of comparison.json; for one panel, put discrete. or continuum. before it")
           ->type_name("NAMES");
-        plan->add_flag("--run", ignored_flag, "run the planned samples, too");
+        plan->add_flag("--run", "run the planned samples, too");
         add_resume(plan, "keep finished runs, compute the others");
         add_overwrite(plan);
         add_quiet(plan);
@@ -217,9 +217,7 @@ namespace diptych::coupling
         solve->add_option("--output", line.output, "file for the problem with its solution")->check(is_filled)->type_name("FILE");
         add_choice<discrete::ContactSolver>(solve, "--solver", "psor (default): over-relaxed; nsgs: plain Gauss-Seidel",
                                             [this](const auto chosen) { line.solve.solver = chosen; });
-        solve
-          ->add_option("--tolerance", line.solve.tolerance,
-                       "largest allowed residual: natural map relative to |r| (default: 1e-8)")
+        solve->add_option("--tolerance", line.solve.tolerance, "largest residual: natural map relative to |r| (default: 1e-8)")
           ->check(in_range(1e-300, 0.999999));
         solve->add_option("--max-sweeps", line.solve.max_sweeps, "largest number of sweeps (default: 1000000)")
           ->check(in_range(1, 2147483647));
@@ -270,9 +268,7 @@ namespace diptych::coupling
 
         CLI::App *out = add(Command::export_sample, "write a sample of a result folder as a start for another code");
         out->add_option("FOLDER", line.target, "result folder")->required();
-        out->add_option("--format", line.exported.format, "code that will read the files")
-          ->required()
-          ->check(one_of({"lammps", "csv"}));
+        out->add_option("--format", line.exported.format, "code that reads them")->required()->check(one_of({"lammps", "csv"}));
         add_output(out, "folder of the exported files (default: FOLDER_for_FORMAT)");
         out->add_option("--stage", line.exported.stage, "number of the snapshot (default: 0, the prepared sample)")
           ->check(in_range(0, 1000000));
@@ -295,7 +291,6 @@ namespace diptych::coupling
       CommandLine                  &line;
       CLI::App                      app;
       std::string                   ignored; // options that Python parses again
-      bool                          ignored_flag = false;
       std::vector<std::string>      ignored_words;
       double                        ignored_number = 0;
       std::map<CLI::App *, Command> by_parser;
