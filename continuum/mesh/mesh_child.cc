@@ -125,10 +125,11 @@ namespace diptych::continuum
       }
     };
 
-    QuadMesh mesh_of(const std::string &bytes, const int status)
+    QuadMesh mesh_of(const std::string &bytes, const int status, const unsigned int most_cpu_seconds)
     {
       if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
-        throw GmshEnded("gmsh was ended: it took more time or memory than it may");
+        throw GmshEnded("gmsh was ended: it needed more than " + std::to_string(most_cpu_seconds) +
+                        " s of CPU time, three times as long by the clock, or more memory than there is");
       if (WIFSIGNALED(status))
         throw GmshEnded("gmsh was ended by signal " + std::to_string(WTERMSIG(status)));
       if (bytes.empty())
@@ -172,6 +173,6 @@ namespace diptych::continuum
         open            = n > 0 || (n < 0 && errno == EINTR);
         bytes.append(piece, 0, n > 0 ? std::size_t(n) : 0);
       }
-    return mesh_of(bytes, child.status());
+    return mesh_of(bytes, child.status(), most_cpu_seconds);
   }
 } // namespace diptych::continuum

@@ -16,8 +16,8 @@ namespace diptych::continuum
     using std::runtime_error::runtime_error;
   };
 
-  // Calls `make` in a child process (fork) with empty input and dropped output, and returns its mesh. Throws
-  // std::invalid_argument of `make` again as such, its other exceptions as std::runtime_error. `most_cpu_seconds` limits the
+  // Calls `make` in a child process (fork) with empty input and dropped output, and returns its mesh. Rethrows
+  // std::invalid_argument from `make`; other exceptions become std::runtime_error. `most_cpu_seconds` limits the
   // CPU time of the child, and three times as many seconds its wall time; 0 sets no limit. Throws GmshEnded if the child
   // crashed, exited or exceeded a limit. Calls `check_stop` every 50 ms; if that throws, the child is killed and the exception
   // passes on.

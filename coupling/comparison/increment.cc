@@ -43,6 +43,18 @@ namespace diptych::coupling
         angle += 180;
       return strip_means(field, increment.frame, angle, strip_edges(increment.frame, angle, offset));
     }
+
+    // A mesh of a few elements has too few points.
+    BandReport bands_of(const DisplacementField &field, const SampleFrame &frame, const BandOptions &options, std::uint64_t seed)
+    {
+      const auto n = std::count_if(field.weight.begin(), field.weight.end(), [](const double w) { return w > 0; });
+      if (n >= fewest_band_points)
+        return find_bands(field, frame, options, seed);
+      BandReport report;
+      report.verdict = "no band is sought: " + std::to_string(n) + " points, and at least " + std::to_string(fewest_band_points) +
+                       " are needed";
+      return report;
+    }
   } // namespace
 
   SampleFrame sample_frame(const discrete::Snapshot &from, const discrete::Snapshot &to)
@@ -80,7 +92,7 @@ namespace diptych::coupling
     const std::vector<Eigen::Vector2d> centres = cell_centres(result.mesh);
     for (PanelIncrement *panel : {&result.discrete, &result.continuum})
       {
-        panel->band       = find_bands(panel->field, result.frame, options, seed);
+        panel->band       = bands_of(panel->field, result.frame, options, seed);
         panel->cell_shear = shear_strain_increment(panel->field, centres, radius);
       }
     for (PanelIncrement *panel : {&result.discrete, &result.continuum})
@@ -107,7 +119,7 @@ namespace diptych::coupling
   {
     PanelIncrement panel;
     panel.field = displacement_field(from, to);
-    panel.band  = find_bands(panel.field, frame, options, seed);
+    panel.band  = bands_of(panel.field, frame, options, seed);
     return panel;
   }
 } // namespace diptych::coupling

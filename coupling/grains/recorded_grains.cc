@@ -118,9 +118,9 @@ namespace diptych::coupling
     const double            rate    = discrete::strain_rate(loading, scene.sample.mean_diameter, scene.sample.density);
     const double            steps   = std::ceil(loading.stages.back() / rate / report.step);
     std::ostringstream      text;
-    text << "loading: about " << steps << " steps of " << report.step << " to " << n_stages() << " stages";
+    text << "loading: about " << steps << " steps of length " << report.step << " for " << n_stages() << " stages";
     if (const int prepared = report.preparation.steps; prepared > 0)
-      text << "; at the pace of the preparation " << duration_text(steps * report.preparation_cpu_s / prepared);
+      text << "; estimated time " << duration_text(steps * report.preparation_cpu_s / prepared);
     say(options, text.str());
   }
 

@@ -89,6 +89,9 @@ namespace diptych::coupling
       for (const std::string &text : line.overrides)
         if (text.rfind("comparison/", 0) != 0 && text.rfind("output/", 0) != 0)
           throw SceneError("--set " + text + ": only comparison/ and output/ can be changed without running the panels again");
+        else if (text.rfind("comparison/coarse_element_size=", 0) == 0)
+          throw SceneError("--set " + text +
+                           ": the continuum on the coarse mesh must be computed again; use diptych run --resume");
         else if (text.rfind("output/directory=", 0) == 0)
           throw SceneError("--set " + text + ": a comparison is written into its own result folder");
       Scene scene            = read_computed_scene(scene_prm(line.target), line.overrides);

@@ -216,7 +216,7 @@ namespace diptych::coupling
     if (changes.continuum.empty() || !std::filesystem::exists(continuum_h5(directory)))
       return directory;
     say(line, "the continuum in " + directory + " belongs to other keys (" + changes.continuum +
-                "): it is computed again and replaced");
+                "): it is computed again; the new one then replaces it");
     return next_continuum(directory);
   }
 

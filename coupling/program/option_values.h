@@ -45,6 +45,16 @@ namespace diptych::coupling
     });
   }
 
+  // A format of the importers, or a Python file with a reader.
+  inline std::string format_or_file(const std::string &text)
+  {
+    const std::vector<std::string> names   = {"lammps", "liggghts", "yade", "lmgc90", "mercurydpm", "csv"};
+    const bool                     is_good = std::count(names.begin(), names.end(), text) > 0 || CLI::ExistingFile(text).empty();
+    return is_good ? ""
+                   : "'" + text + "' is neither a format (" + discrete::listed(names) + "; the nearest is '" +
+                       discrete::nearest_name(text, names) + "') nor a Python file";
+  }
+
   // The choices of an option, separated by spaces; empty if it has none. CLI11 describes them as TEXT:{a,b}.
   inline std::string values_of(const CLI::Option &option)
   {

@@ -196,8 +196,8 @@ namespace diptych::coupling
     std::error_code      unknown;
     const fs::space_info disk = fs::space(standing(scene.output.directory), unknown);
     if (!unknown && estimate.disk > double(disk.available))
-      throw std::runtime_error(asked + "which take about " + bytes(estimate.disk) + " of disk; " + scene.output.directory +
-                               " has " + bytes(double(disk.available)) + keys);
+      throw std::runtime_error(asked + "which take about " + bytes(estimate.disk) + " of disk; the disk of " +
+                               scene.output.directory + " has " + bytes(double(disk.available)) + " free" + keys);
   }
 
   void announce_resources(const CommandLine &line, const Scene &scene, const RunParts &parts)

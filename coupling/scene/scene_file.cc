@@ -57,9 +57,12 @@ namespace diptych::coupling
 
     [[noreturn]] void refuse_value(const Entry &entry)
     {
+      const bool has_comma = entry.value.find(',') != std::string::npos;
       for (const KeyDescription &key : describe(entry.section))
         if (key.name == entry.key)
-          throw SceneError({entry.place, entry.name(), entry.value, key.allowed + " [" + key.unit + "]", ""}, "is not allowed");
+          throw SceneError({entry.place, entry.name(), entry.value, key.allowed + " [" + key.unit + "]",
+                            has_comma ? "decimals have a point, and only lists have commas" : ""},
+                           "is not allowed");
       refuse_key(entry);
     }
 
@@ -133,6 +136,20 @@ namespace diptych::coupling
       return changes;
     }
 
+    // Keys whose section/name contains a word of at least three letters.
+    std::vector<KeyDescription> keys_like(const std::string &word)
+    {
+      std::vector<KeyDescription> keys = describe("");
+      keys.erase(std::remove_if(keys.begin(), keys.end(),
+                                [&](const KeyDescription &key) {
+                                  const std::string &text = word.find('/') == std::string::npos ? key.name
+                                                                                                : key.section + "/" + key.name;
+                                  return word.size() < 3 || text.find(word) == std::string::npos;
+                                }),
+                 keys.end());
+      return keys;
+    }
+
     // `check`: check_scene() or part of it.
     template <class Check> Scene checked_scene(const std::string &file, const std::vector<Entry> &entries, const Check &check)
     {
@@ -154,9 +171,8 @@ namespace diptych::coupling
   std::string keys_with(const std::string &word)
   {
     std::vector<std::string> names;
-    for (const KeyDescription &key : word.size() < 3 ? std::vector<KeyDescription>() : describe(""))
-      if (key.name.find(word) != std::string::npos)
-        names.insert(key.name == word ? names.begin() : names.end(), key.section + "/" + key.name);
+    for (const KeyDescription &key : keys_like(word))
+      names.insert(key.name == word ? names.begin() : names.end(), key.section + "/" + key.name);
     return names.empty() ? "" : "keys with '" + word + "': " + discrete::listed(names);
   }
 
@@ -260,15 +276,18 @@ namespace diptych::coupling
 
   std::string explain(const std::string &section)
   {
-    std::vector<std::string> known = section_names();
+    std::vector<std::string>    known = section_names();
+    std::vector<KeyDescription> keys  = describe(section);
     if (!section.empty() && std::find(known.begin(), known.end(), section) == known.end())
       {
+        keys = keys_like(section);
         known.push_back("results"); // the command explains this word
-        refuse_section({}, section, known);
+        if (keys.empty())
+          refuse_section({}, section, known);
       }
     std::ostringstream out;
     std::string        current;
-    for (const KeyDescription &key : describe(section))
+    for (const KeyDescription &key : keys)
       {
         if (key.section != current)
           out << (current.empty() ? "" : "\n") << key.section << '\n';

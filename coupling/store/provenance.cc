@@ -233,6 +233,14 @@ namespace diptych::coupling
     write_record(directory, record);
   }
 
+  void check_scene_file(const std::string &directory)
+  {
+    const std::string recorded = read_run_facts(directory).hashes.text, file = scene_prm(directory);
+    if (!recorded.empty() && sum_over(file) != recorded)
+      throw std::invalid_argument(file + " was changed after the run had written it (checksum in provenance.json); keys of " +
+                                  "comparison/ are changed with diptych compare --set");
+  }
+
   void check_files(const std::string &directory, const std::string &part)
   {
     const json record = read_record(directory);
@@ -251,6 +259,7 @@ namespace diptych::coupling
     };
     if (!part.empty())
       return check_part(part);
+    check_scene_file(directory);
     for (const char *one : panel_parts)
       check_part(one);
   }
@@ -306,10 +315,11 @@ namespace diptych::coupling
       if (earlier.contains(entry))
         record[entry] = earlier[entry];
     record["phases"] = json::array();
-    for (const json *phases : {&earlier.at("phases"), &added.at("phases")})
-      for (const json &phase : *phases)
-        if (phases == &added.at("phases") || phase.value("name", "") != report_phase)
-          put_phase(record, phase);
+    for (const json &phase : earlier.value("phases", json::array()))
+      if (phase.value("name", "") != report_phase)
+        put_phase(record, phase);
+    for (const json &phase : added.at("phases"))
+      put_phase(record, phase);
     write_record(next, record);
   }
 

@@ -46,15 +46,13 @@ namespace diptych::coupling
   // Checksum of a file's bytes (FNV-1a, 64 bits, hexadecimal); empty if there is no file.
   std::string sum_over(const std::string &file);
 
-  // Records the checksums of a part's files. The files of "comparison" are comparison.json and comparison.h5; "ensemble"
-  // likewise.
+  // Records the checksums of a part's files. The files of "comparison" and "ensemble" are a .json and a .h5 file.
   void record_files(const std::string &directory, const std::string &part);
 
   // Records the scene of the folder's results and its hashes, which later commands compare.
   void record_scene(const std::string &directory, const RunOrigin &origin, const SceneHashes &hashes);
 
-  // Adds to the record of the folder `next` what the record of `directory` says of parts that `next` does not hold. The
-  // comparison and the report of `directory` are not among them.
+  // Copies the facts of the parts that the folder `next` lacks from the record of `directory`, except comparison and report.
   void complete_record(const std::string &directory, const std::string &next);
 
   // Writes the record of the folder `from` to the folder `to`.
@@ -66,8 +64,11 @@ namespace diptych::coupling
   void forget_fact(const std::string &directory, const std::string &part);
   void forget_files(const std::string &directory, const std::string &part);
 
+  // Throws std::invalid_argument if scene.prm has changed since a run wrote it.
+  void check_scene_file(const std::string &directory);
+
   // Throws std::invalid_argument with the name of a file that is missing or has changed since its checksum was recorded. An empty
-  // `part` checks both panels.
+  // `part` checks scene.prm and both panels.
   void check_files(const std::string &directory, const std::string &part = "");
 
   // Facts that are not recorded keep their defaults. Throws std::invalid_argument if provenance.json does not describe a run.

@@ -158,9 +158,13 @@ namespace diptych::coupling
     usable.resume            = opening.resume || opening.adds;
     const bool keeps_results = !is_empty && !opening.overwrite && is_result_folder(directory);
     // require_usable() advises --resume, which another sample does not allow.
-    if (const std::string change = keeps_results ? changes().sample : ""; !change.empty())
-      throw SceneError("'" + directory + "' holds results of another sample. Different is " + change +
+    const SceneChanges before = keeps_results ? this->changes() : SceneChanges();
+    if (!before.sample.empty())
+      throw SceneError("'" + directory + "' holds results of another sample. Different is " + before.sample +
                        ". Use --output with another folder, or --overwrite.");
+    if (!usable.resume && !before.continuum.empty())
+      throw SceneError("'" + directory + "' holds results with another continuum. Different is " + before.continuum +
+                       ". Add --resume to replace the continuum, --overwrite, or --output with another folder.");
     require_usable(directory, usable);
     SceneChanges changes;
     if (keeps_results)
@@ -203,14 +207,6 @@ namespace diptych::coupling
     check_files(directory);
     check_files(directory, "comparison");
     return true;
-  }
-
-  void check_scene_file(const std::string &directory)
-  {
-    const std::string recorded = read_run_facts(directory).hashes.text, file = scene_prm(directory);
-    if (!recorded.empty() && sum_over(file) != recorded)
-      throw std::invalid_argument(file + " was changed after the run had written it (checksum in provenance.json). Keys of " +
-                                  "comparison/ are changed with --set.");
   }
 
   std::string next_continuum(const std::string &directory)

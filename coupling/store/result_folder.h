@@ -90,15 +90,12 @@ namespace diptych::coupling
     const std::string &directory;
   };
 
-  // Throws std::invalid_argument if scene.prm was changed after a run had written it.
-  void check_scene_file(const std::string &directory);
-
   // Folders in which new results are computed beside earlier ones: DIRECTORY/next for a continuum with its comparison,
   // DIRECTORY/next_comparison for a comparison alone. Each has a separate scene.prm and provenance.json.
   std::string next_continuum(const std::string &directory);
   std::string next_comparison(const std::string &directory);
 
-  // Moves all results from one of these folders to their place. Removes a comparison or a report that they make untrue.
+  // Moves all results from one of these folders to their place. Removes a comparison or a report that they outdate.
   void take(const std::string &directory, const std::string &next);
 
   // Completes a move that a killed run has left half done. Does nothing if there is none.

@@ -86,7 +86,7 @@ namespace
 
   using Sources = std::map<std::string, std::vector<std::string>>;
 
-  // What stands in rooms among all that `file` includes, headers beside the rooms followed further.
+  // Rooms that `file` includes, directly or through headers beside the rooms.
   void reach_rooms(const Sources &all, const std::string &file, std::set<std::string> &followed, std::set<std::string> &reached)
   {
     const auto found = all.find(file);
@@ -135,7 +135,7 @@ namespace
       for (const std::string &include : includes)
         if (folder_of(include) == folder && unit(include) != unit(file))
           arrows[unit(file)].insert(unit(include));
-    // Units without arrows to units that are left are taken away; what stays stands in or above a circle.
+    // Units without arrows to remaining units are removed. Those that remain are part of a circle or depend on one.
     bool changed = true;
     while (changed)
       {

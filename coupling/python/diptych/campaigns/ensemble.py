@@ -85,9 +85,8 @@ def _text_of(verdict: dict[str, Any]) -> str:
     scale = 100 if verdict["relative"] else 1
     unit = " % of the grains' mean" if verdict["relative"] else "" if verdict["unit"] == "-" else f" {verdict['unit']}"
     e = verdict["difference"]
-    found = (f": continuum - grains {scale * e.value:.3g} [{scale * e.low:.3g}, {scale * e.high:.3g}]{unit}, margin "
-             f"{scale * verdict['margin']:.3g}") if verdict["n"] else ""
-    return f"{verdict['quantity']}: {verdict['verdict']}{found}, {verdict['n']} pairs"
+    return (f"{verdict['quantity']}: {verdict['verdict']}: continuum - grains {scale * e.value:.3g} [{scale * e.low:.3g}, "
+            f"{scale * e.high:.3g}]{unit}, margin {scale * verdict['margin']:.3g}, {verdict['n']} pairs")
 
 
 def with_means(members: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -153,7 +152,8 @@ def _write(scene: Any, record: dict[str, Any], options: Options, phase: tuple[st
     _diptych.record_phase(directory, (scene.name, record["seeds"], shlex.join(["diptych", *options.words])), cost)
     _diptych.record_files(directory, "ensemble")
     for verdict in record["verdicts"]:
-        say(options, _text_of(verdict))
+        if verdict["n"]:
+            say(options, _text_of(verdict))
 
 
 def _member_scene(scene: Any, seed: int) -> Any:
@@ -203,6 +203,14 @@ def _finished(scene: Any, seeds: Sequence[int], options: Options) -> list[int]:
     return finished
 
 
+def _holds_finished(scene: Any, seeds: Sequence[int]) -> bool:
+    """True if the folder holds the finished ensemble of this scene and these seeds."""
+    earlier, record = _diptych.resolved_scene(os.path.join(scene.directory, "ensemble.prm")), os.path.join(scene.directory, "ensemble.json")
+    return (earlier is not None and earlier.identity("member") == scene.identity("member") and os.path.exists(record)
+            and read_json(record)["done"] == list(seeds)
+            and all(_diptych.holds_finished_run(_member_scene(scene, seed)) for seed in seeds))
+
+
 def run_ensemble(line: argparse.Namespace, options: Options) -> int:
     """diptych run SCENE --seeds LIST. line: target, seeds, output, set, set_file. Returns the exit code."""
     scene_file, seeds = line.target, read_seeds(line.seeds)
@@ -211,6 +219,9 @@ def run_ensemble(line: argparse.Namespace, options: Options) -> int:
     scene = read.in_folder(directory, read.name, read.dict()["sample"]["seed"])
     words = [word for option, values in (("--set-file", line.set_file), ("--set", line.set)) for value in values
              for word in (option, value)]
+    if not options.resume and not options.overwrite and _holds_finished(scene, seeds):
+        say(options, f"{directory} holds the finished ensemble of this scene; --overwrite runs it again")
+        return 0
     if os.path.isdir(directory):
         _diptych.require_usable(directory, options.resume, options.overwrite)
     flags = ["--resume"] * options.resume + ["--quiet"] * options.quiet

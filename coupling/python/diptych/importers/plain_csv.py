@@ -32,7 +32,7 @@ def _add_contacts(table: Table, frame: Frame, options: Options) -> None:
 def _frame(number: int, grains: Table, contacts: Table | None, options: Options) -> Frame:
     if contacts is not None and not grains.has("id"):
         raise refused(grains.path, f"has no column id, but {contacts.path} refers to grains by id")
-    frame = Frame(str(number), grains_of(grains, options), step=number, grain_file=grains.path)
+    frame = Frame(str(number) if number >= 0 else "of this file", grains_of(grains, options), step=number, grain_file=grains.path)
     if grains.has("time") and grains.rows:
         frame.time = float(grains.numbers("time")[0])
     if contacts is not None:
