@@ -61,6 +61,28 @@ def content(path):
         return file.read()
 
 
+def contents(folder):
+    return {name: content(os.path.join(folder, name)) for name in listing(folder)}
+
+
+def half_files(folder):
+    return [name for name in listing(folder) if name.endswith(".part")]
+
+
+def finished(*words):
+    """What a run printed that must end with code 0; for setUpClass."""
+    result = diptych(*words)
+    if result.returncode != 0:
+        raise RuntimeError(result.stdout + result.stderr)
+    return result
+
+
+def temporary(owner):
+    """A folder as long as a test or a class of tests runs."""
+    enter = owner.enterClassContext if isinstance(owner, type) else owner.enterContext
+    return enter(tempfile.TemporaryDirectory())
+
+
 def read_json(*names):
     with open(os.path.join(*names), encoding="utf-8") as file:
         return json.load(file)
@@ -70,7 +92,7 @@ class Folder(unittest.TestCase):
     """A test with a folder `work` for its files, and a path `folder` in it for results."""
 
     def setUp(self):
-        self.work = self.enterContext(tempfile.TemporaryDirectory())
+        self.work = temporary(self)
         self.folder = os.path.join(self.work, "out")
 
     def path(self, *names):
