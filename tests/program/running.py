@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """For tests called as NAME_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
 
-import csv
 import ctypes
 import json
 import os
@@ -100,10 +99,9 @@ class Folder(unittest.TestCase):
 
 
 def history(folder, name="discrete.csv"):
-    """Columns of a panel's table: numbers, and `walk` as text."""
-    with open(os.path.join(folder, name)) as file:
-        rows = list(csv.DictReader(file))
-    return {name: numpy.array([row[name] if name == "walk" else float(row[name]) for row in rows]) for name in rows[0]}
+    """Columns of a table: numbers, or texts."""
+    rows = numpy.genfromtxt(os.path.join(folder, name), delimiter=",", names=True, dtype=None, encoding="utf-8")
+    return {column: numpy.atleast_1d(rows[column]) for column in rows.dtype.names}
 
 
 def facts(folder):
