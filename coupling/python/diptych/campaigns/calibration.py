@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import re
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from typing import Any
@@ -42,7 +44,7 @@ def empty_record(title: str) -> dict[str, Any]:
     """calibration.json before the search."""
     return {"format": 1, "title": title, "status": "started", "settings": [], "own": [], "chi2_before": np.nan,
             "chi2_coarse": np.nan, "chi2": np.nan, "misfit": np.nan, "n_observables": 0, "coarse_runs": 0, "fine_runs": 0,
-            "other_runs": 0, "noise": {}, "words": [], "parameters": [], "correlation": [], "minima": [], "paths": []}
+            "failed_runs": 0, "other_runs": 0, "noise": {}, "words": [], "parameters": [], "correlation": [], "minima": [], "paths": []}
 
 
 class Calibrator:
@@ -60,6 +62,7 @@ class Calibrator:
         if record["n_observables"] == 0:
             raise NotConverged("no observable is left to fit; check targets, quantities and bins")
         self.best = (np.inf, False)  # chi^2 with the prior, on the samples' own mesh
+        self.failures: list[str] = []  # of coarse and fine runs
 
     def _settings(self, point: Array, target: str) -> list[Setting]:
         return [*self.calibration.fixed, *self.coordinates.settings(point, target)]
@@ -67,7 +70,18 @@ class Calibrator:
     def _runs(self, points: Sequence[Array], paths: Sequence[Path], fine: bool, count: str) -> list[list[Observation]]:
         self.record[count] += len(points) * len(paths)
         settings = [[self._settings(point, path.target.name) for path in paths] for point in points]
-        return self.run(paths, settings, fine, self.calibration.load_step)
+        found = self.run(paths, settings, fine, self.calibration.load_step)
+        if count != "other_runs":
+            self.failures += [one.failure for runs in found for one in runs if one.failure]
+            self.record["failed_runs"] = len(self.failures)
+        return found
+
+    def _failure_words(self) -> list[str]:
+        """Empty without failures. Reasons that differ in their numbers only count as one."""
+        kinds = [re.sub(r"\d[\d.e+-]*", "", failure) for failure in self.failures]
+        n = self.record["coarse_runs"] + self.record["fine_runs"]
+        return [f"{len(kinds)} of {n} coarse and fine runs were refused or did not finish; most often ({count} times): "
+                f"{self.failures[kinds.index(kind)]}" for kind, count in Counter(kinds).most_common(1)]
 
     def _keep(self, point: Array) -> None:
         """Records the settings that all targets share, and the values of single targets."""
@@ -99,11 +113,12 @@ class Calibrator:
         coarse = self._fit_coarse()
         fine = least_squares(self._residuals(True), coarse.point, 1, coarse.jacobian)
         if not np.isfinite(fine.chi2):
-            raise NotConverged("the continuum did not finish on the samples' own mesh: " + fine.note)
+            raise NotConverged("; ".join(["the continuum did not finish on the samples' own mesh", *self._failure_words()]))
         self.record["chi2"] = self._chi2(fine.residual)
         self._keep(fine.point)
         knowledge, jacobian = self._report(fine, coarse)
         self._profile(coarse, knowledge)
+        self.record["words"] += self._failure_words()
         self._predict(fine.point, knowledge, jacobian)
         self.record["status"] = "finished"
 
@@ -117,7 +132,8 @@ class Calibrator:
                                           "words": fit.note, **self._minimum(fit)})
         found = int(np.argmin([fit.chi2 for fit in fits]))
         if not np.isfinite(fits[found].chi2):
-            raise NotConverged("the continuum did not finish at any start; change start, low and high")
+            raise NotConverged("; ".join(["the continuum did not finish at any start; change start, low and high",
+                                     *self._failure_words()]))
         best = fits[found]
         if found > 0:  # so far with few Jacobians
             best = least_squares(residuals, best.point, FIRST_JACOBIANS)
