@@ -31,7 +31,6 @@ from .folders import Folder, draw
 from .input_file import Setting
 
 SAME_MINIMUM = 0.05  # in every coordinate; they run over [0, 1]
-FIRST_JACOBIANS = 4  # most of the first search, and of the one that continues the best
 HARDLY_WORSE = 4  # in chi^2: two deviations
 REACH = 1.5  # deviations to either side in a profile
 KEYS_OF_NOISE = ("stress_level", "stress_shape", "volume_start", "volume_growth", "ln_width", "correlation_strain",
@@ -111,7 +110,7 @@ class Calibrator:
 
     def calibrate(self) -> None:
         coarse = self._fit_coarse()
-        fine = least_squares(self._residuals(True), coarse.point, 1, coarse.jacobian)
+        fine = least_squares(self._residuals(True), coarse.point, self.calibration.jacobians, coarse.jacobian)
         if not np.isfinite(fine.chi2):
             raise NotConverged("; ".join(["the continuum did not finish on the samples' own mesh", *self._failure_words()]))
         self.record["chi2"] = self._chi2(fine.residual)
@@ -126,7 +125,7 @@ class Calibrator:
         c, residuals, fits = self.calibration, self._residuals(False), []
         starts = [self.coordinates.start, *(spread_point(c.seed + k, len(self.coordinates)) for k in range(1, c.starts))]
         for k, start in enumerate(starts):
-            fit = least_squares(residuals, start, c.start_jacobians if k else FIRST_JACOBIANS)
+            fit = least_squares(residuals, start, c.start_jacobians if k else c.jacobians)
             fits.append(fit)
             self.record["minima"].append({"start": self.coordinates.numbers(start), "runs": fit.evaluations, "is_best": False,
                                           "words": fit.note, **self._minimum(fit)})
@@ -136,7 +135,7 @@ class Calibrator:
                                      *self._failure_words()]))
         best = fits[found]
         if found > 0:  # so far with few Jacobians
-            best = least_squares(residuals, best.point, FIRST_JACOBIANS)
+            best = least_squares(residuals, best.point, c.jacobians)
         self.record["minima"][found] |= {"is_best": True, **self._minimum(best)}
         for k, fit in enumerate(fits):
             if k != found and np.isfinite(fit.chi2) and np.abs(fit.point - best.point).max() > SAME_MINIMUM:
@@ -168,8 +167,8 @@ class Calibrator:
         record["parameters"] = parameter_records(self.coordinates, knowledge, fine.point)
         record["correlation"] = knowledge.correlation
         record["words"] += parameter_words(record["parameters"])
-        record["words"] += [f"on {mesh} mesh {fit.note}" for mesh, fit in (("the samples' own", fine), ("the coarse", coarse))
-                            if fit.note]
+        record["words"] += [f"on {mesh} mesh {fit.note}; allow more Jacobians by `jacobians`"
+                            for mesh, fit in (("the samples' own", fine), ("the coarse", coarse)) if fit.note]
         return knowledge, jacobian
 
     def _profile(self, coarse: Fit, knowledge: Knowledge) -> None:
