@@ -228,7 +228,11 @@ class Calibrator:
 
 def _check_target(calibration: Calibration, coordinates: Coordinates, target: Target) -> Data:
     """The start must be a scene for every target. Returns data of the same shape as the samples will give."""
-    scene = read_target(target, [*calibration.fixed, *coordinates.settings(coordinates.start, target.name)])
+    read_target(target, target.before)
+    try:
+        scene = read_target(target, [*calibration.fixed, *coordinates.settings(coordinates.start, target.name)])
+    except SceneError as error:
+        raise SceneError(f"{calibration.file}: with every parameter at its start: {error}; change start or set") from error
     importlib.import_module("diptych._continuum").require_continuum(scene)
     if scene.dict()["continuum"]["initial_stress"] == "mapped":
         raise SceneError(f"{target.scene}: continuum/initial_stress = mapped has no place in a calibration: one mesh serves "
@@ -245,7 +249,6 @@ def _check_target(calibration: Calibration, coordinates: Coordinates, target: Ta
         if p.is_of(target.name) and p.key in (unused := scene.unused_keys()):
             raise SceneError(f"{calibration.file}: parameters: {p.key} is read by no law of target '{target.name}': "
                              f"continuum/{unused[p.key]}")
-    read_target(target, target.before)
     if target.curve:
         sample, deviations = observe_curve(scene, observables, target.curve)
         return Data(observables, sample.values, deviations)
