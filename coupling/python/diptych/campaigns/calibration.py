@@ -43,7 +43,8 @@ def empty_record(title: str) -> dict[str, Any]:
     """calibration.json before the search."""
     return {"format": 1, "title": title, "status": "started", "settings": [], "own": [], "chi2_before": np.nan,
             "chi2_coarse": np.nan, "chi2": np.nan, "misfit": np.nan, "n_observables": 0, "coarse_runs": 0, "fine_runs": 0,
-            "failed_runs": 0, "other_runs": 0, "noise": {}, "words": [], "parameters": [], "correlation": [], "minima": [], "paths": []}
+            "failed_runs": 0, "other_runs": 0, "noise": {}, "words": [], "parameters": [], "correlation": [], "minima": [],
+            "paths": []}
 
 
 class Calibrator:
