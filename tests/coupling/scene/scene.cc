@@ -85,6 +85,39 @@ namespace
     expect_words(error_of("", {"sample/sead=3"}), {"--set", "sample/sead", "sample/seed"});
   }
 
+  // Of a value, of a key, of a contradiction in the continuum and of one between sections: file, line, key and value as data.
+  TEST(Scene, ARefusalIsData)
+  {
+    const struct
+    {
+      std::string text;
+      int         line;
+      std::string key, value;
+    } cases[] = {
+      {"subsection discrete\n  set friction = -0.3\nend\n", 2, "discrete/friction", "-0.3"},
+      {"subsection sample\n\n  set grians = 500\nend\n", 3, "sample/grians", ""},
+      {"subsection continuum\n  set dilatancy_angle_peak = 50\nend\n", 2, "continuum/dilatancy_angle_peak", "50"},
+      {"subsection sample\n  set radius_min = 0.2\nend\n", 2, "sample/radius_min", "0.2"},
+      {"subsection comparison\n  set window_edges = 0, 0.0123\nend\n", 2, "comparison/window_edges", "0, 0.0123"},
+    };
+    for (const auto &c : cases)
+      {
+        const SceneFile file(c.text, ".prm");
+        try
+          {
+            read_scene(file.path, {});
+            ADD_FAILURE() << "accepted: " << c.text;
+          }
+        catch (const SceneError &error)
+          {
+            EXPECT_EQ(error.refusal.place.file, file.path) << error.what();
+            EXPECT_EQ(error.refusal.place.line, c.line) << error.what();
+            EXPECT_EQ(error.refusal.key, c.key) << error.what();
+            EXPECT_EQ(error.refusal.value, c.value) << error.what();
+          }
+      }
+  }
+
   TEST(Scene, AnUnknownSectionIsNamed)
   {
     expect_words(error_of("subsection continum\n  set law = linear_elastic\nend\n"), {"line 1", "continum", "'continuum'"});
@@ -206,6 +239,8 @@ namespace
     const std::string all = explain("");
     expect_words(all, {"sample", "grains", "loading", "inertial_number", "discrete", "tolerance", "continuum",
                        "friction_angle_peak", "comparison", "window_edges", "output", "directory"});
+    EXPECT_EQ(explain("platen_friction").find("discrete\n  platen_friction = "), 0);
+    EXPECT_EQ(explain("discrete/friction").find("discrete\n  friction = "), 0);
     EXPECT_THROW(explain("sampel"), SceneError);
   }
 
