@@ -111,7 +111,7 @@ class Calibrator:
 
     def calibrate(self) -> None:
         coarse = self._fit_coarse()
-        fine = least_squares(self._residuals(True), coarse.point, self.calibration.jacobians, coarse.jacobian)
+        fine = least_squares(self._residuals(True), coarse.point, self.calibration.fine_jacobians, coarse.jacobian)
         if not np.isfinite(fine.chi2):
             raise NotConverged("; ".join(["the continuum did not finish on the samples' own mesh", *self._failure_words()]))
         self.record["chi2"] = self._chi2(fine.residual)
@@ -168,8 +168,8 @@ class Calibrator:
         record["parameters"] = parameter_records(self.coordinates, knowledge, fine.point)
         record["correlation"] = knowledge.correlation
         record["words"] += parameter_words(record["parameters"])
-        record["words"] += [f"on {mesh} mesh {fit.note}; allow more Jacobians by `jacobians`"
-                            for mesh, fit in (("the samples' own", fine), ("the coarse", coarse)) if fit.note]
+        record["words"] += [f"on {mesh} mesh {fit.note}; allow more Jacobians by `{key}`" for mesh, fit, key in (
+            ("the samples' own", fine, "fine_jacobians"), ("the coarse", coarse, "jacobians")) if fit.note]
         return knowledge, jacobian
 
     def _profile(self, coarse: Fit, knowledge: Knowledge) -> None:
