@@ -76,8 +76,7 @@ namespace diptych::coupling
       const auto   best = std::min_element(distance.begin(), distance.end());
       const double mean = n > 0 ? *best / n : HUGE_VAL;
       if (!(mean < arrival.mean_diameter))
-        throw SceneError((from.contact_file.empty() ? from.grain_file : from.contact_file) + ": frame " + from.name + ": " +
-                         from.walls[std::size_t(wall)].name +
+        throw SceneError(from.contact_file + ": frame " + from.name + ": " + from.walls[std::size_t(wall)].name +
                          " touches no grain at the lower, upper, left or right end of the sample, so its side is unknown");
       return Side(best - distance.begin());
     }

@@ -67,8 +67,9 @@ namespace diptych::coupling
           say(run, text);
         }
       say(run, arrival.checks.back().against_resultants
-                 ? "balance: forces on each grain minus the resultant that the files tell, over the mean contact force"
-                 : "balance: forces on each grain, over the mean contact force (the files tell no resultants: motion is in it)");
+                 ? "balance: forces on each grain minus its net force in the files, over the mean contact force"
+                 : "balance: forces on each grain, over the mean contact force (the files hold no net forces, so "
+                   "accelerations count as imbalance)");
       for (const std::string &text : arrival.remarks)
         say(run, "note: " + text);
       for (const std::string &text : arrival.lacking)

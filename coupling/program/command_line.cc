@@ -165,16 +165,16 @@ namespace diptych::coupling
         add_threads(plan);
         add_jobs(plan, "");
         plan
-          ->add_option("--accuracy", line.accuracy,
+          ->add_option("--accuracy", ignored,
                        "relative, of the means: 2 % or 0.02; covers errors of the method and the 95 % interval")
           ->required();
         add_output(plan, "folder of the plan (default: results/<scene name>_plan)");
         plan
-          ->add_option("--for", line.wanted,
+          ->add_option("--for", ignored,
                        "quantities, separated by commas: peak_stress_ratio, strength (both by default), final_volumetric_strain, "
                        "width_10_90, angle, or a number of comparison.json; for one panel, put discrete. or continuum. before it")
           ->type_name("NAMES");
-        plan->add_flag("--run", line.runs_the_plan, "run the planned samples, too");
+        plan->add_flag("--run", "run the planned samples, too");
         add_resume(plan, "keep finished runs, compute the others");
         add_overwrite(plan);
         add_quiet(plan);
@@ -216,13 +216,13 @@ namespace diptych::coupling
         solve->add_option("PROBLEM", line.target, "problem file, .h5 or .hdf5")->required();
         solve->add_option("--output", line.output, "file for the problem with its solution")->check(is_filled)->type_name("FILE");
         add_choice<discrete::ContactSolver>(solve, "--solver", "psor (default): over-relaxed; nsgs: plain Gauss-Seidel",
-                                            [this](const auto chosen) { line.solver = chosen; });
-        solve->add_option("--tolerance", line.tolerance, "largest allowed residual: natural map relative to |r| (default: 1e-8)")
+                                            [this](const auto chosen) { line.solve.solver = chosen; });
+        solve->add_option("--tolerance", line.solve.tolerance, "largest residual: natural map relative to |r| (default: 1e-8)")
           ->check(in_range(1e-300, 0.999999));
-        solve->add_option("--max-sweeps", line.max_sweeps, "largest number of sweeps (default: 1000000)")
+        solve->add_option("--max-sweeps", line.solve.max_sweeps, "largest number of sweeps (default: 1000000)")
           ->check(in_range(1, 2147483647));
         add_choice<discrete::ProblemForm>(solve, "--form", "default: body if the file has one",
-                                          [this](const auto chosen) { line.form = chosen; });
+                                          [this](const auto chosen) { line.solve.form = chosen; });
         add_threads(solve);
       }
 
@@ -268,9 +268,9 @@ namespace diptych::coupling
 
         CLI::App *out = add(Command::export_sample, "write a sample of a result folder as a start for another code");
         out->add_option("FOLDER", line.target, "result folder")->required();
-        out->add_option("--format", line.format, "code that will read the files")->required()->check(one_of({"lammps", "csv"}));
+        out->add_option("--format", line.exported.format, "code that reads them")->required()->check(one_of({"lammps", "csv"}));
         add_output(out, "folder of the exported files (default: FOLDER_for_FORMAT)");
-        out->add_option("--stage", line.stage, "number of the snapshot (default: 0, the prepared sample)")
+        out->add_option("--stage", line.exported.stage, "number of the snapshot (default: 0, the prepared sample)")
           ->check(in_range(0, 1000000));
         add_quiet(out);
       }
@@ -278,8 +278,9 @@ namespace diptych::coupling
       void add_others()
       {
         add(Command::explain, "print every key of a scene (default, unit, range, meaning) or the content of result files")
-          ->add_option("SECTION", line.target,
-                       "a section of a scene, or results: the content of result files (default: all sections)")
+          ->add_option(
+            "SECTION", line.target,
+            "a section, a key or a word in names of keys; results: the content of result files (default: all sections)")
           ->type_name("{" + discrete::joined(section_names(), ",") + ",results}");
         add(Command::completion, "print a script that completes command lines: source <(diptych completion bash)")
           ->add_option("SHELL", line.target)
@@ -289,7 +290,7 @@ namespace diptych::coupling
 
       CommandLine                  &line;
       CLI::App                      app;
-      std::string                   ignored; // options that the importers parse again
+      std::string                   ignored; // options that Python parses again
       std::vector<std::string>      ignored_words;
       double                        ignored_number = 0;
       std::map<CLI::App *, Command> by_parser;

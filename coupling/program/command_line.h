@@ -33,27 +33,39 @@ namespace diptych::coupling
     completion
   };
 
-  // Members are set only by commands that accept the option.
-  struct CommandLine : RunOptions
+  struct SolveOptions
   {
-    Command                              command = Command::explain;
-    std::string                          target;                // scene or problem file, result folder, section or shell
-    std::string                          output;                // --output
-    std::vector<std::string>             overrides;             // --set section/key=value, after the keys of --set-file
-    std::vector<std::string>             set_files;             // --set-file
-    bool                                 study_of_step = false; // --study step
-    std::string                          seeds;                 // --seeds: "1-8", "1,3,5-7"
-    bool                                 checks_only = false;   // --check of run
-    std::string                          accuracy;              // --accuracy, --for, --run of plan
-    std::string                          wanted;
-    bool                                 runs_the_plan = false;
-    discrete::ContactSolver              solver     = discrete::ContactSolver::psor; // solve: --solver, --tolerance, --max-sweeps
+    discrete::ContactSolver              solver     = discrete::ContactSolver::psor;
     double                               tolerance  = 1e-8;
     int                                  max_sweeps = 1000000;
-    std::optional<discrete::ProblemForm> form;                   // --form; none: the better form in the file
-    std::string                          format;                 // export: --format
-    int                                  stage           = 0;    // export: number of the stage
-    bool                                 prints_warnings = true; // true on the first of several processes
+    std::optional<discrete::ProblemForm> form; // none: the better form in the file
+  };
+
+  struct ExportOptions
+  {
+    std::string format;
+    int         stage = 0; // number of the stage
+  };
+
+  // Those of a run with grains or continuum.
+  struct SceneOptions
+  {
+    std::vector<std::string> overrides;             // --set section/key=value, after the keys of --set-file
+    std::vector<std::string> set_files;             // --set-file
+    bool                     study_of_step = false; // discrete: --study step
+    std::string              seeds;                 // run: --seeds: "1-8", "1,3,5-7"
+    bool                     checks_only = false;   // run: --check
+  };
+
+  // The options of a command are those of its struct; the campaigns read theirs in Python.
+  struct CommandLine : RunOptions, SceneOptions
+  {
+    Command       command = Command::explain;
+    std::string   target; // scene or problem file, result folder, section or shell
+    std::string   output; // --output
+    SolveOptions  solve;
+    ExportOptions exported;
+    bool          prints_warnings = true; // true on the first of several processes
   };
 
   // The parsed command line, from the words after the program's name. If they are wrong or only ask for help, the version or a

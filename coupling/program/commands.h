@@ -21,7 +21,7 @@ namespace diptych::coupling
   // ensemble. With --resume the sample is not prepared.
   int check_run(const CommandLine &line);
 
-  // solve PROBLEM.h5: solves a problem in the layout of FCLIB from r = 0 to line.tolerance (natural map relative to |r|). Prints
-  // the cost, one `name: value` per line. With --output it writes the problem and the reached solution, converged or not.
+  // solve PROBLEM.h5: solves a problem in the layout of FCLIB from r = 0 to line.solve.tolerance (natural map relative to |r|).
+  // Prints the cost, one `name: value` per line. With --output it writes the problem and the reached solution, converged or not.
   int solve_stored_problem(const CommandLine &line);
 } // namespace diptych::coupling

@@ -41,11 +41,12 @@ namespace diptych::coupling
                 : read_computed_scene(prm, {}, false);
     const std::vector<discrete::Snapshot> snapshots = discrete::read_snapshots(file);
     check_files(line.target, "discrete");
-    if (std::size_t(line.stage) >= snapshots.size())
-      throw SceneError("--stage " + std::to_string(line.stage) + ": " + file + " holds " + std::to_string(snapshots.size()) +
-                       " snapshots, 0 to " + std::to_string(snapshots.size() - 1));
-    const ExportedFiles files  = exported_sample(line.format, scene, snapshots[std::size_t(line.stage)], line.stage);
-    const std::string   folder = line.output.empty() ? folder_beside(line.target) + "_for_" + line.format : line.output;
+    if (std::size_t(line.exported.stage) >= snapshots.size())
+      throw SceneError("--stage " + std::to_string(line.exported.stage) + ": " + file + " holds " +
+                       std::to_string(snapshots.size()) + " snapshots, 0 to " + std::to_string(snapshots.size() - 1));
+    const ExportedFiles files  = exported_sample(line.exported.format, scene, snapshots[std::size_t(line.exported.stage)],
+                                                 line.exported.stage);
+    const std::string   folder = line.output.empty() ? folder_beside(line.target) + "_for_" + line.exported.format : line.output;
     if (std::error_code none; fs::equivalent(folder, line.target, none))
       throw SceneError("--output " + folder + ": is the result folder itself; name a new folder");
     for (const auto &[name, text] : files)

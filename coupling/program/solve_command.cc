@@ -21,18 +21,18 @@ namespace diptych::coupling
     discrete::SolverOptions options_of(const CommandLine &line)
     {
       discrete::SolverOptions options;
-      options.solver     = line.solver;
-      options.tolerance  = line.tolerance;
-      options.max_sweeps = line.max_sweeps;
+      options.solver     = line.solve.solver;
+      options.tolerance  = line.solve.tolerance;
+      options.max_sweeps = line.solve.max_sweeps;
       return options;
     }
 
     // The form asked for, by default the better one that the file has.
     discrete::ProblemForm form_of(const CommandLine &line, const discrete::StoredProblem &problem)
     {
-      if (line.form == discrete::ProblemForm::body && !problem.bodies)
+      if (line.solve.form == discrete::ProblemForm::body && !problem.bodies)
         throw std::invalid_argument("--form body: " + line.target + " has no such form: " + problem.reason);
-      return line.form.value_or(problem.form);
+      return line.solve.form.value_or(problem.form);
     }
 
     void print_problem(const CommandLine &line, const discrete::StoredProblem &problem, const discrete::ProblemForm form)
@@ -73,7 +73,7 @@ namespace diptych::coupling
                       const std::vector<discrete::Impulse> &r)
     {
       const double sweeps = double(std::max(1l, report.sweeps)), updates = sweeps * double(std::max<std::size_t>(1, r.size()));
-      std::cout << "solver: " << discrete::name_of(line.solver) << "\ntolerance: " << line.tolerance
+      std::cout << "solver: " << discrete::name_of(line.solve.solver) << "\ntolerance: " << line.solve.tolerance
                 << "\nsweeps: " << report.sweeps << "\nresidual: " << report.residual
                 << "\nsiconos_residual: " << siconos_residual(local, r) << "\ncpu_s: " << report.cpu_s
                 << "\nus_per_sweep: " << 1e6 * report.cpu_s / sweeps << "\nns_per_update: " << 1e9 * report.cpu_s / updates
@@ -105,7 +105,7 @@ namespace diptych::coupling
     if (!line.output.empty())
       discrete::write_solution(line.target, line.output,
                                {r, relative_velocities(problem.local, r),
-                                discrete::name_of(line.solver) + ", " + name_of(form) + " form", status_of(report),
+                                discrete::name_of(line.solve.solver) + ", " + name_of(form) + " form", status_of(report),
                                 report.residual});
     return report.status == discrete::SolveStatus::converged ? done : not_converged;
   }

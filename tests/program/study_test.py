@@ -125,7 +125,11 @@ class Points(Study):
         name = read_json(self.folder, "study.json")["points"][1]["folders"][0]
         end = read_json(self.folder, name + ".json")
         write(self.path(name + ".json"), json.dumps({**end, "revision": "another"}))
-        self.assertIn(f"{N_RUNS - 1} of {N_RUNS} runs are finished", self.run_study(STUDY, "--resume").stdout)
+        write(self.path(name + "/notes.txt"), "of the user")
+        result = self.run_study(STUDY, "--resume")
+        self.assertIn(f"{N_RUNS - 1} of {N_RUNS} runs are finished", result.stdout)
+        self.assertIn("1 runs of revision another are repeated", result.stderr)
+        self.assertEqual(content(self.path(name + ".1/notes.txt")), b"of the user")
         self.assertEqual(content(self.path("study.json")), content(os.path.join(self.done, "study.json")))
 
     def test_other_limits_need_no_run(self):

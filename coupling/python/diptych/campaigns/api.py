@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import os
 import subprocess
@@ -11,6 +12,7 @@ import tempfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from numbers import Integral
 from typing import Any, Self, TypeVar
 
 import pandas as pd
@@ -79,7 +81,9 @@ class Campaign(CampaignResult):
         """An ensemble: the differences continuum minus grains, with margins and verdicts."""
         if "verdicts" not in self.numbers:
             raise AttributeError("a study has no verdicts; use .points or .table")
-        return pd.json_normalize(self.numbers["verdicts"])
+        table = pd.json_normalize(self.numbers["verdicts"])
+        first = ["quantity", "verdict", "difference.value", "difference.low", "difference.high"]
+        return table[[*first, *table.columns.drop(first)]]
 
 
 class CalibrationResult(CampaignResult):
@@ -126,7 +130,8 @@ class PlanResult(CampaignResult):
 
 @contextmanager
 def _file_of(command: str, contents: Mapping[str, Any] | PathLike, output: str) -> Iterator[str]:
-    """A path as it is. A dict becomes a file in the working directory, where its paths begin."""
+    """A path as it is. A dict is a file during the call, called like the output folder, in the working directory: its paths
+    begin there."""
     if not isinstance(contents, Mapping):
         yield os.fspath(contents)
         return
@@ -136,10 +141,22 @@ def _file_of(command: str, contents: Mapping[str, Any] | PathLike, output: str) 
     else:
         for section, key, text in changes(contents):
             record.setdefault(section, {})[key] = text
-    with tempfile.NamedTemporaryFile("w", dir=".", prefix=name + "_", suffix=".json") as file:
-        json.dump(record, file, indent=1, default=os.fspath)
-        file.flush()
-        yield file.name
+    text, names = json.dumps(record, indent=1, default=os.fspath), (f"{name}_{k}.json" for k in itertools.count(2))
+    path = next(path for path in itertools.chain([name + ".json"], names) if not os.path.lexists(path))
+    with open(path, "x", encoding="utf-8") as file:
+        file.write(text)
+    try:
+        yield path
+    finally:
+        os.remove(path)
+
+
+def _seeds(seeds: Any) -> str:
+    """Seeds as on the command line. Refuses a number, which could be one seed or a number of samples."""
+    if isinstance(seeds, Integral):
+        raise SceneError(f"seeds = {seeds} is not allowed; give range(1, {seeds + 1}) for {seeds} samples, [{seeds}] for the "
+                         f"sample with seed {seeds}", "seeds")
+    return text_of(seeds).replace(" ", "")
 
 
 def _run(words: Sequence[str]) -> tuple[int, str, bool]:
@@ -181,22 +198,28 @@ def study(contents: Mapping[str, Any] | PathLike, output: PathLike, **options: A
     """Runs a study and returns its results.
 
     contents  path of a study file, or its contents as a dict, whose paths are relative to the working directory
+              Seeds are a text such as "1-8", a list or a range
     output    folder of the results
     options   those of `diptych study`: jobs=2, threads=1, resume=True, overwrite=True, set={"section/key": value}
+
+    A dict is a file of the working directory during the call, OUTPUT.json; messages name it with its lines. They also name
+    the options of the command line: for --resume add resume=True to the same call.
 
     Raises SceneError for wrong input, Stopped on Ctrl-C (resume=True then goes on), NotConverged if runs were stopped or the
     system ended them, RuntimeError for failures of the system.
     """
+    if isinstance(contents, Mapping) and "seeds" in contents:
+        contents = {**contents, "seeds": _seeds(contents["seeds"])}
     return _result(Campaign, "study", contents, output, options)
 
 
-def ensemble(scene: SceneLike, seeds: str | int | Iterable[int], output: PathLike, **options: Any) -> Campaign:
+def ensemble(scene: SceneLike, seeds: str | Iterable[int], output: PathLike, **options: Any) -> Campaign:
     """Runs a scene with several seeds and returns the statistics. Options and errors are as in study().
 
     scene  path of a scene file, or a dict as in diptych.scene()
-    seeds  a number, range(1, 9), a list of numbers, or a text such as "1-8" or "1,3,5-7"
+    seeds  range(1, 9), a list of numbers, or a text such as "1-8" or "1,3,5-7"
     """
-    return _result(Campaign, "run", scene, output, {"seeds": text_of(seeds).replace(" ", ""), **options})
+    return _result(Campaign, "run", scene, output, {"seeds": _seeds(seeds), **options})
 
 
 def calibrate(contents: Mapping[str, Any] | PathLike, output: PathLike, **options: Any) -> CalibrationResult:

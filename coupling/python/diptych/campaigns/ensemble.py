@@ -85,9 +85,8 @@ def _text_of(verdict: dict[str, Any]) -> str:
     scale = 100 if verdict["relative"] else 1
     unit = " % of the grains' mean" if verdict["relative"] else "" if verdict["unit"] == "-" else f" {verdict['unit']}"
     e = verdict["difference"]
-    found = (f": continuum - grains {scale * e.value:.3g} [{scale * e.low:.3g}, {scale * e.high:.3g}]{unit}, margin "
-             f"{scale * verdict['margin']:.3g}") if verdict["n"] else ""
-    return f"{verdict['quantity']}: {verdict['verdict']}{found}, {verdict['n']} pairs"
+    return (f"{verdict['quantity']}: {verdict['verdict']}: continuum - grains {scale * e.value:.3g} [{scale * e.low:.3g}, "
+            f"{scale * e.high:.3g}]{unit}, margin {scale * verdict['margin']:.3g}, {verdict['n']} pairs")
 
 
 def with_means(members: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -153,7 +152,8 @@ def _write(scene: Any, record: dict[str, Any], options: Options, phase: tuple[st
     _diptych.record_phase(directory, (scene.name, record["seeds"], shlex.join(["diptych", *options.words])), cost)
     _diptych.record_files(directory, "ensemble")
     for verdict in record["verdicts"]:
-        say(options, _text_of(verdict))
+        if verdict["n"]:
+            say(options, _text_of(verdict))
 
 
 def _member_scene(scene: Any, seed: int) -> Any:

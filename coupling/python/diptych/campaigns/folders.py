@@ -9,6 +9,7 @@ import math
 import os
 import shutil
 import sys
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -195,23 +196,27 @@ class Runs:
         except (ValueError, KeyError, TypeError, RuntimeError):  # damaged or of another version: run it again
             return None
 
-    def prepare(self, run: SceneRun, anew: bool = False) -> bool:
+    def prepare(self, run: SceneRun, anew: bool = False) -> tuple[bool, str]:
         """Writes the scene of a run and removes an old log. Returns True if an earlier run in the folder can be resumed.
 
-        Only a folder in which this revision of the program was interrupted stays, and not if `anew`.
+        Only a folder in which this revision of the program was interrupted stays, and not if `anew`. Another one is renamed to
+        NAME.1, in the place of an older one, since the user may have files in it. The second value is then its revision.
         """
         try:
             earlier = read_json(self.path(run, ".json"))
         except ValueError:
             earlier = {}
-        if anew or "exit_code" in earlier or earlier.get("begun") != _diptych.git_revision:
-            if os.path.lexists(self.path(run)):
-                shutil.rmtree(self.path(run))
+        folder, revision = self.path(run), ""
+        if os.path.exists(folder) and (anew or "exit_code" in earlier or earlier.get("begun") != _diptych.git_revision):
+            if os.path.exists(folder + ".1"):
+                shutil.rmtree(folder + ".1")
+            os.rename(folder, folder + ".1")
+            revision = earlier.get("revision", earlier.get("begun", "unknown"))
         if os.path.exists(self.path(run, ".log")):
             os.remove(self.path(run, ".log"))
         write_text(self.path(run, ".prm"), run.scene.text())
         write_json(self.path(run, ".json"), {"begun": _diptych.git_revision}, None)
-        return os.path.exists(self.path(run))
+        return os.path.exists(folder), revision
 
     def do(self, runs: Sequence[SceneRun], options: Options) -> list[Outcome]:
         """Does the runs that are not finished, each name once. Runs whose checkpoint is damaged begin anew."""
@@ -223,7 +228,11 @@ class Runs:
         return self._execute(pending, options, total)
 
     def _execute(self, runs: Sequence[SceneRun], options: Options, total: int, anew: bool = False) -> list[Outcome]:
-        resumes, seats = [self.prepare(run, anew) for run in runs], n_seats(options)
+        prepared, seats = [self.prepare(run, anew) for run in runs], n_seats(options)
+        resumes = [goes_on for goes_on, _ in prepared]
+        for revision, n in Counter(revision for _, revision in prepared if revision).items():
+            complain(f"{n} runs of revision {revision} are repeated by revision {_diptych.git_revision}; their folders "
+                     f"{self.directory}/runs/NAME are kept as NAME.1")
 
         def is_damaged(k: int, outcome: Outcome) -> bool:
             return resumes[k] and not outcome.interrupted and outcome.exit_code == WRONG_INPUT

@@ -29,24 +29,36 @@ def refuse_where(path: str, bad: Any, lines: Sequence[int], text: Callable[[int]
 
 @dataclass(slots=True)
 class Wall:
-    """A straight wall along x or y. Without a side, the grains that touch it give the side."""
+    """A straight wall along x or y.
+
+    side    "lower", "upper", "left" or "right"; None: the side of the grains that touch it
+    place   of its inner face: y of lower and upper, x of left and right; nan: from its contact points
+    travel  displacement along itself since the first frame, positive to the right; used for the upper wall, as in shear
+    force   (x, y) between wall and sample, of either sign, as the code summed it up; nan: unknown
+    """
 
     name: str
-    side: str | None = None  # lower, upper, left or right
-    place: float = math.nan  # of its inner face: y of lower and upper, x of left and right; nan: from its contact points
-    travel: float = 0.0  # along itself since the first frame, to the right
-    force: Any = (math.nan, math.nan)  # between wall and sample, of either sign
+    side: str | None = None
+    place: float = math.nan
+    travel: float = 0.0
+    force: Any = (math.nan, math.nan)
 
 
 @dataclass(slots=True)
 class Frame:
     """One instant. Arrays have one row per grain (n) or contact (m).
 
+    name      a name that no other frame has
     grains    "id" (n), "position" (n, 2), "radius" (n); if known "mass" (n), "velocity" (n, 2), "spin" and "rotation" (n,
               counter-clockwise), "resultant" (n, 2: of all forces, as the code summed them up), "line" (n, of the file)
     contacts  "first", "second" (m, ids), "wall" (m, index in `walls`, -1: two grains), "force" (m, 2, on `first`); if known
               "point" (m, 2), "overlap" (m), "slides" (m, 0 or 1), "line" (m). None: the files hold no contacts
+    walls     list of Wall
     gravity   acceleration of every grain; None: unknown
+    time      of the instant; None: unknown. step: its number
+    spheres   True: one layer of spheres, so stresses need Options.thickness; False: discs
+    lacking   texts: quantities that this format never contains; the import lists them
+    *_file    path that messages about grains, contacts or walls name; "": the format, or grain_file for the other two
     """
 
     name: str
@@ -56,9 +68,9 @@ class Frame:
     gravity: tuple[float, float] | None = None
     time: float | None = None
     step: int | None = None
-    spheres: bool = False  # one layer of spheres: stresses need a thickness
-    lacking: list[str] = field(default_factory=list)  # quantities that this format never contains
-    grain_file: str = ""  # for messages
+    spheres: bool = False
+    lacking: list[str] = field(default_factory=list)
+    grain_file: str = ""
     contact_file: str = ""
     wall_file: str = ""
 

@@ -76,6 +76,8 @@ def read_frames(format: str, options: Options) -> list[Frame]:
     frames = _reader(format)(options)
     add_wall_tables(frames, options)
     for frame in frames:
+        frame.grain_file = frame.grain_file or f"import {format}"
+        frame.contact_file = frame.contact_file or frame.grain_file
         _refuse_unknown(frame)
         if not len(frame.grains["id"]):
             options.note(f"frame {frame.name} has no grains; it was left out")
