@@ -15,8 +15,8 @@ import h5py
 import numpy
 
 import running
-from running import (content, contents, diptych, ENVIRONMENT, facts, finished, half_files, history, listing, main, PROGRAM, QUICK,
-                     read_json, setting, SMALL, start, temporary, write)
+from running import (content, contents, diptych, ENVIRONMENT, facts, finished, half_files, history, listing, main, PROGRAM,
+                     QUICK, read_json, setting, SMALL, start, temporary, write)
 
 WIDTH, HEIGHT = 12, 18
 RECTANGLE = setting(continuum_mesh="rectangle", continuum_rectangle_width=WIDTH, continuum_rectangle_height=HEIGHT,
@@ -91,7 +91,8 @@ class Loadings(Folder):
         words = RECTANGLE + setting(continuum_law="mohr_coulomb")
         self.continuum(*words)
         whole = self.rows()
-        self.continuum(*words, *setting(continuum_mesh=shutil.copy(self.path("sample.msh"), os.path.join(self.work, "mine.msh"))))
+        mine = shutil.copy(self.path("sample.msh"), os.path.join(self.work, "mine.msh"))
+        self.continuum(*words, *setting(continuum_mesh=mine))
         for name in CURVES:
             numpy.testing.assert_allclose(self.rows()[name], whole[name], rtol=1e-6, atol=1e-6, err_msg=name)
         self.assertNotIn("coarse/continuum.h5", listing(self.folder))
@@ -239,8 +240,8 @@ class Processes(Folder):
     def test_one_by_itself_shares_no_session_folder(self):
         """With one, those that start at once fail: the first that ends removes the folder of all."""
         taken = write(os.path.join(self.work, f"ompi.{socket.gethostname()}.{os.geteuid()}"), "not a folder")
-        result = subprocess.run([PROGRAM, "material-point", QUICK, "--output", self.folder, "--quiet"], capture_output=True, text=True,
-                                env=dict(ENVIRONMENT, TMPDIR=self.work))
+        result = subprocess.run([PROGRAM, "material-point", QUICK, "--output", self.folder, "--quiet"], capture_output=True,
+                                text=True, env=dict(ENVIRONMENT, TMPDIR=self.work))
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(content(taken), b"not a folder")
 

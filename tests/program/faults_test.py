@@ -16,7 +16,8 @@ import time
 import h5py
 
 import running
-from running import ENVIRONMENT, PROBLEMS, PROGRAM, QUICK, SMALL, content, contents, diptych, facts, finished, listing, main, setting, start, write
+from running import (ENVIRONMENT, PROBLEMS, PROGRAM, QUICK, SMALL, content, contents, diptych, facts, finished, listing, main,
+                     setting, start, write)
 
 FEW = SMALL + setting(sample_grains=60, output_report="false")
 BOTH = FEW + setting(continuum_element_size=2.5, continuum_initial_step=0.0025, continuum_max_step=0.0025,
@@ -97,8 +98,8 @@ class Inputs(Folder):
                   "grains.csv": "x,y,r\n" + "".join(f"{x},{y},0.5\n" for x in range(12) for y in (0.5, 1.5))}
         lines = (["run", "mine.prm", *BOTH], ["run", QUICK, *BOTH, *setting(sample_file="grains.csv")], ["study", "study.json"],
                  ["discrete", "mine.prm", *BOTH], ["continuum", "mine.prm", *BOTH], ["material-point", "mine.prm", *BOTH],
-                 ["discrete", QUICK, *BOTH, "--set-file", "mine.prm"], ["run", "mine.prm", *BOTH, "--seeds", "1-2"], ["calibrate", "fit.json"],
-                 ["plan", "mine.prm", *BOTH, "--accuracy", "0.5"], ["import", "csv", "grains.csv", "--walls-touch"])
+                 ["discrete", QUICK, *BOTH, "--set-file", "mine.prm"], ["run", "mine.prm", *BOTH, "--seeds", "1-2"],
+                 ["calibrate", "fit.json"], ["plan", "mine.prm", *BOTH, "--accuracy", "0.5"], ["import", "csv", "grains.csv", "--walls-touch"])
         for place, tried in ((self.folder, lines), (self.folder + ".1", lines[:3])):
             shutil.copytree(self.whole, place)
             for name, text in inputs.items():
@@ -135,7 +136,8 @@ class Inputs(Folder):
         rest = setting(loading_mode="time", loading_duration=1, loading_stage_time=0.5, comparison_window_edges="0,1", discrete_lateral="rigid_walls")
         self.expect(2, self.run_both(*rest), "discrete/drive_upper_y")
         for words, text in ((setting(comparison_probe_circle="100,100,5"), "comparison/probe_circle"), (setting(sample_grains=12), "sample/grains"),
-                            (setting(comparison_probe_rectangles="100,100,5,5,0") + ["--seeds", "1-2", "--jobs", "1"], "comparison/probe_rectangles")):
+                            ([*setting(comparison_probe_rectangles="100,100,5,5,0"), "--seeds", "1-2", "--jobs", "1"],
+                             "comparison/probe_rectangles")):
             with self.subTest(text=text):
                 self.expect(2, self.run_both(*words), text)
 
@@ -266,7 +268,8 @@ class Machine(Folder):
 
     def test_a_closed_pipe_does_not_stop_a_run(self):
         """As in `diptych run ... 2>&1 | true`."""
-        for words, name in ((["discrete", *FEW], "discrete.csv"), (["run", *BOTH, "--seeds", "1", "--overwrite", "--jobs", "1"], "ensemble.json")):
+        for words, name in ((["discrete", *FEW], "discrete.csv"),
+                            (["run", *BOTH, "--seeds", "1", "--overwrite", "--jobs", "1"], "ensemble.json")):
             reader, writer = os.pipe()
             os.close(reader)
             with open(writer, "wb") as pipe:

@@ -76,7 +76,8 @@ class Package(unittest.TestCase):
         told = subprocess.run(["bash", "-c", f"source {script}; COMP_WORDS=(diptych run --set discrete/fric); COMP_CWORD=3; _diptych; "
                                "echo ${COMPREPLY[@]}"], capture_output=True, text=True, check=True).stdout
         self.assertEqual(told, "discrete/friction=\n")
-        self.assertTrue(content(os.path.join(self.share, "zsh", "vendor-completions", "_diptych")).startswith(b"#compdef diptych\n"))
+        script_of_zsh = content(os.path.join(self.share, "zsh", "vendor-completions", "_diptych"))
+        self.assertTrue(script_of_zsh.startswith(b"#compdef diptych\n"))
         script = os.path.join(self.share, "fish", "vendor_completions.d", "diptych.fish")
         if not shutil.which("fish"):
             self.skipTest("no fish on the PATH: test.sh installs it")
@@ -104,9 +105,10 @@ class Package(unittest.TestCase):
         self.assertAlmostEqual(height, 2.5, delta=3e-4)  # radius 0.5 on two diameters, less penetrations of at most 1e-4 d
 
     def test_an_ensemble_with_its_page_and_that_of_a_run(self):
-        scene, folder = os.path.join(self.share, "diptych", "benchmarks", "moreau_quick", "scene.prm"), os.path.join(self.work, "two")
-        member = os.path.join(folder, "seed_1")
-        for words in (["run", scene, *SMALL, *setting(sample_grains=150), "--seeds", "1-2", "--output", folder], ["report", member]):
+        scene = os.path.join(self.share, "diptych", "benchmarks", "moreau_quick", "scene.prm")
+        folder, member = os.path.join(self.work, "two"), os.path.join(self.work, "two", "seed_1")
+        few = SMALL + setting(sample_grains=150)
+        for words in (["run", scene, *few, "--seeds", "1-2", "--output", folder], ["report", member]):
             done = self.run_program(*words, "--quiet")
             self.assertEqual(done.returncode, 0, done.stderr)
         for page in (folder, member):
@@ -120,7 +122,8 @@ class Package(unittest.TestCase):
         done = subprocess.run([sys.executable, "-B", "-c", script], capture_output=True, text=True, check=False, cwd=self.work,
                               env={"PATH": "/usr/bin:/bin", "HOME": self.work, "PYTHONPATH": place})
         notebooks = os.path.join(self.share, "diptych", "notebooks")
-        self.assertEqual(done.stdout.split(), ["finished", os.path.join(place, "diptych", "__init__.py"), notebooks, "2000"], done.stderr)
+        package = os.path.join(place, "diptych", "__init__.py")
+        self.assertEqual(done.stdout.split(), ["finished", package, notebooks, "2000"], done.stderr)
         self.assertEqual(len([name for name in os.listdir(notebooks) if name.endswith(".ipynb")]), 7)
         self.assertTrue(os.path.exists(os.path.join(notebooks, "data", "frames.csv")))
 

@@ -40,7 +40,7 @@ def setUpModule():
 
 
 def explained(*words):
-    """(heading, whether it names a key or array, text without unit) of every line that `diptych explain` prints below a heading."""
+    """(heading, whether it names a key or array, text without unit) of every line that `diptych explain` prints."""
     heading = None
     for line in diptych("explain", *words, check=True).stdout.split("\n"):
         if line and not line.startswith(" "):

@@ -198,7 +198,8 @@ class CommandLine(unittest.TestCase):
                               (["run", QUICK, "--seed", "3"], "nearest option is '--seeds'"),
                               (["run", QUICK, "--solver", "psor"], "option of diptych solve"),
                               (["run", "no_such_scene.prm"], "no_such_scene.prm"), (["run", SOURCE], SOURCE, "folder"),
-                              (["run", QUICK, "--threads", "none"], "--threads"), (["compare", "no_such_folder"], "no_such_folder"),
+                              (["run", QUICK, "--threads", "none"], "--threads"),
+                              (["compare", "no_such_folder"], "no_such_folder"),
                               (["report", SOURCE], "comparison.json"), (["explain", "sampel"], "sample"),
                               (["explain", "resultz"], "results")):
             with self.subTest(words=words):

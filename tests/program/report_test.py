@@ -145,7 +145,7 @@ class CompleteFolder(unittest.TestCase):
     def test_the_page_states_what_was_found(self):
         # The major stress is vertical, so the minor stress is horizontal, at 45 degrees to a band at -45 degrees.
         for words in ("diffuse: no band", "a later key", "set by the mesh (local law)", "In 2 % of the bootstrap samples",
-                      "0.900 [0.800, 1.000]", "−45.0° [−46.5, −43.5]", "stress in the band: grains 45.0°", "Coulomb 45° + φ/2 = 55.0°"):
+                      "0.900 [0.800, 1.000]", "−45.0° [−46.5, −43.5]", "in the band: grains 45.0°", "Coulomb 45° + φ/2 = 55.0°"):
             self.assertIn(words, self.words)
 
     def test_dissipation_is_shown_in_per_cent_and_its_density_as_a_ratio(self):

@@ -85,7 +85,8 @@ class Resume(Folder):
         self.stop(signal.SIGTERM)
         path = self.path("checkpoint.h5")
         whole = content(path)
-        for words, size, text in ((setting(sample_seed=2), len(whole), "--overwrite"), (setting(discrete_friction=0.3), len(whole), self.folder),
+        for words, size, text in ((setting(sample_seed=2), len(whole), "--overwrite"),
+                                  (setting(discrete_friction=0.3), len(whole), self.folder),
                                   ([], len(whole) // 2, path), ([], len(whole) // 50, path)):
             with self.subTest(words=words, size=size):
                 os.truncate(path, size)

@@ -65,18 +65,21 @@ class Units(Folder):
 
     def test_grains_in_units_that_are_powers_of_two_change_no_digit(self):
         """d = 2^-10, rho = 2^12, P = 2^14, time unit 2^-11: every product rounds alike in thousands of steps."""
-        runs = [self.columns("discrete", QUICK, FEW + setting(sample_mean_diameter=d, sample_density=density, loading_pressure=pressure,
-                                                              discrete_step=0.1 * d * (density / pressure) ** 0.5), (d, density, pressure))
-                for d, density, pressure in ((1, 1, 1), (2.0**-10, 2.0**12, 2.0**14))]
+        runs = []
+        for units, time in (((1, 1, 1), 1), ((2.0**-10, 2.0**12, 2.0**14), 2.0**-11)):
+            words = setting(sample_mean_diameter=units[0], sample_density=units[1], loading_pressure=units[2], discrete_step=0.1 * time)
+            runs.append(self.columns("discrete", QUICK, FEW + words, units))
         self.expect_same(*runs, 1e-12)
 
     def test_a_continuum_in_si_units(self):
-        """si_units.prm: d = 1 mm, 2600 kg/m2, 10 kPa, and the same scene with d = rho = P = 1. The solver stops at its tolerance."""
+        """d = 1 mm, 2600 kg/m2, 10 kPa, and the same scene with d = rho = P = 1. The solver stops at its tolerance."""
         scene = os.path.join(os.path.dirname(os.path.abspath(__file__)), "si_units.prm")
         plain = setting(sample_mean_diameter=1, sample_density=1, loading_pressure=1, discrete_step=0.1)
-        runs = [self.columns("continuum", scene, words + setting(continuum_mesh="rectangle", continuum_rectangle_width=40 * units[0],
-                                                                 continuum_rectangle_height=60 * units[0]), units)
-                for words, units in (([], (1e-3, 2600, 1e4)), (plain, (1, 1, 1)))]
+        runs = []
+        for words, units in (([], (1e-3, 2600, 1e4)), (plain, (1, 1, 1))):
+            rectangle = setting(continuum_mesh="rectangle", continuum_rectangle_width=40 * units[0],
+                                continuum_rectangle_height=60 * units[0])
+            runs.append(self.columns("continuum", scene, words + rectangle, units))
         self.expect_same(*runs, 1e-6)
 
 if __name__ == "__main__":

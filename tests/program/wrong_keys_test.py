@@ -24,7 +24,7 @@ def grains(*rows, first="x,y,r"):
 
 
 class WrongKeys(Folder):
-    """Exit code 2, key, value and place in the message, and no output folder. Each key by itself: tests/python/scenes_test.py."""
+    """Exit code 2, key, value and place in the message, no folder. Each key by itself: tests/python/scenes_test.py."""
 
     def expect_wrong(self, words, *texts, command="discrete"):
         with self.subTest(command=command, words=words):
@@ -34,14 +34,16 @@ class WrongKeys(Folder):
                 self.assertIn(text, result.stderr)
             self.assertFalse(os.path.exists(self.folder), result.stderr)
 
-    def test_keys_that_name_files_and_drives(self):
+    def test_values_files_and_drives(self):
         for words, *texts in (
+                (setting(sample_grains=-4), "--set sample/grains=-4", "sample/grains = '-4'", "a whole number from 10"),
                 (setting(sample_file="no_such.csv"), "no_such.csv", "sample/file"),
                 (setting(discrete_method="imported", discrete_file="no_such.h5"), "no_such.h5", "discrete/file"),
                 (BY_TABLE + setting(sample_radius_table="no_such.csv"), "no_such.csv", "sample/radius_table"),
                 (drive("lower_x", "velocity no_such.csv"), "no_such.csv", "discrete/drive_lower_x"),
                 (drive("upper_y", "sideways 3"), "discrete/drive_upper_y", "'sideways 3'", "auto, velocity V or force F"),
-                (drive("upper_x", "velocity 1 2"), "discrete/drive_upper_x", "1 2"), (drive("upper_x", ""), "discrete/drive_upper_x"),
+                (drive("upper_x", "velocity 1 2"), "discrete/drive_upper_x", "1 2"),
+                (drive("upper_x", ""), "discrete/drive_upper_x"),
                 (drive("upper_x", "force "), "discrete/drive_upper_x", "'force'"),
                 (drive("left_x", "velocity 1"), "discrete/drive_left_x", "rigid_walls"),
                 (["--study", "grid"], "--study", "'grid'", "step"),
@@ -82,9 +84,8 @@ class WrongKeys(Folder):
             self.expect_wrong(words, *texts)
 
     def test_what_the_continuum_does_not_have(self):
-        for words, key in ((PERIODIC, "continuum/platens"), (setting(loading_mode="shear", continuum_platens="smooth"), "loading/mode"),
-                           (setting(sample_rough_platens="true"), "sample/rough_platens"),
-                           (drive("upper_y", "velocity -1"), "discrete/drive_upper_y"),
+        """Loading modes and platens: tests/coupling/panels."""
+        for words, key in ((setting(sample_rough_platens="true"), "sample/rough_platens"),
                            (WALLS + drive("right_x", "force -1"), "discrete/drive_right_x"),
                            (WALLS + drive("left_y", "velocity 1"), "discrete/drive_left_y")):
             self.expect_wrong(words, key, "diptych discrete", command="continuum")
@@ -102,7 +103,8 @@ class WrongKeys(Folder):
 
     def test_a_solid_fraction_out_of_reach_is_named_with_what_can_be_reached(self):
         """Only the preparation can tell, so the folder with the scene is there by then."""
-        result = diptych("discrete", QUICK, *SMALL, *setting(sample_target_solid_fraction=0.7, sample_seed=2), "--output", self.folder)
+        words = setting(sample_target_solid_fraction=0.7, sample_seed=2)
+        result = diptych("discrete", QUICK, *SMALL, *words, "--output", self.folder)
         self.assertEqual(result.returncode, 2, result.stderr)
         reach = re.search("sample/target_solid_fraction = 0.700 is out of reach: (0.8[0-9]+) to (0.8[0-9]+)", result.stderr)
         self.assertTrue(reach, result.stderr)

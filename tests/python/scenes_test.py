@@ -74,7 +74,7 @@ def wrong_values(allowed):
 def test_every_key_refuses_what_it_does_not_allow():
     free = []
     for key, (_, allowed, _) in diptych.keys().items():
-        if allowed in ("any text", "the name of a file", "outline, rectangle or a .msh or .geo file"):  # checked where it is used
+        if allowed in ("any text", "the name of a file", "outline, rectangle or a .msh or .geo file"):  # checked in use
             free.append(key)
             continue
         section, name = key.split("/")
