@@ -67,56 +67,85 @@ def run(program, source, name, folder):
         sys.exit(f"{name}: {program} ended with exit code {done.returncode}: {done.stderr}")
 
 
-def numbers(value, place):
-    """Every leaf of comparison.json by its place."""
-    if isinstance(value, dict) and "value" in value and value["value"] is None:
-        return {place: None}
-    if not isinstance(value, (dict, list)):
-        return {place: value}
-    items = value.items() if isinstance(value, dict) else enumerate(value)
-    return {at: leaf for key, part in items if key not in NOT_RESULTS for at, leaf in numbers(part, f"{place}/{key}").items()}
-
-
-def arrays(file, name):
-    """Datasets and attributes, without those that are words."""
+def bits(path):
+    """Every dataset and attribute as (shape, bytes), by name."""
     found = {}
 
-    def add(path, item):
+    def add(name, item):
         if isinstance(item, h5py.Dataset):
-            found[f"{name} {path}"] = item[()]
-        found.update({f"{name} {path}@{key}": numpy.asarray(value) for key, value in item.attrs.items() if key != "meaning"})
+            found[name] = (item.shape, item[()].tobytes())
+        for key, value in item.attrs.items():
+            if key == "meaning":  # words
+                continue
+            found[name + "@" + key] = (numpy.shape(value), numpy.asarray(value).tobytes())
 
-    file.visititems(add)
+    with h5py.File(path, "r") as file:
+        file.visititems(add)
     return found
 
 
-def results(folder):
-    """Every array and number of a result folder by its file and place."""
+def numbers(value, place=""):
+    """Every leaf of comparison.json by its place."""
+    if isinstance(value, dict) and "value" in value and value["value"] is None:
+        return {place: None}
+    if isinstance(value, dict):
+        items = value.items()
+    elif isinstance(value, list):
+        items = enumerate(value)
+    else:
+        return {place: value}
+    return {at: leaf for key, part in items if key not in NOT_RESULTS for at, leaf in numbers(part, f"{place}/{key}").items()}
+
+
+def comparison(folder):
     with open(os.path.join(folder, "comparison.json"), encoding="utf-8") as file:
-        found = numbers(json.load(file), "comparison.json ")
-    with h5py.File(os.path.join(folder, "discrete.h5"), "r") as file:
-        found.update(arrays(file, "discrete.h5"))
+        return numbers(json.load(file))
+
+
+def walked(name):
+    place = name.split("/")
+    walks = place[-1] == "axial_strain" and place[1] == "stages" or place[1:] == ["continuum_summary", "reached_axial_strain"]
+    return name.replace("axial_strain", "progress") if walks else name
+
+
+def same(a, b, relative):
+    if isinstance(a, (int, float)) and isinstance(b, (int, float)) and not isinstance(a, bool):
+        return a == b or math.isclose(a, b, rel_tol=relative, abs_tol=relative * 1e-3)
+    return a == b
+
+
+def continuum_arrays(folder):
+    """Datasets of the last stage by name."""
     with h5py.File(os.path.join(folder, "continuum.h5"), "r") as file:
-        last = arrays(file[max(name for name in file if name.startswith("stage_"))], "continuum.h5")
-        return {**found, **{name: value for name, value in last.items() if "@" not in name}}
-
-
-def same(name, a, b, relative):
-    if name.startswith("discrete.h5"):
-        return a.shape == b.shape and a.tobytes() == b.tobytes()
-    if name.startswith("continuum.h5"):
-        return a.shape == b.shape and numpy.allclose(a, b, rtol=relative, atol=relative * numpy.abs(b).max(initial=0))
-    is_number = all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in (a, b))
-    return a == b or is_number and math.isclose(a, b, rel_tol=relative, abs_tol=relative * 1e-3)
+        last, found = file[sorted(name for name in file if name.startswith("stage_"))[-1]], {}
+        last.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
+    return found
 
 
 def compare(one, other, relative):
-    """Sentences about what differs, what only one of the two has, and how many both have."""
-    a, b = results(one), results(other)
-    both = sorted(a.keys() & b.keys())
-    different = [name + (f": {a[name]} for {b[name]}" if name.startswith("comparison") else "") for name in both
-                 if not same(name, a[name], b[name], relative)]
-    return different, sorted(a.keys() - b.keys()), sorted(b.keys() - a.keys()), len(both)
+    """Sentences about what differs, and about what only one of the two has."""
+    different, new, gone, largest = [], [], [], 0.0
+    a, b = (bits(os.path.join(folder, "discrete.h5")) for folder in (one, other))
+    different += [f"discrete.h5 {name}" for name in sorted(a.keys() & b.keys()) if a[name] != b[name]]
+    new += [f"discrete.h5 {name}" for name in sorted(a.keys() - b.keys())]
+    gone += [f"discrete.h5 {name}" for name in sorted(b.keys() - a.keys())]
+    a, b = continuum_arrays(one), continuum_arrays(other)
+    different += [f"continuum.h5 {name}" for name in sorted(a.keys() & b.keys())
+                  if a[name].shape != b[name].shape
+                  or not numpy.allclose(a[name], b[name], rtol=relative, atol=relative * numpy.abs(b[name]).max(initial=0))]
+    gone += [f"continuum.h5 {name}" for name in sorted(b.keys() - a.keys())]
+    a, b = comparison(one), comparison(other)
+    if "/stages/0/progress" in a and "/stages/0/progress" not in b:  # before format 2 both were called axial strain
+        b = {walked(name): value for name, value in b.items()}
+    for name in sorted(a.keys() & b.keys()):
+        if not same(a[name], b[name], relative):
+            different.append(f"comparison.json {name}: {a[name]} for {b[name]}")
+        elif isinstance(a[name], float) and a[name] != b[name]:
+            size = max(abs(a[name]), abs(b[name]))
+            largest = max(largest, abs(a[name] - b[name]) / size if size > 1e-9 else 0)
+    new += [f"comparison.json {name}" for name in sorted(a.keys() - b.keys())]
+    gone += [f"comparison.json {name}" for name in sorted(b.keys() - a.keys())]
+    return different, new, gone, largest, len(a.keys() & b.keys())
 
 
 def main():
@@ -139,11 +168,13 @@ def main():
             run(words.program, words.source, name, one)
             if not os.path.exists(os.path.join(other, "comparison.json")):
                 run(words.other_program, words.source, name, other)
-            different, new, gone, count = compare(one, other, words.relative)
+            different, new, gone, largest, count = compare(one, other, words.relative)
             failed = failed or bool(different or gone)
-            print(f"{name}: {count} arrays and numbers, {len(different)} differ, {len(gone)} gone, {len(new)} new")
+            print(f"{name}: {count} numbers, {len(different)} differ" + (f" (rest within {largest:.1e})" if largest else "")
+                  + f", {len(gone)} gone, {len(new)} new")
             for text in different[:12] + ["gone: " + text for text in gone[:12]] + ["new: " + text for text in new[:12]]:
-                print("    " + text, flush=True)
+                print("    " + text)
+            sys.stdout.flush()
     return 1 if failed else 0
 
 
