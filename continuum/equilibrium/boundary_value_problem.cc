@@ -10,7 +10,6 @@
 #include "continuum/elements/element_kernels.h"
 #include "continuum/equilibrium/initial_points.h"
 #include "continuum/equilibrium/point_operations.h"
-#include "continuum/equilibrium/stopwatch.h"
 #include "continuum/laws/plastic_flow.h"
 #include "continuum/equilibrium/loads.h"
 
@@ -20,6 +19,13 @@ namespace diptych::continuum
 
   namespace
   {
+    struct Stopwatch
+    {
+      double      &seconds;
+      std::clock_t start = std::clock();
+      ~Stopwatch() { seconds += double(std::clock() - start) / CLOCKS_PER_SEC; }
+    };
+
     ElementKind element_kind(const Options &options)
     {
       if (traits(options.law).is_cosserat)

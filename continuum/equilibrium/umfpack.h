@@ -34,7 +34,6 @@ namespace diptych::continuum
 
     void forget_pattern(); // the next matrix has a new pattern
     void forget_factors();
-    bool has_factors() const { return numeric != nullptr; }
 
   private:
     void               take_pattern(const dealii::TrilinosWrappers::SparseMatrix &matrix);

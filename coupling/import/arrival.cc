@@ -8,8 +8,6 @@
 #include <set>
 #include <unordered_map>
 
-#include "coupling/import/arrival_check.h"
-#include "coupling/import/arrival_contacts.h"
 #include "coupling/scene/scene_error.h"
 #include "discrete/files/csv_file.h"
 

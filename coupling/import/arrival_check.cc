@@ -1,6 +1,6 @@
 // diptych: checks of an imported sample
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupling/import/arrival_check.h"
+#include "coupling/import/arrived_sample.h"
 #include "coupling/scene/scene_error.h"
 
 #include <algorithm>

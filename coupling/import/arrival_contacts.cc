@@ -1,6 +1,6 @@
 // diptych: puts contacts and walls of another code's frame in order
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupling/import/arrival_contacts.h"
+#include "coupling/import/arrived_sample.h"
 #include "coupling/scene/scene_error.h"
 
 #include <algorithm>

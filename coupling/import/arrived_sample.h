@@ -98,4 +98,14 @@ namespace diptych::coupling
     std::vector<std::string>  lacking;  // quantities that the files do not contain; null in all results
     std::vector<std::string>  doubtful; // findings of the checks that a user should look at
   };
+
+  void remark_once(Arrival &arrival, const std::string &text);
+
+  // Fills contacts, status and walls of `to`; its grains are already there, in the order of arrival.id. Repeated pairs are
+  // counted once. Forces that pull are reversed. The grains that touch a wall without a side locate it. Each of these is
+  // reported once for all frames in arrival.remarks. Throws SceneError like arrive().
+  void take_contacts(const ForeignFrame &from, Arrival &arrival, const ForeignOptions &options, ArrivedFrame &to);
+
+  // Fills arrival.checks, one per frame, and arrival.doubtful. Throws SceneError if walls are in the wrong order.
+  void check_arrival(Arrival &arrival);
 } // namespace diptych::coupling

@@ -3,13 +3,16 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "coupling/import/exported_files.h"
 #include "coupling/scene/scene.h"
 #include "discrete/snapshot.h"
 
 namespace diptych::coupling
 {
+  using ExportedFiles = std::vector<std::pair<std::string, std::string>>; // name and text of each file
+
   // Returns name and text of every file. `lammps`: data file and script. `csv`: particles, contacts and walls, with the stage in
   // their names. Grains and walls come from the snapshot, friction and pressure from the scene. Rigid grains have no contact
   // stiffness and damping; the script states the values that it uses. Throws SceneError for periodic sides.

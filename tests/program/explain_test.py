@@ -3,21 +3,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: explain_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
 
-import csv
-import json
 import os
 import re
-import tempfile
 import unittest
 
 import h5py
 
-from running import QUICK, diptych, main, setting
+from running import QUICK, SMALL, diptych, finished, history, main, read_json, setting, temporary
 
-TINY = setting(sample_grains=150, loading_inertial_number=1e-3, loading_axial_strain=0.01, discrete_step=0.1,
-               discrete_tolerance=1e-4, discrete_snapshot_max_sweeps=100, discrete_reference_sweeps=0,
-               comparison_window_edges="0,0.01", continuum_element_size=2.5, comparison_coarse_element_size=3,
-               output_report="false")
+TINY = SMALL + setting(sample_grains=150, continuum_element_size=2.5, comparison_coarse_element_size=3, output_report="false")
 INTERVAL = {"value", "low", "high"}
 
 
@@ -53,18 +47,13 @@ def places(value, place=""):
 class Results(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.keep = tempfile.TemporaryDirectory()
-        cls.ensemble, cls.study, cls.point = (os.path.join(cls.keep.name, name) for name in ("ensemble", "study", "point"))
+        work = temporary(cls)
+        cls.ensemble, cls.study, cls.point = (os.path.join(work, name) for name in ("ensemble", "study", "point"))
         for words in (["run", "--seeds", "1-2", "--output", cls.ensemble], ["discrete", "--study", "step", "--output", cls.study],
                       ["material-point", "--output", cls.point]):
-            result = diptych(words[0], QUICK, *TINY, *words[1:], "--quiet")
-            assert result.returncode == 0, result.stderr
+            finished(words[0], QUICK, *TINY, *words[1:], "--quiet")
         cls.run_ = os.path.join(cls.ensemble, "seed_1")
         cls.explained = explained()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.keep.cleanup()
 
     def entries(self, file, group=None):
         """Those of every heading that names the file and, if any, the group."""
@@ -79,16 +68,14 @@ class Results(unittest.TestCase):
     def test_columns_of_tables(self):
         for folder, name in ((self.run_, "discrete.csv"), (self.run_, "continuum.csv"), (self.point, "material_point.csv"),
                              (self.run_, "comparison.csv"), (self.ensemble, "ensemble.csv"), (self.study, "study_step.csv")):
-            with open(os.path.join(folder, name), encoding="utf-8") as file:
-                columns = [column for column in next(csv.reader(file)) if not re.fullmatch("seed_[0-9]+", column)]
+            columns = [column for column in history(folder, name) if not re.fullmatch("seed_[0-9]+", column)]
             self.assertGreater(len(columns), 5)
             self.assertEqual([column for column in columns if column not in self.entries(name)], [], name)
 
     def test_keys_of_json_files(self):
         for folder, name in ((self.run_, "comparison.json"), (self.run_, "provenance.json"), (self.ensemble, "ensemble.json"),
                              (self.ensemble, "provenance.json"), (self.study, "study_step.json")):
-            with open(os.path.join(folder, name), encoding="utf-8") as file:
-                record = json.load(file)
+            record = read_json(folder, name)
             record.pop("numbers", None)  # what explains the file itself
             found = set(places(record))
             self.assertGreater(len(found), 5)

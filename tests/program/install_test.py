@@ -9,10 +9,9 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 
-from running import ENVIRONMENT, PROGRAM, SMALL, SOURCE, content, main, setting, write
+from running import ENVIRONMENT, PROGRAM, SMALL, SOURCE, content, main, setting, temporary, write
 
 BUILD = os.path.dirname(PROGRAM)
 
@@ -22,17 +21,14 @@ class Package(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.keep = tempfile.TemporaryDirectory()
-        cls.work, cls.root = cls.keep.name, os.path.join(cls.keep.name, "root")
+        cls.work = temporary(cls)
+        cls.root = os.path.join(cls.work, "root")
+        cls.share = os.path.join(cls.root, "usr", "share")
         subprocess.run(["cpack", "--config", os.path.join(BUILD, "CPackConfig.cmake"), "-G", "DEB", "-B", cls.work], check=True,
                        capture_output=True, cwd=cls.work)
         cls.package = next(os.path.join(cls.work, name) for name in os.listdir(cls.work) if name.endswith(".deb"))
         subprocess.run(["dpkg-deb", "-x", cls.package, cls.root], check=True)
         cls.program = os.path.join(cls.root, "usr", "bin", "diptych")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.keep.cleanup()
 
     def run_program(self, *words):
         environment = {name: ENVIRONMENT[name] for name in ENVIRONMENT if name.startswith("OMPI_")}
@@ -60,7 +56,7 @@ class Package(unittest.TestCase):
             self.assertRegex(told, rf"\b{re.escape(name)} \d+\.\d+")
 
     def test_the_manual_page_has_every_command_and_option(self):
-        page = os.path.join(self.root, "usr", "share", "man", "man1", "diptych.1.gz")
+        page = os.path.join(self.share, "man", "man1", "diptych.1.gz")
         with gzip.open(page, "rt") as file:
             text = file.read().replace("\\-", "-")
         commands = re.findall(r"^  ([a-z-]+) ", self.run_program("--help").stdout.split("Subcommands:")[1], re.MULTILINE)
@@ -76,14 +72,13 @@ class Package(unittest.TestCase):
             self.assertIn("material-point", told.stdout)
 
     def test_shells_complete_keys(self):
-        share = os.path.join(self.root, "usr", "share")
-        script = os.path.join(share, "bash-completion", "completions", "diptych")
+        script = os.path.join(self.share, "bash-completion", "completions", "diptych")
         told = subprocess.run(["bash", "-c", f"source {script}; COMP_WORDS=(diptych run --set discrete/fric); COMP_CWORD=3; _diptych; "
                                "echo ${COMPREPLY[@]}"], capture_output=True, text=True, check=True).stdout
         self.assertEqual(told, "discrete/friction=\n")
-        with open(os.path.join(share, "zsh", "vendor-completions", "_diptych")) as file:
-            self.assertEqual(file.readline(), "#compdef diptych\n")
-        script = os.path.join(share, "fish", "vendor_completions.d", "diptych.fish")
+        script_of_zsh = content(os.path.join(self.share, "zsh", "vendor-completions", "_diptych"))
+        self.assertTrue(script_of_zsh.startswith(b"#compdef diptych\n"))
+        script = os.path.join(self.share, "fish", "vendor_completions.d", "diptych.fish")
         if not shutil.which("fish"):
             self.skipTest("no fish on the PATH: test.sh installs it")
         for line, offered in (("run --set discrete/fric", "discrete/friction="), ("run --set discrete/lateral=per", "discrete/lateral=periodic"),
@@ -109,41 +104,36 @@ class Package(unittest.TestCase):
         self.assertAlmostEqual(ratio, 1, delta=1e-8)  # at rest the floor carries the weight of all three
         self.assertAlmostEqual(height, 2.5, delta=3e-4)  # radius 0.5 on two diameters, less penetrations of at most 1e-4 d
 
-    def test_a_comparison_with_its_report(self):
-        scene = os.path.join(self.root, "usr", "share", "diptych", "benchmarks", "moreau_quick", "scene.prm")
-        folder = os.path.join(self.work, "out")
-        done = self.run_program("run", scene, *SMALL, *setting(sample_grains=150), "--output", folder, "--quiet")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertGreater(os.path.getsize(os.path.join(folder, "report.html")), 100000)
+    def test_an_ensemble_with_its_page_and_that_of_a_run(self):
+        scene = os.path.join(self.share, "diptych", "benchmarks", "moreau_quick", "scene.prm")
+        folder, member = os.path.join(self.work, "two"), os.path.join(self.work, "two", "seed_1")
+        few = SMALL + setting(sample_grains=150)
+        for words in (["run", scene, *few, "--seeds", "1-2", "--output", folder], ["report", member]):
+            done = self.run_program(*words, "--quiet")
+            self.assertEqual(done.returncode, 0, done.stderr)
+        for page in (folder, member):
+            self.assertGreater(os.path.getsize(os.path.join(page, "report.html")), 100000)
 
     def test_the_python_package(self):
         place = os.path.join(self.root, "usr", "lib", "python3", "dist-packages")
         script = ("import diptych; p = diptych.ContinuumPanel({'continuum': {'mesh': 'rectangle', 'rectangle_width': 8, "
-                  "'rectangle_height': 8}}); print(p.prepare(), diptych.__file__)")
+                  "'rectangle_height': 8}}); print(p.prepare(), diptych.__file__, diptych.notebooks_dir(), "
+                  "diptych.scene(diptych.benchmarks_dir() + '/moreau_quick/scene.prm')['sample']['grains'])")
         done = subprocess.run([sys.executable, "-B", "-c", script], capture_output=True, text=True, check=False, cwd=self.work,
                               env={"PATH": "/usr/bin:/bin", "HOME": self.work, "PYTHONPATH": place})
-        self.assertEqual(done.stdout.split(), ["finished", os.path.join(place, "diptych", "__init__.py")], done.stderr)
-
-    def test_an_ensemble(self):
-        scene = os.path.join(self.root, "usr", "share", "diptych", "benchmarks", "moreau_quick", "scene.prm")
-        folder = os.path.join(self.work, "two")
-        done = self.run_program("run", scene, *SMALL, *setting(sample_grains=150, output_report="false"), "--seeds", "1-2",
-                                "--output", folder, "--quiet")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertTrue(os.path.exists(os.path.join(folder, "ensemble.json")))
+        notebooks = os.path.join(self.share, "diptych", "notebooks")
+        package = os.path.join(place, "diptych", "__init__.py")
+        self.assertEqual(done.stdout.split(), ["finished", package, notebooks, "2000"], done.stderr)
+        self.assertEqual(len([name for name in os.listdir(notebooks) if name.endswith(".ipynb")]), 7)
+        self.assertTrue(os.path.exists(os.path.join(notebooks, "data", "frames.csv")))
 
     def test_a_broken_installation_is_named_with_exit_code_4(self):
-        away = os.path.join(self.root, "usr", "share", "diptych", "away")
-        report = os.path.join(self.root, "usr", "share", "diptych", "report")
-        os.rename(report, away)
-        try:
-            folder = os.path.join(self.work, "broken")
-            os.makedirs(folder, exist_ok=True)
-            if not os.path.exists(os.path.join(folder, "comparison.json")):
-                write(os.path.join(folder, "comparison.json"), "{}")
-            done = self.run_program("report", folder, "--quiet")
-        finally:
-            os.rename(away, report)
+        report = os.path.join(self.share, "diptych", "report")
+        os.rename(report, report + "_away")
+        self.addCleanup(os.rename, report + "_away", report)
+        folder = temporary(self)
+        write(os.path.join(folder, "comparison.json"), "{}")
+        done = self.run_program("report", folder, "--quiet")
         self.assertEqual(done.returncode, 4, done.stderr)
         self.assertIn("installation is broken", done.stderr)
 

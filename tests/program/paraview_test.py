@@ -5,7 +5,6 @@
 
 import os
 import re
-import tempfile
 import unittest
 import xml.etree.ElementTree as tree
 
@@ -13,7 +12,7 @@ import h5py
 import meshio
 import numpy as np
 
-from running import QUICK, SMALL, diptych, main, setting
+from running import QUICK, SMALL, finished, main, setting, temporary
 
 # A law without couple stresses: its stress is symmetric, and so is everything that a tensor of it may be checked against.
 SYMMETRIC = SMALL + setting(sample_seed=2, continuum_law="mohr_coulomb", output_report="false")  # 2: a smooth outline
@@ -22,16 +21,9 @@ SYMMETRIC = SMALL + setting(sample_seed=2, continuum_law="mohr_coulomb", output_
 class Files(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.folder = os.path.join(cls.temporary.name, "run")
-        outcome = diptych("run", QUICK, "--output", cls.folder, "--quiet", *SYMMETRIC)
-        if outcome.returncode:
-            raise RuntimeError(outcome.stderr)
-        cls.stages = sorted(name for name in os.listdir(os.path.join(cls.folder, "continuum")))
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.temporary.cleanup()
+        cls.folder = temporary(cls)
+        finished("run", QUICK, "--output", cls.folder, "--quiet", *SYMMETRIC)
+        cls.stages = sorted(os.listdir(os.path.join(cls.folder, "continuum")))
 
     def path(self, *names):
         return os.path.join(self.folder, *names)

@@ -3,28 +3,16 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: program_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
 
-import base64
 import csv
-import json
 import os
 import shutil
-import signal
 import subprocess
-import sys
-import tempfile
-import time
 import unittest
-import xml.etree.ElementTree
 
-import h5py
 import numpy
 
 import browser
-from running import ENVIRONMENT, PROGRAM, QUICK, SOURCE, diptych, setting
-
-# A sample that takes seconds: the physics of the quick scene on 300 grains to 1 % strain.
-SMALL = ["--set", "sample/grains=300", "--set", "loading/axial_strain=0.01", "--set", "loading/inertial_number=1e-3",
-         "--set", "discrete/step=0.1", "--set", "comparison/window_edges=0,0.01"]
+from running import QUICK, SOURCE, diptych, finished, half_files, history, main, read_json, setting, temporary, write
 
 
 def number(value):
@@ -32,32 +20,21 @@ def number(value):
     return value["value"] if isinstance(value, dict) else value
 
 
-def listing(folder):
-    return sorted(os.path.join(root, name) for root, _, names in os.walk(folder) for name in names)
-
-
 class QuickScene(unittest.TestCase):
     """moreau_quick once through everything; the tests read its result folder."""
 
     @classmethod
     def setUpClass(cls):
-        cls.keep = tempfile.TemporaryDirectory()
-        cls.folder = os.path.join(cls.keep.name, "quick")
-        cls.process = diptych("run", QUICK, "--output", cls.folder)
-        assert cls.process.returncode == 0, cls.process.stderr
-        with open(os.path.join(cls.folder, "comparison.json")) as file:
-            cls.comparison = json.load(file)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.keep.cleanup()
+        cls.folder = os.path.join(temporary(cls), "quick")
+        cls.process = finished("run", QUICK, "--output", cls.folder)
+        cls.comparison = read_json(cls.folder, "comparison.json")
 
     def test_every_promised_file_is_there_and_no_half_file(self):
         for name in ["scene.prm", "provenance.json", "discrete.h5", "discrete.xdmf", "discrete.csv", "continuum.h5",
                      "continuum.xdmf", "continuum.pvd", "continuum.csv", "comparison.json", "comparison.csv", "fields.vtu", "grid.vtu",
                      "report.html"]:
             self.assertTrue(os.path.getsize(os.path.join(self.folder, name)) > 0, name)
-        self.assertEqual([path for path in listing(self.folder) if path.endswith(".part")], [])
+        self.assertEqual(half_files(self.folder), [])
 
     def test_the_mapping_keeps_the_total(self):
         self.assertEqual(len(self.comparison["stages"]), 6)
@@ -87,18 +64,15 @@ class QuickScene(unittest.TestCase):
         self.assertLess(summary["max_penetration_d"], 0.02)
 
     def test_vertical_platen_forces_of_the_continuum_balance(self):
-        with open(os.path.join(self.folder, "continuum.csv")) as file:
-            rows = list(csv.DictReader(file))
-        last = rows[-1]
-        self.assertAlmostEqual(float(last["axial_strain"]), 0.03, places=9)
-        self.assertLess(abs(float(last["lower_fy"]) + float(last["upper_fy"])), 1e-3 * abs(float(last["upper_fy"])))
+        last = {name: column[-1] for name, column in history(self.folder, "continuum.csv").items()}
+        self.assertAlmostEqual(last["axial_strain"], 0.03, places=9)
+        self.assertLess(abs(last["lower_fy"] + last["upper_fy"]), 1e-3 * abs(last["upper_fy"]))
 
     def test_dissipation_inside_and_outside_the_band_adds_up_to_the_ledger(self):
         """Every stage shows a band here; what its contacts dissipate, by friction and by impacts, is what the ledger counted."""
         splits = [stage["discrete"]["dissipation"] for stage in self.comparison["stages"]]
-        with open(os.path.join(self.folder, "discrete.csv")) as file:
-            last = list(csv.DictReader(file))[-1]
-        ledger = float(last["friction_dissipation"]) + float(last["impact_dissipation"])
+        rows = history(self.folder)
+        ledger = rows["friction_dissipation"][-1] + rows["impact_dissipation"][-1]
         self.assertAlmostEqual(sum(split["inside"] + split["outside"] for split in splits) / ledger, 1, places=6)
         for split in splits:  # shear localises it
             self.assertGreater(split["share_inside"], split["area_share"])
@@ -142,26 +116,6 @@ class QuickScene(unittest.TestCase):
         self.assertGreater(min(shares), 0)
         self.assertLess(numpy.median(shares), 0.01)
 
-    def test_shear_strain_is_that_of_the_strain_tensor(self):
-        """eps_1 - eps_2 of the symmetric tensor; the sample gets shorter, so eps_yy is positive in compression."""
-        with h5py.File(os.path.join(self.folder, "comparison.h5"), "r") as file:
-            cells = file[sorted(name for name in file if name.startswith("stage"))[-1]]["grid"]
-            for panel in ["discrete", "continuum"]:
-                tensor, shear = (cells[f"{panel}_{name}"][()] for name in ["strain_increment", "shear_strain_increment"])
-                known = numpy.isfinite(shear)
-                self.assertGreater(known.sum(), 50)
-                difference = numpy.hypot(tensor[:, 0, 0] - tensor[:, 1, 1], 2 * tensor[:, 0, 1])
-                self.assertLess(numpy.abs(difference - shear)[known].max(), 1e-12)
-                self.assertGreater(tensor[known, 1, 1].mean(), 0.003)  # 0.005 of descent in the stage
-
-    def test_a_probe_outside_the_sample_is_refused(self):
-        result = diptych("compare", self.folder, "--quiet", "--set", "output/report=false", "--set",
-                         "comparison/probe_circle=100,100,5")
-        self.assertEqual(result.returncode, 2)
-        self.assertIn("comparison/probe_circle", result.stderr)
-        with open(os.path.join(self.folder, "comparison.json")) as file:
-            self.assertEqual(json.load(file)["stages"], self.comparison["stages"])  # kept
-
     def test_the_page_opens_without_an_error(self):
         if browser.program() is None:
             self.skipTest("chromium is not installed (test.sh installs it)")
@@ -170,23 +124,15 @@ class QuickScene(unittest.TestCase):
             self.assertEqual(page.messages, [])
             self.assertGreater(page.run("document.querySelectorAll('canvas, svg, img').length"), 20)
 
-    def test_tensors_are_tensors_in_the_vtu(self):
-        root = xml.etree.ElementTree.parse(os.path.join(self.folder, "fields.vtu")).getroot()
-        arrays = {a.get("Name"): a for a in root.iter("DataArray")}
-        cells = int(root.find(".//Piece").get("NumberOfCells"))
-        for name in ["discrete_stress", "continuum_stress", "stress_difference"]:
-            self.assertEqual(arrays[name].get("NumberOfComponents"), "9")
-            stored = base64.b64decode(arrays[name].text)  # the number of bytes, then 8 bytes a number
-            self.assertEqual((int.from_bytes(stored[:8], "little"), len(stored)), (72 * cells, 8 + 72 * cells))
-
-    def test_comparing_again_gives_the_same_numbers(self):
-        copied = os.path.join(self.keep.name, "copied")
-        shutil.copytree(self.folder, copied)
-        again = diptych("compare", copied, "--quiet", "--set", "output/report=false")
-        self.assertEqual(again.returncode, 0, again.stderr)
+    def test_comparing_again_gives_the_same_numbers_and_a_refused_comparison_keeps_them(self):
+        copied = shutil.copytree(self.folder, os.path.join(temporary(self), "copied"))
+        again = ["compare", copied, "--quiet", *setting(output_report="false")]
+        finished(*again)
         self.assertFalse(os.path.exists(os.path.join(copied, "report.html")), "the page of the comparison before")
-        with open(os.path.join(copied, "comparison.json")) as file:
-            repeated = json.load(file)
+        refused = diptych(*again, *setting(comparison_probe_circle="100,100,5"))
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("comparison/probe_circle", refused.stderr)
+        repeated = read_json(copied, "comparison.json")
         self.assertEqual(repeated["stages"], self.comparison["stages"])
         self.assertEqual(repeated["windows"], self.comparison["windows"])
 
@@ -199,12 +145,9 @@ class ReferenceScene(unittest.TestCase):
     """moreau_1997 as it ships; peaks within four deviations of eight seeds, see benchmarks/moreau_1997/README.md."""
 
     def test_grains_and_continuum(self):
-        scene = os.path.join(SOURCE, "benchmarks", "moreau_1997", "scene.prm")
-        with tempfile.TemporaryDirectory() as folder:
-            result = diptych("run", scene, "--output", folder, "--quiet")
-            self.assertEqual(result.returncode, 0, result.stderr)
-            with open(os.path.join(folder, "comparison.json")) as file:
-                comparison = json.load(file)
+        folder = temporary(self)
+        finished("run", os.path.join(SOURCE, "benchmarks", "moreau_1997", "scene.prm"), "--output", folder, "--quiet")
+        comparison = read_json(folder, "comparison.json")
         grains, continuum = comparison["discrete_summary"], comparison["continuum_summary"]
         self.assertTrue(0.3225 < grains["peak_stress_ratio"] < 0.3925)
         self.assertTrue(0.344 < continuum["peak_stress_ratio"] < 0.352)
@@ -229,12 +172,9 @@ class WideSample(unittest.TestCase):
     def test_no_band_is_called_a_zone_between_two_packs(self):
         n_bands, zones = 0, []
         for seed in (1, 2, 3):
-            with tempfile.TemporaryDirectory() as folder:
-                words = setting(sample_width_over_height=1.5, sample_seed=seed, output_report="false")
-                result = diptych("run", QUICK, *words, "--output", folder, "--quiet")
-                self.assertEqual(result.returncode, 0, result.stderr)
-                with open(os.path.join(folder, "comparison.json")) as file:
-                    windows = json.load(file)["windows"]
+            folder, words = temporary(self), setting(sample_width_over_height=1.5, sample_seed=seed, output_report="false")
+            finished("run", QUICK, *words, "--output", folder, "--quiet")
+            windows = read_json(folder, "comparison.json")["windows"]
             self.assertEqual(len(windows), 3)
             for window in windows:
                 for panel in ("discrete", "continuum"):
@@ -250,113 +190,38 @@ class WideSample(unittest.TestCase):
         self.assertGreater(n_bands, 9, "there must have been bands to judge")
 
 
-class WrongInput(unittest.TestCase):
-    def expect_wrong(self, words, *texts):
-        result = diptych(*words)
-        self.assertEqual(result.returncode, 2, result.stderr)
-        for text in texts:
-            self.assertIn(text, result.stderr)
-
-    def test_nothing_is_written_for_a_wrong_scene(self):
-        with tempfile.TemporaryDirectory() as folder:
-            scene = os.path.join(folder, "mine.prm")
-            with open(scene, "w") as file:
-                file.write("subsection sample\n  set grians = 3\nend\n")
-            out = os.path.join(folder, "out")
-            self.expect_wrong(["run", scene, "--output", out], "mine.prm", "line 2", "sample/grians", "sample/grains")
-            self.assertFalse(os.path.exists(out))
-
-    def test_a_folder_that_is_no_result_is_left_alone(self):
-        with tempfile.TemporaryDirectory() as folder:
-            kept = os.path.join(folder, "continuum", "mine.txt")
-            os.mkdir(os.path.dirname(kept))
-            for path in [kept, os.path.join(folder, "scene.prm")]:
-                with open(path, "w") as file:
-                    file.write("# mine\n")
-            for command in ["run", "discrete", "continuum"]:
-                self.expect_wrong([command, QUICK, *SMALL, "--output", folder], folder)
-            self.assertEqual(listing(folder), [kept, os.path.join(folder, "scene.prm")])
-            with open(os.path.join(folder, "scene.prm")) as file:
-                self.assertEqual(file.read(), "# mine\n")
-
-    def test_words_of_the_command_line(self):
-        self.expect_wrong(["run"], "SCENE is required")
-        self.expect_wrong(["rnu", QUICK], "'rnu' is not a command", "'run'")
-        self.expect_wrong(["run", QUICK, "--outptu", "x"], "'--outptu x' is not used", "nearest option is '--output'")
-        self.expect_wrong(["run", QUICK, "--outptu=x"], "'--outptu=x' is not used", "nearest option is '--output'")
-        self.expect_wrong(["run", QUICK, "--seed", "3"], "nearest option is '--seeds'")
-        self.expect_wrong(["run", QUICK, "--solver", "psor"], "option of diptych solve")
-        self.expect_wrong(["run", "no_such_scene.prm"], "no_such_scene.prm")
-        self.expect_wrong(["run", QUICK, "--set", "sample/grains=-4"], "sample/grains", "-4")
-        self.expect_wrong(["run", QUICK, "--threads", "none"], "--threads")
-        self.expect_wrong(["compare", "no_such_folder"], "no_such_folder")
-        self.expect_wrong(["report", SOURCE], "comparison.json")
-        self.expect_wrong(["explain", "sampel"], "sample")
-        self.expect_wrong(["explain", "resultz"], "results")
-        self.expect_wrong(["run", SOURCE], SOURCE, "folder")
-
-    def test_a_truncated_result_is_named(self):
-        with tempfile.TemporaryDirectory() as folder:
-            self.assertEqual(diptych("discrete", QUICK, *SMALL, "--output", folder, "--quiet").returncode, 0)
-            path = os.path.join(folder, "discrete.h5")
-            with open(path, "r+b") as file:
-                file.truncate(os.path.getsize(path) // 2)
-            for name in ["continuum.csv", "continuum.h5"]:
-                with open(os.path.join(folder, name), "w") as file:
-                    file.write("axial_strain,stress_ratio\n0,0\n")
-            self.expect_wrong(["compare", folder], "discrete.h5")
-
-
-class Help(unittest.TestCase):
-    def test_explain_lists_every_key(self):
-        result = diptych("explain")
-        self.assertEqual(result.returncode, 0)
-        for key in ["grains", "inertial_number", "tolerance", "friction_angle_peak", "window_edges", "directory"]:
-            self.assertIn(key, result.stdout)
+class CommandLine(unittest.TestCase):
+    def test_wrong_words_are_named(self):
+        for words, *texts in ((["run"], "SCENE is required"), (["rnu", QUICK], "'rnu' is not a command", "'run'"),
+                              (["run", QUICK, "--outptu", "x"], "'--outptu x' is not used", "nearest option is '--output'"),
+                              (["run", QUICK, "--outptu=x"], "'--outptu=x' is not used"),
+                              (["run", QUICK, "--seed", "3"], "nearest option is '--seeds'"),
+                              (["run", QUICK, "--solver", "psor"], "option of diptych solve"),
+                              (["run", "no_such_scene.prm"], "no_such_scene.prm"), (["run", SOURCE], SOURCE, "folder"),
+                              (["run", QUICK, "--threads", "none"], "--threads"),
+                              (["compare", "no_such_folder"], "no_such_folder"),
+                              (["report", SOURCE], "comparison.json"), (["explain", "sampel"], "sample"),
+                              (["explain", "resultz"], "results")):
+            with self.subTest(words=words):
+                result = diptych(*words)
+                self.assertEqual(result.returncode, 2, result.stderr)
+                for text in texts:
+                    self.assertIn(text, result.stderr)
 
 
     def test_completion_offers_commands_options_keys_and_values(self):
-        with tempfile.TemporaryDirectory() as folder:
-            script = os.path.join(folder, "completion")
-            with open(script, "w") as file:
-                file.write(diptych("completion", "bash").stdout)
-            for words, offered in ((["ru"], "run"), (["run", "scene.prm", "--see"], "--seeds"), (["solve", "--solver", ""], "psor"),
-                                   (["solve", "--form", "lo"], "local"), (["explain", "samp"], "sample"), (["explain", "res"], "results"),
-                                   (["completion", ""], "fish"), (["run", "--set", "discrete/fric"], "discrete/friction="),
-                                   (["run", "--set", "continuum/law", "=", "mo"], "mohr_coulomb"),
-                                   (["run", "--set", "discrete/lateral", "="], "periodic")):
-                quoted = " ".join(f"'{word}'" for word in ["diptych", *words])
-                told = subprocess.run(["bash", "-c", f"source {script}; COMP_WORDS=({quoted}); COMP_CWORD={len(words)}; _diptych; "
-                                       "echo ${COMPREPLY[@]}"], capture_output=True, text=True, check=True).stdout.split()
-                self.assertIn(offered, told, words)
-                self.assertLess(len(told), 20, words)
-
-
-class Interruption(unittest.TestCase):
-    def test_ctrl_c_keeps_what_was_done(self):
-        with tempfile.TemporaryDirectory() as folder:
-            process = subprocess.Popen([PROGRAM, "discrete", QUICK, *SMALL, "--set", "loading/axial_strain=0.4", "--output", folder],
-                                       env=ENVIRONMENT, stderr=subprocess.PIPE, text=True)
-            path = os.path.join(folder, "discrete.h5")
-            while process.poll() is None and not os.path.exists(path):  # the prepared sample is the first thing kept
-                time.sleep(0.05)
-            time.sleep(1)
-            process.send_signal(signal.SIGINT)
-            _, errors = process.communicate()
-            self.assertEqual(process.returncode, 3, errors)
-            self.assertIn("stopped on request", errors)
-            with open(os.path.join(folder, "discrete.csv")) as file:
-                self.assertGreater(len(file.readlines()), 1)
-            self.assertEqual([name for name in listing(folder) if name.endswith(".part")], [])
-
-    def test_no_convergence_is_exit_code_three_with_the_reason(self):
-        with tempfile.TemporaryDirectory() as folder:
-            result = diptych("discrete", QUICK, *SMALL, "--set", "discrete/tolerance=1e-13", "--set", "discrete/max_sweeps=20",
-                             "--output", folder)
-            self.assertEqual(result.returncode, 3, result.stderr)
-            self.assertIn("did not converge", result.stderr)
-            self.assertTrue(os.path.exists(os.path.join(folder, "discrete.h5")))
+        script = write(os.path.join(temporary(self), "completion"), diptych("completion", "bash").stdout)
+        for words, offered in ((["ru"], "run"), (["run", "scene.prm", "--see"], "--seeds"), (["solve", "--solver", ""], "psor"),
+                               (["solve", "--form", "lo"], "local"), (["explain", "samp"], "sample"), (["explain", "res"], "results"),
+                               (["completion", ""], "fish"), (["run", "--set", "discrete/fric"], "discrete/friction="),
+                               (["run", "--set", "continuum/law", "=", "mo"], "mohr_coulomb"),
+                               (["run", "--set", "discrete/lateral", "="], "periodic")):
+            quoted = " ".join(f"'{word}'" for word in ["diptych", *words])
+            told = subprocess.run(["bash", "-c", f"source {script}; COMP_WORDS=({quoted}); COMP_CWORD={len(words)}; _diptych; "
+                                   "echo ${COMPREPLY[@]}"], capture_output=True, text=True, check=True).stdout.split()
+            self.assertIn(offered, told, words)
+            self.assertLess(len(told), 20, words)
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
+    main()

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """For tests called as NAME_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
 
-import csv
 import ctypes
 import json
 import os
@@ -61,6 +60,28 @@ def content(path):
         return file.read()
 
 
+def contents(folder):
+    return {name: content(os.path.join(folder, name)) for name in listing(folder)}
+
+
+def half_files(folder):
+    return [name for name in listing(folder) if name.endswith(".part")]
+
+
+def finished(*words):
+    """What a run printed that must end with code 0; for setUpClass."""
+    result = diptych(*words)
+    if result.returncode != 0:
+        raise RuntimeError(result.stdout + result.stderr)
+    return result
+
+
+def temporary(owner):
+    """A folder as long as a test or a class of tests runs."""
+    enter = owner.enterClassContext if isinstance(owner, type) else owner.enterContext
+    return enter(tempfile.TemporaryDirectory())
+
+
 def read_json(*names):
     with open(os.path.join(*names), encoding="utf-8") as file:
         return json.load(file)
@@ -70,7 +91,7 @@ class Folder(unittest.TestCase):
     """A test with a folder `work` for its files, and a path `folder` in it for results."""
 
     def setUp(self):
-        self.work = self.enterContext(tempfile.TemporaryDirectory())
+        self.work = temporary(self)
         self.folder = os.path.join(self.work, "out")
 
     def path(self, *names):
@@ -78,10 +99,9 @@ class Folder(unittest.TestCase):
 
 
 def history(folder, name="discrete.csv"):
-    """Columns of a panel's table: numbers, and `walk` as text."""
-    with open(os.path.join(folder, name)) as file:
-        rows = list(csv.DictReader(file))
-    return {name: numpy.array([row[name] if name == "walk" else float(row[name]) for row in rows]) for name in rows[0]}
+    """Columns of a table: numbers, or texts."""
+    rows = numpy.genfromtxt(os.path.join(folder, name), delimiter=",", names=True, dtype=None, encoding="utf-8")
+    return {column: numpy.atleast_1d(rows[column]) for column in rows.dtype.names}
 
 
 def facts(folder):

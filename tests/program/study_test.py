@@ -128,7 +128,7 @@ class Points(Study):
         write(self.path(name + "/notes.txt"), "of the user")
         result = self.run_study(STUDY, "--resume")
         self.assertIn(f"{N_RUNS - 1} of {N_RUNS} runs are finished", result.stdout)
-        self.assertIn("1 runs of revision another are repeated", result.stderr)
+        self.assertIn("repeated runs (of revision another): 1", result.stderr)
         self.assertEqual(content(self.path(name + ".1/notes.txt")), b"of the user")
         self.assertEqual(content(self.path("study.json")), content(os.path.join(self.done, "study.json")))
 

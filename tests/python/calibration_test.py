@@ -15,6 +15,7 @@ from diptych.campaigns import calibration_noise as noise
 from diptych.campaigns.calibration import Calibrator, empty_record
 from diptych.campaigns.calibration_coordinates import Coordinates, Parameter
 from diptych.campaigns.calibration_file import Calibration, Target, read_calibration, read_curve
+from diptych.campaigns.calibration_findings import predictions
 from diptych.campaigns.calibration_noise import Data, Noise, Observable
 from diptych.campaigns.calibration_runs import Observation, Path, observe_curve
 from diptych.campaigns.calibration_search import identify, least_squares
@@ -206,6 +207,32 @@ def test_intervals_hold(known):
     assert len(z) >= 60
     assert np.mean(np.abs(z) < 1.96) >= 0.88
     assert (0.7 if known else 0.4) < np.sqrt(np.mean(np.square(z))) < 1.3
+
+
+def test_refused_runs_of_a_search_are_told():
+    c, record = calibration(**EXACT), empty_record("c")
+    truth = truth_of(c, "", TRUTHS)
+
+    def run(on, points, fine, step):
+        return [[Observation(response(s, on[0].data.observables), failure=f"angle {k} exceeds 12" if k < 2 else "") for s in point]
+                for k, point in enumerate(points)]
+
+    path = path_of(c.targets[0], Data(c.observables_of(SCENE), [truth, truth]))
+    Calibrator(c, Coordinates(c.parameters, {}), [path], run, record).calibrate()
+    told = f"{record['failed_runs']} of {record['coarse_runs'] + record['fine_runs']} coarse and fine runs were refused"
+    assert told in record["words"][-1] and f"({record['failed_runs']} times): angle 0 exceeds 12" in record["words"][-1]
+
+
+@pytest.mark.parametrize("peak, volume, verdicts", [(0.4, -0.003, ["equivalent", "equivalent"]),
+                                                    (0.3, -0.006, ["different", "different"])])
+def test_given_deviations_of_a_curve_decide(peak, volume, verdicts):
+    observables = [Observable("stress_ratio", 0, 0.03), Observable("volumetric_strain", 0, 0.03)]
+    path = path_of(Target("lab", "", [], curve="lab.csv"), Data(observables, [0.4, -0.003], [0.004, 0.0005]))
+    path.samples[0].peak_stress_ratio = 0.4
+    now = Observation(np.array([peak, volume]), peak)
+    found = predictions(path, (now, now), np.zeros(2), 1.96)
+    assert [one["verdict"] for one in found] == verdicts
+    assert found[1]["difference"].high == pytest.approx(volume + 0.003 + 1.96 * 0.0005, rel=1e-4)
 
 
 CURVE = """# drained biaxial test

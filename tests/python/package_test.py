@@ -5,7 +5,6 @@ import subprocess
 import sys
 
 import diptych
-from conftest import PROGRAM
 
 
 def test_every_public_name_has_a_docstring():
@@ -22,19 +21,6 @@ def test_every_public_name_has_a_docstring():
 def test_importing_the_package_does_not_load_deal_ii():
     script = "import diptych, sys; diptych.scene({}); print(open('/proc/self/maps').read().count('libdeal_II'))"
     assert subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout.strip() == "0"
-
-
-def test_an_installed_package_runs_from_its_place(tmp_path):
-    build = os.path.dirname(PROGRAM)
-    subprocess.run(["cmake", "--install", build, "--prefix", tmp_path], check=True, capture_output=True)
-    place = tmp_path / "lib" / "python3" / "dist-packages"
-    script = ("import diptych; print(diptych.__file__, diptych.biaxial({})['stress_ratio'].max() > 0.2, diptych.notebooks_dir(), "
-              "diptych.scene(diptych.benchmarks_dir() + '/moreau_quick/scene.prm')['sample']['grains'])")
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True, cwd=tmp_path,
-                          env={**os.environ, "PYTHONPATH": str(place)})
-    notebooks = tmp_path / "share" / "diptych" / "notebooks"
-    assert done.stdout.split() == [str(place / "diptych" / "__init__.py"), "True", str(notebooks), "2000"]
-    assert len(list(notebooks.glob("*.ipynb"))) == 7 and (notebooks / "data" / "frames.csv").exists()
 
 
 def test_shipped_scenes_and_notebooks_are_found_in_the_source_tree():

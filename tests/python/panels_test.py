@@ -216,16 +216,6 @@ def test_missing_or_impossible_input_of_panels_is_refused(small):
         diptych.DiscretePanel(small).advance(3)
 
 
-def test_a_rectangle_needs_no_grains():
-    """Elastic, between smooth walls under the pressure 1: the stress at rest is the pressure everywhere."""
-    panel = diptych.ContinuumPanel({"continuum": {"law": "linear_elastic", "mesh": "rectangle", "rectangle_width": 8,
-                                                  "rectangle_height": 12, "element_size": 2},
-                                    "discrete": {"lateral": "rigid_walls", "platen_friction": 0},
-                                    "loading": {"axial_strain": 0.001, "stage_strain": 0.001, "horizontal_over_vertical": 0}})
-    panel.prepare()
-    np.testing.assert_allclose(panel.snapshot().stress[:, :2, :2], np.broadcast_to(np.eye(2), (24, 2, 2)), atol=1e-8)
-
-
 @pytest.mark.parametrize("before", ["import h5py", "from mpi4py import MPI"])  # these start HDF5 and MPI themselves
 def test_a_process_ends_cleanly_with_panels_alive(before):
     script = (before + "\nimport diptych\n"

@@ -1,6 +1,7 @@
 # diptych: tests that scenes given as dicts are checked like files
 # SPDX-License-Identifier: LGPL-2.1-or-later
 import os
+import re
 import warnings
 
 import numpy as np
@@ -57,6 +58,31 @@ def test_the_error_of_a_wrong_scene_has_its_key(scene, key, message):
         diptych.scene(scene)
     assert isinstance(thrown.value, ValueError)
     assert thrown.value.key == key and message in str(thrown.value)
+
+
+def wrong_values(allowed):
+    """Values that a key must refuse, from the text that says what it allows."""
+    bounds = re.search(r"numbers? from (\S+) to ([-+.\de]+)", allowed)
+    if not bounds:
+        return ["perhaps"]
+    low, high = map(float, bounds.groups())
+    if "whole" in allowed:
+        return ["perhaps", int(low) - 1, int(high) + 1]
+    return ["perhaps", low - (0.01 * abs(low) or 0.1), high + (0.01 * abs(high) or 0.1)]
+
+
+def test_every_key_refuses_what_it_does_not_allow():
+    free = []
+    for key, (_, allowed, _) in diptych.keys().items():
+        if allowed in ("any text", "the name of a file", "outline, rectangle or a .msh or .geo file"):  # checked in use
+            free.append(key)
+            continue
+        section, name = key.split("/")
+        for value in wrong_values(allowed):
+            with pytest.raises(diptych.SceneError) as thrown:
+                diptych.scene({section: {name: value}})
+            assert thrown.value.key == key and allowed in str(thrown.value), value
+    assert len(free) == 6
 
 
 def test_the_error_of_a_wrong_file_has_file_line_and_key(tmp_path):

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import re
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from typing import Any
@@ -29,7 +31,6 @@ from .folders import Folder, draw
 from .input_file import Setting
 
 SAME_MINIMUM = 0.05  # in every coordinate; they run over [0, 1]
-FIRST_JACOBIANS = 4  # most of the first search, and of the one that continues the best
 HARDLY_WORSE = 4  # in chi^2: two deviations
 REACH = 1.5  # deviations to either side in a profile
 KEYS_OF_NOISE = ("stress_level", "stress_shape", "volume_start", "volume_growth", "ln_width", "correlation_strain",
@@ -42,7 +43,8 @@ def empty_record(title: str) -> dict[str, Any]:
     """calibration.json before the search."""
     return {"format": 1, "title": title, "status": "started", "settings": [], "own": [], "chi2_before": np.nan,
             "chi2_coarse": np.nan, "chi2": np.nan, "misfit": np.nan, "n_observables": 0, "coarse_runs": 0, "fine_runs": 0,
-            "other_runs": 0, "noise": {}, "words": [], "parameters": [], "correlation": [], "minima": [], "paths": []}
+            "failed_runs": 0, "other_runs": 0, "noise": {}, "words": [], "parameters": [], "correlation": [], "minima": [],
+            "paths": []}
 
 
 class Calibrator:
@@ -60,6 +62,7 @@ class Calibrator:
         if record["n_observables"] == 0:
             raise NotConverged("no observable is left to fit; check targets, quantities and bins")
         self.best = (np.inf, False)  # chi^2 with the prior, on the samples' own mesh
+        self.failures: list[str] = []  # of coarse and fine runs
 
     def _settings(self, point: Array, target: str) -> list[Setting]:
         return [*self.calibration.fixed, *self.coordinates.settings(point, target)]
@@ -67,7 +70,18 @@ class Calibrator:
     def _runs(self, points: Sequence[Array], paths: Sequence[Path], fine: bool, count: str) -> list[list[Observation]]:
         self.record[count] += len(points) * len(paths)
         settings = [[self._settings(point, path.target.name) for path in paths] for point in points]
-        return self.run(paths, settings, fine, self.calibration.load_step)
+        found = self.run(paths, settings, fine, self.calibration.load_step)
+        if count != "other_runs":
+            self.failures += [one.failure for runs in found for one in runs if one.failure]
+            self.record["failed_runs"] = len(self.failures)
+        return found
+
+    def _failure_words(self) -> list[str]:
+        """Empty without failures. Reasons that differ in their numbers only count as one."""
+        kinds = [re.sub(r"\d[\d.e+-]*", "", failure) for failure in self.failures]
+        n = self.record["coarse_runs"] + self.record["fine_runs"]
+        return [f"{len(kinds)} of {n} coarse and fine runs were refused or did not finish; most often ({count} times): "
+                f"{self.failures[kinds.index(kind)]}" for kind, count in Counter(kinds).most_common(1)]
 
     def _keep(self, point: Array) -> None:
         """Records the settings that all targets share, and the values of single targets."""
@@ -97,13 +111,14 @@ class Calibrator:
 
     def calibrate(self) -> None:
         coarse = self._fit_coarse()
-        fine = least_squares(self._residuals(True), coarse.point, 1, coarse.jacobian)
+        fine = least_squares(self._residuals(True), coarse.point, self.calibration.fine_jacobians, coarse.jacobian)
         if not np.isfinite(fine.chi2):
-            raise NotConverged("the continuum did not finish on the samples' own mesh: " + fine.note)
+            raise NotConverged("; ".join(["the continuum did not finish on the samples' own mesh", *self._failure_words()]))
         self.record["chi2"] = self._chi2(fine.residual)
         self._keep(fine.point)
         knowledge, jacobian = self._report(fine, coarse)
         self._profile(coarse, knowledge)
+        self.record["words"] += self._failure_words()
         self._predict(fine.point, knowledge, jacobian)
         self.record["status"] = "finished"
 
@@ -111,16 +126,17 @@ class Calibrator:
         c, residuals, fits = self.calibration, self._residuals(False), []
         starts = [self.coordinates.start, *(spread_point(c.seed + k, len(self.coordinates)) for k in range(1, c.starts))]
         for k, start in enumerate(starts):
-            fit = least_squares(residuals, start, c.start_jacobians if k else FIRST_JACOBIANS)
+            fit = least_squares(residuals, start, c.start_jacobians if k else c.jacobians)
             fits.append(fit)
             self.record["minima"].append({"start": self.coordinates.numbers(start), "runs": fit.evaluations, "is_best": False,
                                           "words": fit.note, **self._minimum(fit)})
         found = int(np.argmin([fit.chi2 for fit in fits]))
         if not np.isfinite(fits[found].chi2):
-            raise NotConverged("the continuum did not finish at any start; change start, low and high")
+            raise NotConverged("; ".join(["the continuum did not finish at any start; change start, low and high",
+                                     *self._failure_words()]))
         best = fits[found]
         if found > 0:  # so far with few Jacobians
-            best = least_squares(residuals, best.point, FIRST_JACOBIANS)
+            best = least_squares(residuals, best.point, c.jacobians)
         self.record["minima"][found] |= {"is_best": True, **self._minimum(best)}
         for k, fit in enumerate(fits):
             if k != found and np.isfinite(fit.chi2) and np.abs(fit.point - best.point).max() > SAME_MINIMUM:
@@ -152,8 +168,8 @@ class Calibrator:
         record["parameters"] = parameter_records(self.coordinates, knowledge, fine.point)
         record["correlation"] = knowledge.correlation
         record["words"] += parameter_words(record["parameters"])
-        record["words"] += [f"on {mesh} mesh {fit.note}" for mesh, fit in (("the samples' own", fine), ("the coarse", coarse))
-                            if fit.note]
+        record["words"] += [f"on {mesh} mesh {fit.note}; allow more Jacobians by `{key}`" for mesh, fit, key in (
+            ("the samples' own", fine, "fine_jacobians"), ("the coarse", coarse, "jacobians")) if fit.note]
         return knowledge, jacobian
 
     def _profile(self, coarse: Fit, knowledge: Knowledge) -> None:
@@ -213,7 +229,11 @@ class Calibrator:
 
 def _check_target(calibration: Calibration, coordinates: Coordinates, target: Target) -> Data:
     """The start must be a scene for every target. Returns data of the same shape as the samples will give."""
-    scene = read_target(target, [*calibration.fixed, *coordinates.settings(coordinates.start, target.name)])
+    read_target(target, target.before)
+    try:
+        scene = read_target(target, [*calibration.fixed, *coordinates.settings(coordinates.start, target.name)])
+    except SceneError as error:
+        raise SceneError(f"{calibration.file}: with every parameter at its start: {error}; change start or set") from error
     importlib.import_module("diptych._continuum").require_continuum(scene)
     if scene.dict()["continuum"]["initial_stress"] == "mapped":
         raise SceneError(f"{target.scene}: continuum/initial_stress = mapped has no place in a calibration: one mesh serves "
@@ -230,7 +250,6 @@ def _check_target(calibration: Calibration, coordinates: Coordinates, target: Ta
         if p.is_of(target.name) and p.key in (unused := scene.unused_keys()):
             raise SceneError(f"{calibration.file}: parameters: {p.key} is read by no law of target '{target.name}': "
                              f"continuum/{unused[p.key]}")
-    read_target(target, target.before)
     if target.curve:
         sample, deviations = observe_curve(scene, observables, target.curve)
         return Data(observables, sample.values, deviations)

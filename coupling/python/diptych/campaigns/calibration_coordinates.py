@@ -82,5 +82,6 @@ class Coordinates:
     def settings(self, point: Array, target: str) -> list[Setting]:
         """Settings of one target. An empty name gives those that all targets share."""
         numbers = self.numbers(point)
-        return [Setting("continuum", p.key, repr(self._value(p.key, target, numbers, 0)), "a point of the calibration")
-                for p in self.parameters if p.is_of(target)]
+        return [Setting("continuum", p.key, repr(self._value(p.key, target, numbers, 0)),
+                        f"{p.key} = {number:.4g}" + (f" ({p.coordinate} {p.other})" if p.other else ""))
+                for p, number in zip(self.parameters, numbers) if p.is_of(target)]

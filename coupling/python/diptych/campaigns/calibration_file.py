@@ -59,6 +59,8 @@ class Calibration:
     fixed: list[Setting]
     noise: Noise
     starts: int = 2
+    jacobians: int = 4
+    fine_jacobians: int = 1
     start_jacobians: int = 1
     load_step: float = 0.001
     coarse_element_size: float = 4.0
@@ -210,8 +212,8 @@ def _fixed(root: Part, parameters: Sequence[Parameter]) -> list[Setting]:
 def read_calibration(file: str) -> Calibration:
     """Reads a .json file. Raises SceneError naming file, line, key, value and the allowed values."""
     root = Part.read(file, "targets, quantities, bins and parameters")
-    root.allow("title", "targets", "quantities", "bins", "set", "parameters", "noise", "starts", "start_jacobians", "load_step",
-               "coarse_element_size", "check_samples", "seed")
+    root.allow("title", "targets", "quantities", "bins", "set", "parameters", "noise", "starts", "jacobians", "fine_jacobians",
+               "start_jacobians", "load_step", "coarse_element_size", "check_samples", "seed")
     name = name_of(file, "calibration")
     targets = [_target(part) for part in root.list("targets")]
     if not any(target.is_fitted for target in targets):
@@ -240,8 +242,8 @@ def read_calibration(file: str) -> Calibration:
         part.allow(*names)
         for name in filter(part.has, names):
             setattr(c.noise, name, part.number(name, 1e-9 if name in ("correlation_strain", "early_strain") else 0, FAR))
-    for key, low, high in (("starts", 1, 20), ("start_jacobians", 1, 20), ("check_samples", 0, 1000), ("seed", 0, 1_000_000),
-                           ("load_step", 1e-9, 1), ("coarse_element_size", 0.01, 1e3)):
+    for key, low, high in (("starts", 1, 20), ("jacobians", 1, 100), ("fine_jacobians", 1, 100), ("start_jacobians", 1, 20),
+                           ("check_samples", 0, 1000), ("seed", 0, 1_000_000), ("load_step", 1e-9, 1), ("coarse_element_size", 0.01, 1e3)):
         if root.has(key):
             setattr(c, key, root.number(key, low, high, isinstance(getattr(c, key), int)))
     return c

@@ -66,22 +66,33 @@ def widened(test: Difference, deviation: float, quantile: float) -> Difference:
                       wide(test.difference_90, quantile * NORMAL_95 / NORMAL * deviation))
 
 
+def measured(mean: float, deviation: float, now: float, kind: str) -> Difference:
+    """now minus a measured mean with a known normal deviation, "relative" or "absolute". An end is NaN if the interval of a
+    mean that is divided by reaches zero."""
+    def interval(quantile: float) -> Interval:
+        ends = np.array([mean, mean + quantile * deviation, mean - quantile * deviation])
+        return Interval(*(now / np.where(ends > 0, ends, np.nan) - 1 if kind == "relative" else now - ends))
+
+    return Difference(1, interval(NORMAL), interval(NORMAL_95))
+
+
 def predictions(path: Path, runs: Sequence[Observation], deviations: Array, quantile: float) -> list[dict[str, Any]]:
     """Single numbers of a path with verdicts: two one-sided tests against the margins of the scene.
 
     If the path was not fitted, the deviation of the parameters widens the intervals. That of the angle is unknown, because the
-    fit has no derivative of it. Near a flat peak the largest running mean moves as the largest mean over a bin does.
+    fit has no derivative of it. Near a flat peak the largest running mean moves as the largest mean over a bin does. The given
+    deviation of a measured curve replaces the scatter of samples; that of its peak is the one of its largest bin.
     """
     margins, (before, after) = path.scene.dict()["comparison"], runs
     places = {one.kind: k for k, one in enumerate(path.data.observables)}  # the last of each kind
     of_stress = [k for k, one in enumerate(path.data.observables) if one.kind == "stress_ratio"]
     found = []
 
-    def add(quantity: str, values: Sequence[float], margin: str, kind: str, k: int | None) -> None:
-        """values: before, after, and those of the samples. k: the observable whose deviation counts."""
+    def add(quantity: str, values: Sequence[float], margin: str, kind: str, k: int | None, given: float = np.nan) -> None:
+        """values: before, after, and those of the samples. k: the observable whose deviation counts. given: of the data."""
         earlier, now, *grains = values
         mean, deviation = (line_statistics if kind == "line" else statistics)(grains).mean, np.nan
-        test = paired(grains, [now] * len(grains), kind)
+        test = measured(mean, given, now, kind) if np.isfinite(given) else paired(grains, [now] * len(grains), kind)
         if k is not None and not path.target.is_fitted and np.isfinite(deviations[k]):
             deviation = deviations[k] * {"peak_stress_ratio": 1 / mean, "width_10_90": now / mean}.get(quantity, 1)
             test = widened(test, deviation, quantile)
@@ -91,10 +102,13 @@ def predictions(path: Path, runs: Sequence[Observation], deviations: Array, quan
     everything = [before, after, *path.samples]
     if np.isfinite([s.peak_stress_ratio for s in path.samples]).any():
         add("peak_stress_ratio", [s.peak_stress_ratio for s in everything], "margin_peak_stress_ratio", "relative",
-            max(of_stress, key=lambda k: after.values[k], default=None))
+            max(of_stress, key=lambda k: after.values[k], default=None),
+            max([(path.data.mean[k], path.data.given[k]) for k in of_stress if np.isfinite(path.data.mean[k])],
+                default=(np.nan, np.nan))[1])
     if "volumetric_strain" in places:
         k = places["volumetric_strain"]
-        add("volumetric_strain", [s.values[k] for s in everything], "margin_volumetric_strain", "absolute", k)
+        add("volumetric_strain", [s.values[k] for s in everything], "margin_volumetric_strain", "absolute", k,
+            path.data.given[k])
     if "ln_width" in places:  # in the fit only, half the height replaces a missing band
         k = places["ln_width"]
         widths = [float(np.exp(s.values[k])) for s in everything]

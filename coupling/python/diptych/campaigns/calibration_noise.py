@@ -155,8 +155,8 @@ def discrepancy(noise: Noise, data: Data) -> Array:
 
 
 def working_weights(noise: Noise, data: Data) -> Array:
-    """(observables): 1 / (scatter of the mean without what all bins have in common + model tolerance). The common part is left
-    out on purpose, because a fit with it may lie below all data. 0 if the mean is NaN."""
+    """(observables): 1 / (scatter of the mean + model tolerance), or 0 if the mean is NaN. The scatter common to all bins is
+    left out of the weights: a fit with it can lie below every data point (Peelle's puzzle)."""
     own = np.diag(covariance(replace(noise, stress_level=0.0), data))
     variance = discrepancy(noise, data) + own / np.maximum(1, data.count)
     return np.where(np.isfinite(data.mean) & (variance > 0), 1 / np.where(variance > 0, variance, 1), 0.0)

@@ -120,9 +120,9 @@ class _Search:
 
 
 def least_squares(residuals: Residuals, start: Array, most_jacobians: int = 4, jacobian: Array | None = None) -> Fit:
-    """Minimises the sum of squares within [0, 1]^n. A given Jacobian is trusted: the search with it has converged if no step
-    fails. It is recomputed if a step fails or the search with it ends. A point without a run counts as a failed step. If
-    `start` has no run, `note` says so. Exceptions of `residuals` pass through."""
+    """Minimises the sum of squares within [0, 1]^n. A given Jacobian is used until a step fails or the steps run out; then a
+    new one is computed. A point without a run counts as a failed step. If `start` has no run, `note` says so. Exceptions of
+    `residuals` pass through."""
     fit = Fit(np.clip(np.asarray(start, dtype=float), 0, 1), evaluations=1)
     fit.residual = residuals([fit.point])[0]
     if not np.isfinite(fit.residual).all():

@@ -231,8 +231,8 @@ class Runs:
         prepared, seats = [self.prepare(run, anew) for run in runs], n_seats(options)
         resumes = [goes_on for goes_on, _ in prepared]
         for revision, n in Counter(revision for _, revision in prepared if revision).items():
-            complain(f"{n} runs of revision {revision} are repeated by revision {_diptych.git_revision}; their folders "
-                     f"{self.directory}/runs/NAME are kept as NAME.1")
+            why = "damaged or failed" if revision == _diptych.git_revision else f"of revision {revision}"
+            complain(f"repeated runs ({why}): {n}; their folders {self.directory}/runs/NAME are kept as NAME.1")
 
         def is_damaged(k: int, outcome: Outcome) -> bool:
             return resumes[k] and not outcome.interrupted and outcome.exit_code == WRONG_INPUT
