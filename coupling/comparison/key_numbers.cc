@@ -42,7 +42,7 @@ namespace diptych::coupling
       const auto [grains, continuum]  = compared_bands(window);
       const BandDifference difference = band_difference(window);
       char                 where[64];
-      std::snprintf(where, sizeof where, " of the band, %.4g to %.4g", window.from, window.to);
+      std::snprintf(where, sizeof where, " of the band (%.4g to %.4g)", window.from, window.to);
       numbers.push_back(
         key_number(std::string("inclination") + where, "degrees", grains.angle_deg, continuum.angle_deg, difference.angle_deg));
       numbers.push_back(key_number(std::string("10-90 % width") + where, "mean diameters", times(unit, grains.width_10_90),
@@ -81,7 +81,7 @@ namespace diptych::coupling
     out << header_of(summary_columns()) << '\n';
     for (const KeyNumber &k : numbers)
       {
-        out << '"' << k.quantity << "\"," << k.unit;
+        out << k.quantity << ',' << k.unit;
         for (const Interval &i : {k.grains, k.continuum, k.difference})
           for (const double value : {i.value, i.low, i.high})
             {
