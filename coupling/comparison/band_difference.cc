@@ -1,7 +1,8 @@
-// diptych: differences between the strongest bands of the two panels
+// diptych: differences between the bands of the two panels
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/comparison/band_difference.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "coupling/cells/principal_axes.h"
@@ -14,14 +15,25 @@ namespace diptych::coupling
     return {value, value - std::hypot(b.value - b.low, a.high - a.value), value + std::hypot(b.high - b.value, a.value - a.low)};
   }
 
-  BandDifference band_difference(const Increment &increment)
+  ComparedBands compared_bands(const Increment &increment)
   {
     const std::vector<Band> &grains = increment.discrete.band.bands, &nodes = increment.continuum.band.bands;
-    if (grains.empty() || nodes.empty())
-      return {};
-    const BandIntervals &a = grains[0].interval, &b = nodes[0].interval;
-    const Interval       turn = difference_of(a.angle_deg, b.angle_deg);
-    const double         line = line_turn(turn.value, 0) - turn.value; // whole half turns
+    const auto               first = [&](const std::vector<Band> &bands) {
+      return bands.empty() ? BandIntervals() : (increment.is_mirror_symmetric ? folded(bands[0]) : bands[0]).interval;
+    };
+    if (increment.is_mirror_symmetric || grains.empty() || nodes.empty())
+      return {first(grains), first(nodes)};
+    const auto turn = [&](const Band &band) { return std::abs(line_turn(band.angle_deg, grains[0].angle_deg)); };
+    return {grains[0].interval, std::min_element(nodes.begin(), nodes.end(), [&](const Band &a, const Band &b) {
+                                  return turn(a) < turn(b);
+                                })->interval};
+  }
+
+  BandDifference band_difference(const Increment &increment)
+  {
+    const auto [a, b]   = compared_bands(increment);
+    const Interval turn = difference_of(a.angle_deg, b.angle_deg);
+    const double   line = line_turn(turn.value, 0) - turn.value; // whole half turns
     return {{turn.value + line, turn.low + line, turn.high + line},
             difference_of(a.half_width, b.half_width),
             difference_of(a.width_10_90, b.width_10_90),

@@ -56,14 +56,21 @@ namespace diptych::coupling
       const ComparisonOptions &options;
       std::uint64_t            seed;
       double                   averaging_width; // range of progress
+      bool                     is_mirror_symmetric;
     };
+
+    Increment increment_of(const StagePair &pair, const Settings &settings)
+    {
+      Increment increment           = make_increment(pair, settings.options.band, settings.seed);
+      increment.is_mirror_symmetric = settings.is_mirror_symmetric;
+      return increment;
+    }
 
     StageRecord make_stage(const Comparison &c, const Results &results, const std::size_t k, const Settings &settings)
     {
       const StagePair pair  = stage_pair(results, k - 1, k);
       const double    width = settings.averaging_width;
-      StageRecord     stage = stage_record(make_increment(pair, settings.options.band, settings.seed), pair, settings.options,
-                                           settings.seed);
+      StageRecord     stage = stage_record(increment_of(pair, settings), pair, settings.options, settings.seed);
       take_averages(c.discrete_history, stage.progress, width, stage.discrete);
       take_averages(c.continuum_history, stage.progress, width, stage.continuum);
       stage.discrete.stress_ratio = mean_interval_over_progress(c.discrete_history, "stress_ratio", stage.progress - width,
@@ -143,7 +150,7 @@ namespace diptych::coupling
           const auto from = snapshot_at(grains, edges[w]), to = snapshot_at(grains, edges[w + 1]);
           if (!from || !to || *from >= n || *to >= n)
             continue;
-          c.windows.push_back(make_increment(stage_pair(results, *from, *to), settings.options.band, settings.seed));
+          c.windows.push_back(increment_of(stage_pair(results, *from, *to), settings));
           if (*to > 0)
             take_angles_to_stress(c.windows.back(), c.stages[*to - 1]);
         }
@@ -181,7 +188,8 @@ namespace diptych::coupling
   Comparison compare(const Scene &scene, const Results &results, const OnProgress &on_progress)
   {
     const std::size_t n = n_common_snapshots(results);
-    const Settings    settings{scene.comparison, std::uint64_t(scene.sample.seed), averaging_width(scene)};
+    const Settings    settings{scene.comparison, std::uint64_t(scene.sample.seed), averaging_width(scene),
+                            is_mirror_symmetric(scene)};
     Pieces            pieces(on_progress, n + 2 * scene.comparison.window_edges.size());
     Comparison        c;
     c.discrete_history  = history_table(results.discrete.rows);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "coupling/comparison/comparison.h"
+#include "coupling/comparison/key_numbers.h"
 #include "coupling/comparison/stage_numbers.h"
 #include "coupling/numbers/number_entry.h"
 
@@ -177,6 +178,7 @@ namespace diptych::coupling
     v.group("continuum_coarse", "the continuum's run on the coarse mesh", c.coarse);
     v.group("discrete_summary", "the grains' whole run", c.discrete);
     v.group("continuum_summary", "the continuum's whole run", c.continuum);
+    v.list("summary", "the numbers that a user asks for first", key_numbers(c));
     v.group("cost", "CPU time and memory", c.cost);
     v.group("resolution_study", "dependence of the grains' stress on the averaging length", c.resolution);
     v.group("theory", "inclinations of a band to the minor principal stress by theory", c.theory);

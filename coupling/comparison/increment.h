@@ -28,7 +28,8 @@ namespace diptych::coupling
     double from = 0, to = 0; // progress
     double duration = 0;     // of the grains' loading between the instants [time]
     // Unit of displacements: the upper platen's increment, or the 98th percentile of the grains' if the platen rests [length].
-    double              displacement_unit = 0;
+    double              displacement_unit   = 0;
+    bool                is_mirror_symmetric = false; // see the function of the scene
     SampleFrame         frame;
     QuadMesh            mesh;  // the continuum's mesh at `to`
     CellCover           cover; // cover of the cells by the grains at `to`

@@ -73,6 +73,6 @@ namespace diptych::coupling
       w.displacement_unit);
     v.group("discrete", "the grains", w.discrete);
     v.group("continuum", "the continuum", w.continuum);
-    v.group("difference", "continuum minus grains", band_difference(w));
+    v.group("difference", "continuum minus grains, for the bands that are compared", band_difference(w));
   }
 } // namespace diptych::coupling

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "coupling/comparison/comparison_output.h"
+#include "coupling/comparison/key_numbers.h"
 #include "coupling/processes/progress.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/program/commands.h"
@@ -44,7 +45,12 @@ namespace diptych::coupling
     }
 
     // Writes the comparison to the folder `next`.
-    int comparison_of(const CommandLine &line, const Scene &scene, const Results &results, const std::string &next)
+    // `text`: the numbers that a user asks for first.
+    int comparison_of(const CommandLine &line,
+                      const Scene       &scene,
+                      const Results     &results,
+                      const std::string &next,
+                      std::string       &text)
     {
       Progress progress(line.quiet);
       progress.update("comparing", 0);
@@ -59,6 +65,7 @@ namespace diptych::coupling
       c.cost = summary_of(read_run_facts(next).phases);
       write_comparison(next, {scene, c});
       record_files(next, "comparison");
+      text = text_of(key_numbers(c));
       progress.finish();
       for (const StageRecord &stage : c.stages)
         if (!(stage.mapping.total_relative_error < 1e-12))
@@ -107,8 +114,9 @@ namespace diptych::coupling
   {
     const std::string &directory = scene.output.directory;
     const bool         replaces  = std::filesystem::exists(comparison_json(directory));
-    const int          code      = comparison_of(line, scene, results, next);
-    const bool         draws     = code == done && scene.output.report;
+    std::string        text;
+    const int          code  = comparison_of(line, scene, results, next, text);
+    const bool         draws = code == done && scene.output.report;
     try
       {
         const PhaseTimer timer(report_phase);
@@ -130,6 +138,7 @@ namespace diptych::coupling
     take(directory, next);
     if (replaces)
       say(line, "the new comparison has replaced the earlier one in " + directory);
+    say(line, text);
     if (draws)
       say(line, "report: " + report_file(directory));
     return code;

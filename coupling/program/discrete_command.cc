@@ -134,6 +134,30 @@ namespace diptych::coupling
       return out.str();
     }
 
+    double inertial_number(const Scene &scene)
+    {
+      const double rate = discrete::strain_rate(discrete_loading(scene.loading), scene.sample.mean_diameter, scene.sample.density);
+      return rate * scene.sample.mean_diameter * std::sqrt(scene.sample.density / scene.loading.pressure);
+    }
+
+    void say_result(const CommandLine &line, const Scene &scene, const Rows &rows)
+    {
+      if (rows.empty())
+        return;
+      const HistoryTable history = history_table(rows);
+      const double       width = averaging_width(scene), end = rows.back().progress;
+      const Peak         peak = peak_of_running_mean(history, "stress_ratio", width);
+      const auto         at   = [&](const double progress) { return text_of(rows.back().loading_variable, progress); };
+      std::ostringstream text;
+      text.precision(4);
+      text << "discrete panel: peak t/s " << peak.value << " at " << at(peak.progress) << ", at the end "
+           << mean_over_progress(history, "stress_ratio", end - width, end) << " at " << at(end) << "; " << rows.back().step
+           << " steps";
+      if (const double number = inertial_number(scene); scene.loading.mode != discrete::LoadingMode::time && std::isfinite(number))
+        text << ", I = " << number;
+      say(line, text.str());
+    }
+
     // To standard error, quiet or not.
     void tell_doubts(const std::string &doubts)
     {
@@ -296,6 +320,7 @@ namespace diptych::coupling
     DiscreteFacts           facts  = facts_of(report, rows);
     facts.warnings                 = doubts(rows, report, scene);
     record(line, scene, report, facts, timer, before);
+    say_result(line, scene, rows);
     recorded.warnings += reference_text(report);
     tell_doubts(facts.warnings);
     if (!recorded.warnings.empty() && report.snapshots_accurate < report.snapshots_sampled)

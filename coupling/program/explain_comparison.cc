@@ -10,6 +10,7 @@
 #include "coupling/comparison/comparison_arrays.h"
 #include "coupling/comparison/comparison_output.h"
 #include "coupling/comparison/comparison_schema.h"
+#include "coupling/comparison/key_numbers.h"
 #include "coupling/program/python_package.h"
 #include "coupling/program/result_entries.h"
 
@@ -83,6 +84,7 @@ namespace diptych::coupling
     add_columns<continuum::MaterialPointRow>("material_point.csv", result);
     add_numbers("comparison.json", comparison_schema(), result);
     add_table("comparison.csv", comparison_columns(), result);
+    add_table("summary.csv", summary_columns(), result);
     add_comparison_arrays(result);
     add_campaigns(result);
     return result;

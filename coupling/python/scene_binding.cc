@@ -107,6 +107,7 @@ namespace diptych::python
       .def("identity", identity_of)
       .def("input_files", &coupling::input_files)
       .def("averaging_width", &coupling::averaging_width)
+      .def("is_mirror_symmetric", &coupling::is_mirror_symmetric)
       .def("loading_variable",
            [](const coupling::Scene &scene) {
              return std::string(discrete::name_of(discrete::loading_variable_of(scene.loading.mode)));

@@ -31,6 +31,16 @@ namespace diptych::coupling
     return {scene.loading.pressure, scene.sample.mean_diameter};
   }
 
+  bool is_mirror_symmetric(const Scene &scene)
+  {
+    bool is_driven = false;
+    discrete::for_each_drive(scene.discrete.drives, [&](int, int, const char *, const discrete::DriveOption &drive) {
+      is_driven = is_driven || !drive.is_auto();
+    });
+    return scene.loading.mode == discrete::LoadingMode::descent && scene.loading.horizontal_over_vertical == 0 && !is_driven &&
+           scene.discrete.time.gravity_x == 0;
+  }
+
   double averaging_width(const Scene &scene)
   {
     return scene.loading.mode == discrete::LoadingMode::time ? scene.loading.stage_time : scene.comparison.averaging_strain;

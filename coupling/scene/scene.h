@@ -137,6 +137,9 @@ namespace diptych::coupling
   // Pressure and length by which the keys of the continuum's law are multiplied.
   continuum::Units continuum_units(const Scene &scene);
 
+  // True if only chance tells left from right: vertical descent, no horizontal gravity, no wall with its own drive.
+  bool is_mirror_symmetric(const Scene &scene);
+
   // The last part of a stage over which stress ratio and platen forces are averaged, in the unit of the stages.
   double averaging_width(const Scene &scene);
 } // namespace diptych::coupling

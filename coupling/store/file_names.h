@@ -66,6 +66,10 @@ namespace diptych::coupling
   {
     return folder + "/comparison.csv";
   }
+  inline std::string summary_csv(const std::string &folder) // the numbers that a user asks for first
+  {
+    return folder + "/summary.csv";
+  }
   inline std::string comparison_h5(const std::string &folder)
   {
     return folder + "/comparison.h5";

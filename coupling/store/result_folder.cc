@@ -21,8 +21,8 @@ namespace diptych::coupling
   {
     namespace fs = std::filesystem;
 
-    const std::vector<std::string> comparison_files = {"comparison.json", "comparison.csv", "comparison.h5", "fields.vtu",
-                                                       "grid.vtu"};
+    const std::vector<std::string> comparison_files = {"comparison.json", "comparison.csv", "comparison.h5",
+                                                       "fields.vtu",      "grid.vtu",       "summary.csv"};
 
     // Absolute, without a slash at its end.
     fs::path plain_path(const std::string &directory)

@@ -67,7 +67,8 @@ class Results(unittest.TestCase):
 
     def test_columns_of_tables(self):
         for folder, name in ((self.run_, "discrete.csv"), (self.run_, "continuum.csv"), (self.point, "material_point.csv"),
-                             (self.run_, "comparison.csv"), (self.ensemble, "ensemble.csv"), (self.study, "study_step.csv")):
+                             (self.run_, "comparison.csv"), (self.run_, "summary.csv"), (self.ensemble, "ensemble.csv"),
+                             (self.study, "study_step.csv")):
             columns = [column for column in history(folder, name) if not re.fullmatch("seed_[0-9]+", column)]
             self.assertGreater(len(columns), 5)
             self.assertEqual([column for column in columns if column not in self.entries(name)], [], name)

@@ -7,11 +7,14 @@ from __future__ import annotations
 import json
 import os
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import _diptych, scenes
 from .arrays import History, Mesh
 from .panels import ContinuumPanel, DiscretePanel
+
+if TYPE_CHECKING:
+    import pandas
 
 
 class PanelResults:
@@ -39,6 +42,13 @@ class Results:
     discrete: PanelResults | None
     continuum: PanelResults | None
     coarse: PanelResults | None
+
+    def summary(self) -> "pandas.DataFrame":
+        """The numbers that a user asks for first, a row each: grains, continuum, difference (with ends of 95 % intervals where one
+        sample gives them) and verdict. Raises FileNotFoundError without a comparison."""
+        import pandas
+
+        return pandas.read_csv(os.path.join(self.folder, "summary.csv"), index_col="quantity")
 
 
 @dataclass(repr=False)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <gtest/gtest.h>
 
+#include "coupling/comparison/key_numbers.h"
 #include "tests/coupling/comparison/example_results.h"
 
 namespace
@@ -79,6 +80,8 @@ namespace
   {
     Increment increment;
     Band      a, b;
+    a.angle_deg          = grains_angle.value;
+    b.angle_deg          = nodes_angle.value;
     a.interval.angle_deg = grains_angle, b.interval.angle_deg = nodes_angle;
     a.interval.half_width = {4, 3, 6}, b.interval.half_width = {5, 4.5, 6};
     increment.discrete.band.bands = {a}, increment.continuum.band.bands = {b};
@@ -100,6 +103,43 @@ namespace
     EXPECT_NEAR(d.angle_deg.value, 2, 1e-12);
     EXPECT_NEAR(d.angle_deg.low, 2 - std::sqrt(2.), 1e-12);
     EXPECT_NEAR(d.angle_deg.high, 2 + std::sqrt(2.), 1e-12);
+  }
+
+  // Two equally strong bands cross; chance makes one of them the stronger in each panel.
+  TEST(Summary, MirrorImagesOfABandAreNotSubtracted)
+  {
+    Increment increment      = with_bands({-57, -58, -56}, {55, 55, 55});
+    Band      other          = increment.continuum.band.bands[0];
+    other.angle_deg          = -55.5;
+    other.interval.angle_deg = {-55.5, -55.5, -55.5};
+    increment.continuum.band.bands.push_back(other);
+    EXPECT_NEAR(band_difference(increment).angle_deg.value, 1.5, 1e-12) << "the nearest band";
+    increment.is_mirror_symmetric = true;
+    const BandDifference d        = band_difference(increment);
+    EXPECT_NEAR(d.angle_deg.value, -2, 1e-12) << "the strongest bands, mirrored";
+    EXPECT_NEAR(d.angle_deg.low, -3, 1e-12);
+    EXPECT_NEAR(d.half_width.value, 1, 1e-12);
+  }
+
+  // d = 2: a width of 4 is 2 d. An interval of the difference that excludes 0 is a difference; one sample gives none for a peak.
+  TEST(Summary, KeyNumbersComeWithDifferenceAndVerdict)
+  {
+    Comparison c;
+    c.discrete.peak.value = 0.4, c.continuum.peak.value = 0.36;
+    c.windows.push_back(with_bands({-45, -46, -44}, {-49, -49, -49}));
+    c.windows[0].frame.mean_diameter                         = 2;
+    c.windows[0].discrete.band.bands[0].interval.width_10_90 = c.windows[0].continuum.band.bands[0].interval.width_10_90 = {4, 3,
+                                                                                                                            5};
+    const std::vector<KeyNumber> numbers = key_numbers(c);
+    ASSERT_EQ(numbers.size(), 5u);
+    EXPECT_NEAR(numbers[0].difference.value, -0.04, 1e-15);
+    EXPECT_EQ(numbers[0].verdict, "no interval from one sample");
+    EXPECT_EQ(numbers[1].verdict, "not in both panels") << "no strength";
+    EXPECT_EQ(numbers[3].difference.value, -4);
+    EXPECT_EQ(numbers[3].verdict, "different");
+    EXPECT_EQ(numbers[4].grains.value, 2);
+    EXPECT_EQ(numbers[4].verdict, "cannot tell");
+    EXPECT_NE(csv_of(numbers).find("\npeak t/s,-,0.4,,,0.36,,,-0.04,,,no interval from one sample\n"), std::string::npos);
   }
 
   TEST(Summary, WithoutABandThereIsNoDifference)

@@ -24,7 +24,6 @@ from .engine import Options
 from .folders import Runs, SceneRun, read_json
 from .histories import is_beyond, mean_over, panel_table, running_mean
 from .input_file import Setting
-from .members import is_mirror_symmetric
 from .points import on_sample, scene_run
 
 CURVE_POINTS = 120
@@ -109,7 +108,7 @@ def add_bands(o: Observation, scene: _diptych.Scene, observables: Sequence[Obser
         found = operators.find_bands(**moved, band_resamples=0, **options).bands
         if found:
             o.values[k] = np.log(found[0].width_10_90 / d)
-            o.angle_deg = abs(found[0].angle_deg) if is_mirror_symmetric(scene) else found[0].angle_deg
+            o.angle_deg = abs(found[0].angle_deg) if scene.is_mirror_symmetric() else found[0].angle_deg
         elif not of_grains:
             o.values[k] = np.log(0.5 * frame["height"] / d)
     return o

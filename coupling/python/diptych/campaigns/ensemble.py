@@ -21,7 +21,7 @@ from .engine import DONE, NOT_CONVERGED, Options, Run, complain, execute, panels
 from .folders import Folder, draw, read_json, write_arrays, write_json, write_text
 from .histories import panel_table, resampled, running_mean
 from .input_file import read_seeds, settings_of
-from .members import Member, is_mirror_symmetric, member_of
+from .members import Member, member_of
 from .statistics import line_statistics, paired, statistics, student_quantile
 
 _LARGEST_ERROR_OF_THE_TOTAL = 1e-12  # above it `diptych run` ends with exit code 1
@@ -122,7 +122,7 @@ def _record(scene: Any, seeds: Sequence[int], failed: Sequence[dict[str, Any]], 
     out = {one["seed"] for one in failed} | set(interrupted)
     done = [seed for seed in seeds if seed not in out]
     margins = {key: value for key, value in scene.dict()["comparison"].items() if key.startswith("margin_")}
-    folded, n, members = is_mirror_symmetric(scene), len(done), []
+    folded, n, members = scene.is_mirror_symmetric(), len(done), []
     for seed in done:
         folder = member_folder(scene.directory, seed)
         for part in ("", "comparison"):

@@ -57,16 +57,11 @@ class Member:
             self.collect(window, place, f"{prefix}window {window['from']:.6g}-{window['to']:.6g}")
 
     def fold(self) -> None:
-        """Folds mirror images of a band onto each other: angle and offset lose their sign, the jump changes it with the angle.
-
-        Removes differences between the bands of the panels, which may have been taken between mirror images.
-        """
+        """Folds mirror images of a band onto each other: angle and offset lose their sign, the jump changes it with the angle."""
         negative = {name.rpartition(" ")[0] for name, (value, *_, place) in self.numbers.items()
                     if place.endswith("/bands/angle_deg") and value < 0}
         folded = {}
         for name, (value, unit, line, place) in self.numbers.items():
-            if place in (f"{of}/difference/{key}" for of in ("stages", "windows") for key in ("angle_deg", "offset_d")):
-                continue
             if place.endswith(("/bands/angle_deg", "/bands/offset_d")):
                 value = abs(value)
             elif place.endswith("/bands/jump") and name.rpartition(" ")[0] in negative:
@@ -97,11 +92,3 @@ def member_of_record(record: dict[str, Any], folded: bool = False) -> Member:
         member.fold()
     return member
 
-
-def is_mirror_symmetric(scene: Any) -> bool:
-    """True if only chance tells left from right: vertical descent, no horizontal gravity, no wall with its own drive."""
-    keys = scene.dict()
-    loading, grains = keys["loading"], keys["discrete"]
-    driven = any(value != "auto" for key, value in grains.items() if key.startswith("drive_"))
-    vertical = loading["mode"] == "descent" and loading["horizontal_over_vertical"] == 0
-    return vertical and not driven and grains["gravity_x"] == 0

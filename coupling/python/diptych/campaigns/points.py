@@ -17,7 +17,7 @@ from .engine import WRONG_INPUT
 from .folders import Runs, SceneRun, read_json, run_name
 from .histories import panel_table, reduced
 from .input_file import Setting
-from .members import is_mirror_symmetric, member_of
+from .members import member_of
 from .study_file import COMMANDS, Study
 
 MOST_RUNS = 100000
@@ -146,7 +146,7 @@ def result_of(runs: Runs, run: SceneRun, quantities: Sequence[dict[str, Any]]) -
     if result.exit_code == 0:
         numbers: dict[str, tuple[Any, ...]] = {}
         if any(q["source"] == "comparison" for q in quantities):
-            numbers = member_of(os.path.join(folder, "comparison.json"), is_mirror_symmetric(run.scene)).numbers
+            numbers = member_of(os.path.join(folder, "comparison.json"), run.scene.is_mirror_symmetric()).numbers
         result.values = [numbers.get(q["column"], (math.nan,))[0] if q["source"] == "comparison"
                          else reduced(result.tables.get(q["source"]), q) for q in quantities]
     return result

@@ -1,9 +1,18 @@
 # diptych: tables of the numbers of a whole run
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
-from diptych_report.tables.wording import EXPECTED, NULLS, ORDER, number, shown_unit
+from diptych_report.data.numbers import plain
+from diptych_report.tables.wording import EXPECTED, NULLS, ORDER, number, shown_unit, suffix, typeset
 
 LEFT_OUT = ("law", "parameters_from")  # shown elsewhere on the page
+
+
+def first(result):
+    """The numbers that a user asks for first."""
+    rows = [[typeset(row["quantity"])] + ["–" if plain(row[of]) is None else number(row[of], suffix(row["unit"]))
+                                          for of in ("grains", "continuum", "difference")] + [row["verdict"]]
+            for row in result.comparison.get("summary", [])]
+    return {"head": ["", "grains", "continuum", "difference [95 %]", "verdict"], "rows": rows}
 
 
 def table(result, part):

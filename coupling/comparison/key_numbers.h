@@ -1,0 +1,54 @@
+// diptych: the numbers of a comparison that a user asks for first
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "coupling/comparison/comparison.h"
+#include "coupling/numbers/number_entry.h"
+#include "coupling/statistics/interval.h"
+
+namespace diptych::coupling
+{
+  // One quantity of both panels. Ends of intervals are NaN where one sample gives none. The difference is continuum - grains.
+  struct KeyNumber
+  {
+    std::string quantity, unit;
+    Interval    grains, continuum, difference;
+    std::string verdict; // "different", "cannot tell", "no interval from one sample" or "not in both panels"
+  };
+
+  // Peak, strength, volumetric strain, and inclination and width of the band in the last window. Lengths in mean diameters.
+  std::vector<KeyNumber> key_numbers(const Comparison &c);
+
+  template <class Visitor> void list_numbers(const KeyNumber &k, Visitor &v)
+  {
+    v({"quantity", "-", "name of the quantity", Kind::setting}, k.quantity);
+    v({"unit", "-", "unit of the numbers", Kind::setting}, k.unit);
+    v({"grains", "as unit says", "value of the grains"}, k.grains);
+    v({"continuum", "as unit says", "value of the continuum"}, k.continuum);
+    v({"difference", "as unit says", "continuum minus grains"}, k.difference);
+    v({"verdict", "-", "different: the interval of the difference excludes 0; cannot tell: it contains 0"}, k.verdict);
+  }
+
+  inline std::array<NumberEntry, 12> summary_columns()
+  {
+    return {{{"quantity", "-", "name of the quantity"},
+             {"unit", "-", "unit of the numbers"},
+             {"grains", "as unit says", "value of the grains"},
+             {"grains_low", "as unit says", "lower end of its 95 % interval; empty if there is none"},
+             {"grains_high", "as unit says", "upper end"},
+             {"continuum", "as unit says", "value of the continuum"},
+             {"continuum_low", "as unit says", "lower end"},
+             {"continuum_high", "as unit says", "upper end"},
+             {"difference", "as unit says", "continuum minus grains"},
+             {"difference_low", "as unit says", "lower end"},
+             {"difference_high", "as unit says", "upper end"},
+             {"verdict", "-", "different: the interval of the difference excludes 0; cannot tell: it contains 0"}}};
+  }
+
+  std::string csv_of(const std::vector<KeyNumber> &numbers);  // with the columns summary_columns()
+  std::string text_of(const std::vector<KeyNumber> &numbers); // a table for a terminal, one line per quantity
+} // namespace diptych::coupling
