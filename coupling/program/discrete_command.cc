@@ -136,7 +136,8 @@ namespace diptych::coupling
 
     double inertial_number(const Scene &scene)
     {
-      const double rate = discrete::strain_rate(discrete_loading(scene.loading), scene.sample.mean_diameter, scene.sample.density);
+      const double rate = discrete::strain_rate(discrete_loading(scene.loading), scene.sample.mean_diameter,
+                                                scene.sample.density);
       return rate * scene.sample.mean_diameter * std::sqrt(scene.sample.density / scene.loading.pressure);
     }
 
@@ -153,7 +154,8 @@ namespace diptych::coupling
       text << "discrete panel: peak t/s " << peak.value << " at " << at(peak.progress) << ", at the end "
            << mean_over_progress(history, "stress_ratio", end - width, end) << " at " << at(end) << "; " << rows.back().step
            << " steps";
-      if (const double number = inertial_number(scene); scene.loading.mode != discrete::LoadingMode::time && std::isfinite(number))
+      if (const double number = inertial_number(scene);
+          scene.loading.mode != discrete::LoadingMode::time && std::isfinite(number))
         text << ", I = " << number;
       say(line, text.str());
     }

@@ -226,10 +226,10 @@ def test_ctrl_c_keeps_an_ensemble_of_a_dict_and_the_same_call_goes_on(tmp_path, 
 
     threading.Thread(target=stop).start()
     with pytest.raises(diptych.Stopped, match="resume=True"):
-        diptych.ensemble(SMALL, [1, 2], "out", jobs=1)
-    assert diptych.Campaign.load("out").numbers["interrupted"] == [1, 2]
-    found = diptych.ensemble(SMALL, range(1, 3), "out", resume=True)
-    assert found.numbers["done"] == [1, 2] and found.numbers["scene"] == "out" and len(found.verdicts) == 5
+        diptych.ensemble(SMALL, [1, 2, 3], "out", jobs=1)
+    assert diptych.Campaign.load("out").numbers["interrupted"][-1] == 3  # on a busy machine the first may have ended
+    found = diptych.ensemble(SMALL, range(1, 4), "out", resume=True)
+    assert found.numbers["done"] == [1, 2, 3] and found.numbers["scene"] == "out" and len(found.verdicts) == 5
     with pytest.raises(diptych.SceneError, match=r"range\(1, 4\) for 3 samples"):
         diptych.ensemble(SMALL, 3, "out")
     with pytest.raises(AttributeError, match="verdicts"):
