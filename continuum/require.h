@@ -10,14 +10,18 @@
 
 namespace diptych::continuum
 {
-  // Throws std::invalid_argument with the concatenated `parts` as its text, unless `holds` is true.
-  template <class... Text> void require(const bool holds, const Text &...text)
+  template <class... Text> std::string concatenated(const Text &...text)
   {
-    if (holds)
-      return;
     std::ostringstream message;
     (message << ... << text);
-    throw std::invalid_argument(message.str());
+    return message.str();
+  }
+
+  // Throws std::invalid_argument with the concatenated `text`, unless `holds` is true.
+  template <class... Text> void require(const bool holds, const Text &...text)
+  {
+    if (!holds)
+      throw std::invalid_argument(concatenated(text...));
   }
 
   // Keys of the section continuum whose values are not allowed together. The one that is probably wrong comes first.
@@ -34,10 +38,7 @@ namespace diptych::continuum
   // As require(); throws WrongKeys.
   template <class... Text> void require_keys(const bool holds, std::vector<std::string> keys, const Text &...text)
   {
-    if (holds)
-      return;
-    std::ostringstream message;
-    (message << ... << text);
-    throw WrongKeys(std::move(keys), message.str());
+    if (!holds)
+      throw WrongKeys(std::move(keys), concatenated(text...));
   }
 } // namespace diptych::continuum

@@ -257,6 +257,7 @@ namespace diptych::coupling
       if (code == done && replaces)
         on_first_process([&] {
           const bool had_comparison = std::filesystem::exists(comparison_json(directory));
+          complete_record(directory, folder);
           take(directory, folder);
           say(line, "the new continuum has replaced the earlier one in " + directory +
                       (had_comparison ? "; the comparison with the earlier one was removed" : ""));

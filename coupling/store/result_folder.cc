@@ -241,7 +241,6 @@ namespace diptych::coupling
 
   void take(const std::string &directory, const std::string &next)
   {
-    complete_record(directory, next);
     remove_results(directory, {"next_moved"});
     fs::rename(next, complete_folder(directory));
     finish_move(directory);

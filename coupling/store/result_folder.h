@@ -95,7 +95,8 @@ namespace diptych::coupling
   std::string next_continuum(const std::string &directory);
   std::string next_comparison(const std::string &directory);
 
-  // Moves all results from one of these folders to their place. Removes a comparison or a report that they outdate.
+  // Moves all results from one of these folders, whose record is complete, to their place. Removes a comparison or a report that
+  // they outdate.
   void take(const std::string &directory, const std::string &next);
 
   // Completes a move that a killed run has left half done. Does nothing if there is none.
