@@ -131,9 +131,19 @@ namespace diptych::coupling
 
       void add_study()
       {
-        CLI::App *study = add(Command::study, "vary keys of a scene over many samples: error against a reference, and cost");
-        study->add_option("STUDY", line.target, "study file, .json")->required();
-        add_output(study, "folder of the study (default: results/<study name>_study)");
+        CLI::App *study = add(Command::study,
+                              "vary keys of a scene over many samples: quantities over keys, or errors against a reference");
+        study->add_option("SCENE", line.target, "scene file with --vary, or study file, .json")->required();
+        study
+          ->add_option("--vary", ignored_words,
+                       "values of a key, such as discrete/friction=0.2,0.3,0.5; repeated: all combinations")
+          ->allow_extra_args(false)
+          ->type_name("KEY=VALUES");
+        study->add_option("--seeds", ignored, "with --vary: samples of each point, a list like 1-4 (default: the scene's one)")
+          ->type_name("LIST");
+        study->add_option("--panels", ignored, "with --vary: the panels that run (default: both)")
+          ->check(one_of({"both", "discrete", "continuum"}));
+        add_output(study, "folder of the study (default: results/<name>_study)");
         add_set(study);
         add_threads(study);
         add_jobs(study, "");
@@ -147,8 +157,13 @@ namespace diptych::coupling
         CLI::App *calibrate = add(Command::calibrate,
                                   "fit the continuum to the grains' curves, report parameters that the data cannot "
                                   "determine, and predict other loading paths");
-        calibrate->add_option("CALIBRATION", line.target, "calibration file, .json")->required();
-        add_output(calibrate, "folder of the calibration (default: results/<its name>_calibration)");
+        calibrate
+          ->add_option("SCENE", line.target,
+                       "scene file with --seeds, which takes the standard parameters, or calibration file, .json")
+          ->required();
+        calibrate->add_option("--seeds", ignored, "with a scene: samples of the fit, a list like 1-4")->type_name("LIST");
+        add_set(calibrate);
+        add_output(calibrate, "folder of the calibration (default: results/<name>_calibration)");
         add_threads(calibrate);
         add_jobs(calibrate, "");
         add_resume(calibrate, "keep finished runs, compute the others");
@@ -235,6 +250,7 @@ namespace diptych::coupling
         CLI::App *report = add(Command::report,
                                "draw report.html again, of a result folder, an ensemble, a study or a calibration");
         report->add_option("DIR", line.target, "result folder")->required();
+        report->add_flag("--movie", line.draws_movie, "also draw both panels step by step: movie.gif");
         add_quiet(report);
       }
 
@@ -246,6 +262,32 @@ namespace diptych::coupling
           ->check(format_or_file);
         in->add_option("FILES", ignored_words, "files of grains, contacts and walls, in any order")->required();
         in->add_option("--output", line.output, "folder of the imported sample")->check(is_filled)->type_name("DIR")->required();
+        add_import_options(in);
+        add_overwrite(in);
+        add_quiet(in);
+
+        CLI::App *homogenise = add(Command::homogenise, "stress, strain, fabric and band of grains without a continuum");
+        homogenise->add_option("SOURCE", line.target, "folder with grains, or a format or reader as for import, then FILES")
+          ->required();
+        homogenise->add_option("FILES", ignored_words, "files of grains, contacts and walls of another code");
+        homogenise->add_option("--grid", ignored_number, "size of the cells in mean diameters (default: 3)")
+          ->check(in_range(0.5, 1000.0));
+        add_output(homogenise, "folder of the results (default: FOLDER_homogenised)");
+        add_import_options(homogenise);
+        add_overwrite(homogenise);
+        add_quiet(homogenise);
+
+        CLI::App *out = add(Command::export_sample, "write a sample of a result folder as a start for another code");
+        out->add_option("FOLDER", line.target, "result folder")->required();
+        out->add_option("--format", line.exported.format, "code that reads them")->required()->check(one_of({"lammps", "csv"}));
+        add_output(out, "folder of the exported files (default: FOLDER_for_FORMAT)");
+        out->add_option("--stage", line.exported.stage, "number of the snapshot (default: 0, the prepared sample)")
+          ->check(in_range(0, 1000000));
+        add_quiet(out);
+      }
+
+      void add_import_options(CLI::App *in)
+      {
         in->add_option("--columns", ignored_words,
                        "KIND=NAME,NAME,...: names of columns that the files do not name; KIND: particles, contacts or walls; "
                        "may be repeated")
@@ -263,25 +305,20 @@ namespace diptych::coupling
         in->add_option("--frames", ignored, "only these frames, such as 10-20,30; counted from 0 in ascending order")
           ->type_name("LIST");
         in->add_flag("--walls-touch", "put walls without a place in the files where the grains reach farthest");
-        add_overwrite(in);
-        add_quiet(in);
-
-        CLI::App *out = add(Command::export_sample, "write a sample of a result folder as a start for another code");
-        out->add_option("FOLDER", line.target, "result folder")->required();
-        out->add_option("--format", line.exported.format, "code that reads them")->required()->check(one_of({"lammps", "csv"}));
-        add_output(out, "folder of the exported files (default: FOLDER_for_FORMAT)");
-        out->add_option("--stage", line.exported.stage, "number of the snapshot (default: 0, the prepared sample)")
-          ->check(in_range(0, 1000000));
-        add_quiet(out);
       }
 
       void add_others()
       {
-        add(Command::explain, "print every key of a scene (default, unit, range, meaning) or the content of result files")
+        add(Command::new_scene, "print a commented scene to begin with: diptych new biaxial > my.prm")
+          ->add_option("TEMPLATE", line.target, "name of the template (default: list them)");
+        CLI::App *explain = add(Command::explain, "print every key of a scene (default, unit, range, meaning) or the content of "
+                                                  "result files");
+        explain
           ->add_option(
             "SECTION", line.target,
             "a section, a key or a word in names of keys; results: the content of result files (default: all sections)")
           ->type_name("{" + discrete::joined(section_names(), ",") + ",results}");
+        explain->add_option("WORD", line.word, "after results: only entries whose file, name or meaning contains this word");
         add(Command::completion, "print a script that completes command lines: source <(diptych completion bash)")
           ->add_option("SHELL", line.target)
           ->required()
@@ -307,43 +344,7 @@ namespace diptych::coupling
           joined_words.push_back(word);
       return joined_words;
     }
-
-    // Puts the keys of --set-file before those of --set.
-    void take_set_files(CommandLine &line)
-    {
-      std::vector<std::string> overrides;
-      for (const std::string &file : line.set_files)
-        {
-          if (std::error_code none; !std::filesystem::is_regular_file(file, none))
-            throw SceneError("--set-file " + file + ": there is no such file");
-          for (const Entry &entry : read_fragment(file))
-            overrides.push_back(entry.section + "/" + entry.key + "=" + entry.value);
-        }
-      line.overrides.insert(line.overrides.begin(), overrides.begin(), overrides.end());
-    }
   } // namespace
-
-  std::string name_of(const Command command)
-  {
-    constexpr std::pair<Command, const char *> names[] = {{Command::run, "run"},
-                                                          {Command::study, "study"},
-                                                          {Command::plan, "plan"},
-                                                          {Command::calibrate, "calibrate"},
-                                                          {Command::discrete, "discrete"},
-                                                          {Command::continuum, "continuum"},
-                                                          {Command::material_point, "material-point"},
-                                                          {Command::solve, "solve"},
-                                                          {Command::compare, "compare"},
-                                                          {Command::report, "report"},
-                                                          {Command::import_sample, "import"},
-                                                          {Command::export_sample, "export"},
-                                                          {Command::explain, "explain"},
-                                                          {Command::completion, "completion"}};
-    for (const auto &[known, name] : names)
-      if (known == command)
-        return name;
-    throw std::logic_error("a command without a name");
-  }
 
   ParsedLine parse_command_line(const std::vector<std::string> &words)
   {

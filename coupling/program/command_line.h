@@ -29,6 +29,8 @@ namespace diptych::coupling
     report,
     import_sample,
     export_sample,
+    homogenise,
+    new_scene,
     explain,
     completion
   };
@@ -61,8 +63,10 @@ namespace diptych::coupling
   struct CommandLine : RunOptions, SceneOptions
   {
     Command       command = Command::explain;
-    std::string   target; // scene or problem file, result folder, section or shell
-    std::string   output; // --output
+    std::string   target;              // scene or problem file, result folder, section or shell
+    std::string   output;              // --output
+    std::string   word;                // explain results WORD
+    bool          draws_movie = false; // report: --movie
     SolveOptions  solve;
     ExportOptions exported;
     bool          prints_warnings = true; // true on the first of several processes
@@ -78,6 +82,9 @@ namespace diptych::coupling
   ParsedLine parse_command_line(const std::vector<std::string> &words);
 
   std::string name_of(Command command);
+
+  // Puts the keys of --set-file before those of --set.
+  void take_set_files(CommandLine &line);
 
   // Options of the command line for a folder that holds results.
   Opening opening_of(const CommandLine &line, bool adds = false);

@@ -15,6 +15,8 @@ namespace diptych::coupling
   int report_again(const CommandLine &line);  // report DIR: comparison, ensemble, study or calibration
   int export_sample(const CommandLine &line); // export DIR
 
+  int print_template(const CommandLine &line); // new [TEMPLATE]
+
   int run_material_point(const CommandLine &line); // material-point SCENE: writes material_point.csv
 
   // run SCENE --check: checks the scene and its first sample and prints the resources of all samples (--seeds), as before an

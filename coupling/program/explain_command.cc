@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/program/explain_command.h"
 
+#include <algorithm>
+#include <cctype>
 #include <iostream>
 
 #include "coupling/program/step_comparison.h"
 #include "coupling/import/import_record.h"
 #include "coupling/program/result_entries.h"
+#include "coupling/scene/scene_error.h"
 #include "coupling/scene/scene_file.h"
 #include "coupling/store/origin.h"
 #include "discrete/panel/history.h"
@@ -14,6 +17,16 @@
 
 namespace diptych::coupling
 {
+  namespace
+  {
+    // Compares small letters with small letters.
+    bool contains(const std::string &text, const std::string &word)
+    {
+      const auto same = [](const unsigned char a, const unsigned char b) { return std::tolower(a) == std::tolower(b); };
+      return std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end();
+    }
+  } // namespace
+
   ResultList discrete_result_entries()
   {
     using namespace discrete;
@@ -56,6 +69,10 @@ namespace diptych::coupling
   {
     if (line.target != "results")
       {
+        if (!line.word.empty())
+          throw SceneError("explain " + line.target + " " + line.word +
+                           ": a second word is only for results, as in "
+                           "`diptych explain results angle`");
         std::cout << explain(line.target);
         return done;
       }
@@ -63,12 +80,18 @@ namespace diptych::coupling
     for (const auto &list : lists)
       for (const ResultEntry &entry : list())
         {
+          if (!contains(entry.file + "\n" + entry.name + "\n" + entry.meaning, line.word))
+            continue;
           if (entry.file != file)
             std::cout << (file.empty() ? "" : "\n") << entry.file << '\n';
           file = entry.file;
           std::cout << "  " << entry.name << "  [" << (entry.unit.empty() ? "-" : entry.unit) << "]  " << entry.shape
                     << "\n      " << entry.meaning << '\n';
         }
+    if (file.empty())
+      throw SceneError("explain results " + line.word +
+                       ": no file, name or meaning contains this word; `diptych explain "
+                       "results` prints all");
     return done;
   }
 } // namespace diptych::coupling

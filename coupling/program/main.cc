@@ -78,7 +78,7 @@ namespace
   bool is_campaign(const CommandLine &line)
   {
     return line.command == Command::study || line.command == Command::plan || line.command == Command::calibrate ||
-           (line.command == Command::run && !line.seeds.empty() && !line.checks_only) ||
+           line.command == Command::homogenise || (line.command == Command::run && !line.seeds.empty() && !line.checks_only) ||
            (line.command == Command::compare && is_ensemble_folder(line.target));
   }
 #else
@@ -153,6 +153,8 @@ namespace
         become_python(argv[1], "diptych.importers", argv + 2);
       case Command::export_sample:
         return export_sample(line);
+      case Command::new_scene:
+        return print_template(line);
       default:
         return explain(line, result_lists);
       }
@@ -183,7 +185,8 @@ namespace
   // Commands whose only result is their output.
   bool prints_only(const CommandLine &line)
   {
-    return line.command == Command::explain || (line.command == Command::solve && line.output.empty());
+    return line.command == Command::explain || line.command == Command::new_scene ||
+           (line.command == Command::solve && line.output.empty());
   }
 
   // A full disk is an error, a closed pipe is not.

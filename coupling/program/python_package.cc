@@ -1,4 +1,4 @@
-// diptych: starts the parts of the program that are written in Python
+// diptych: files that come with the program, and its parts that are written in Python
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/program/python_package.h"
 
@@ -27,6 +27,15 @@ namespace diptych::coupling
     execv(program.c_str(), words);
     unblock_stop_signals();
     throw std::runtime_error("cannot start " + program + ": " + std::strerror(errno));
+  }
+
+  std::string shared_file(const std::string &name)
+  {
+    fs::path folder = fs::path(own_path()).parent_path();
+    for (int level = 0; level < 3; ++level, folder = folder.parent_path())
+      if (const fs::path file = folder / "share/diptych" / name; fs::exists(file))
+        return file.string();
+    throw std::runtime_error("share/diptych/" + name + " is not beside " + own_path() + "; the installation is broken");
   }
 
   std::string python_package()

@@ -1,4 +1,4 @@
-// diptych: starts the parts of the program that are written in Python
+// diptych: files that come with the program, and its parts that are written in Python
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -9,6 +9,10 @@ namespace diptych::coupling
   // This process becomes `program`. Stop signals that arrive meanwhile are kept for it. Throws std::runtime_error if it cannot be
   // started, StoppedOnRequest if a signal came before.
   [[noreturn]] void become(const char *command, const std::string &program, char *const *words);
+
+  // Absolute path of share/diptych/NAME beside the program's own folder where it was built, beside PREFIX/bin or
+  // PREFIX/libexec/diptych where it is installed. Throws std::runtime_error without it.
+  std::string shared_file(const std::string &name);
 
   // The folder that holds the package `diptych`: beside this program where it was built, else PREFIX/lib/python3/dist-packages.
   std::string python_package();

@@ -9,6 +9,7 @@
 #include "coupling/processes/progress.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/program/commands.h"
+#include "coupling/program/python_package.h"
 #include "coupling/scene/scene_error.h"
 #include "coupling/store/file_names.h"
 #include "coupling/store/provenance.h"
@@ -20,18 +21,6 @@ namespace diptych::coupling
   namespace
   {
     namespace fs = std::filesystem;
-
-    // share/diptych/report beside the program's own folder where it was built, beside PREFIX/bin or PREFIX/libexec/diptych where
-    // it is installed.
-    std::string drawing_script()
-    {
-      fs::path folder = fs::path(own_path()).parent_path();
-      for (int level = 0; level < 3; ++level, folder = folder.parent_path())
-        if (const fs::path script = folder / "share/diptych/report/draw.py"; fs::exists(script))
-          return script.string();
-      throw std::runtime_error("the report cannot be drawn: share/diptych/report/draw.py is not beside " + own_path() +
-                               "; the installation is broken");
-    }
 
     const char *word_of(const Drawing drawing)
     {
@@ -45,6 +34,8 @@ namespace diptych::coupling
           return "study";
         case Drawing::calibration:
           return "calibration";
+        case Drawing::movie:
+          return "movie";
         default:
           return "step-study";
         }
@@ -53,7 +44,7 @@ namespace diptych::coupling
     // What it was writing, however it ended.
     void remove_parts(const std::string &directory)
     {
-      for (const char *name : {"report.html.part", "study_step.png.part"})
+      for (const char *name : {"report.html.part", "study_step.png.part", "movie.gif.part"})
         fs::remove(directory + "/" + name);
     }
   } // namespace
@@ -65,7 +56,7 @@ namespace diptych::coupling
 
   void draw(const Drawing drawing, const std::string &directory, const std::string &next)
   {
-    const std::string  script = drawing_script();
+    const std::string  script = shared_file("report/draw.py");
     const std::string &into   = next.empty() ? directory : next;
     int                code   = 0;
     try
@@ -103,12 +94,16 @@ namespace diptych::coupling
         check_files(line.target);
         check_files(line.target, "comparison");
       }
+    if (line.draws_movie && drawing != Drawing::page)
+      throw SceneError("report " + line.target + " --movie: only a result folder with both panels has a movie");
     if (drawing == Drawing::ensemble)
       check_files(line.target, "ensemble");
     return writing(line.target, [&](FolderLock &) {
       Progress progress(line.quiet);
       progress.update("drawing the report", 0);
       draw(drawing, line.target);
+      if (line.draws_movie)
+        draw(Drawing::movie, line.target);
       progress.finish();
       say(line, "report: " + report_file(line.target));
       return int(done);

@@ -14,7 +14,8 @@ namespace diptych::coupling
     ensemble,    // report.html of an ensemble
     study,       // report.html of a study
     calibration, // report.html of a calibration
-    step_study   // study_step.png
+    step_study,  // study_step.png
+    movie        // movie.gif of a result folder
   };
 
   std::string report_file(const std::string &directory); // absolute path of the page of a folder

@@ -1,6 +1,8 @@
 // diptych: the scene and the result folder that a command line names
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <filesystem>
+#include <stdexcept>
+#include <utility>
 
 #include "coupling/program/command_line.h"
 #include "coupling/scene/scene_file.h"
@@ -15,6 +17,43 @@ namespace diptych::coupling
     for (const std::string &file : line.set_files)
       opening.inputs.emplace_back("--set-file", file);
     return opening;
+  }
+
+  std::string name_of(const Command command)
+  {
+    constexpr std::pair<Command, const char *> names[] = {{Command::run, "run"},
+                                                          {Command::study, "study"},
+                                                          {Command::plan, "plan"},
+                                                          {Command::calibrate, "calibrate"},
+                                                          {Command::discrete, "discrete"},
+                                                          {Command::continuum, "continuum"},
+                                                          {Command::material_point, "material-point"},
+                                                          {Command::solve, "solve"},
+                                                          {Command::compare, "compare"},
+                                                          {Command::report, "report"},
+                                                          {Command::import_sample, "import"},
+                                                          {Command::export_sample, "export"},
+                                                          {Command::homogenise, "homogenise"},
+                                                          {Command::new_scene, "new"},
+                                                          {Command::explain, "explain"},
+                                                          {Command::completion, "completion"}};
+    for (const auto &[known, name] : names)
+      if (known == command)
+        return name;
+    throw std::logic_error("a command without a name");
+  }
+
+  void take_set_files(CommandLine &line)
+  {
+    std::vector<std::string> overrides;
+    for (const std::string &file : line.set_files)
+      {
+        if (std::error_code none; !std::filesystem::is_regular_file(file, none))
+          throw SceneError("--set-file " + file + ": there is no such file");
+        for (const Entry &entry : read_fragment(file))
+          overrides.push_back(entry.section + "/" + entry.key + "=" + entry.value);
+      }
+    line.overrides.insert(line.overrides.begin(), overrides.begin(), overrides.end());
   }
 
   Scene scene_of(const CommandLine &line)
