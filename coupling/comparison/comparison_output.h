@@ -31,8 +31,8 @@ namespace diptych::coupling
   // comparison.h5: the arrays behind the report's figures, as listed in comparison_arrays.h.
   void write_comparison_h5(const std::string &directory, const ComparisonDocument &document, const Results &results);
 
-  // fields.vtu: the last stage of both panels on the continuum's mesh in its current position. It has every field of CellFields
-  // under its name in comparison.h5, and the difference of the stresses. Tensors are 3x3 tensors (positive in compression), and
-  // vectors have three components. `grid.vtu`: the same on the regular grid.
-  void write_fields_vtu(const std::string &directory, const Comparison &c);
+  // fields.pvd: all stages of both panels on the continuum's mesh in its current position. It has every field of CellFields under
+  // its name in comparison.h5, and the difference of the stresses. Tensors are 3x3 tensors (positive in compression), and vectors
+  // have three components.
+  void write_fields(const std::string &directory, const Comparison &c);
 } // namespace diptych::coupling

@@ -279,7 +279,9 @@ namespace diptych::coupling
 
         CLI::App *out = add(Command::export_sample, "write a sample of a result folder as a start for another code");
         out->add_option("FOLDER", line.target, "result folder")->required();
-        out->add_option("--format", line.exported.format, "code that reads them")->required()->check(one_of({"lammps", "csv"}));
+        out->add_option("--format", line.exported.format, "code that reads them")
+          ->required()
+          ->check(one_of({"lammps", "csv", "dump"}));
         add_output(out, "folder of the exported files (default: FOLDER_for_FORMAT)");
         out->add_option("--stage", line.exported.stage, "number of the snapshot (default: 0, the prepared sample)")
           ->check(in_range(0, 1000000));

@@ -60,7 +60,7 @@ namespace diptych::coupling
         ResultFolder(scene).open_next_comparison(line.text);
       complete_record(scene.output.directory, next);
       write_comparison_h5(next, {scene, c}, results);
-      write_fields_vtu(next, c);
+      write_fields(next, c);
       record_phases(next, origin_of(line, scene), {timer.stop()});
       c.cost = summary_of(read_run_facts(next).phases);
       write_comparison(next, {scene, c});

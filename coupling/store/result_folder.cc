@@ -22,7 +22,7 @@ namespace diptych::coupling
     namespace fs = std::filesystem;
 
     const std::vector<std::string> comparison_files = {"comparison.json", "comparison.csv", "comparison.h5",
-                                                       "fields.vtu",      "grid.vtu",       "summary.csv"};
+                                                       "fields.pvd",      "fields",         "summary.csv"};
 
     // Absolute, without a slash at its end.
     fs::path plain_path(const std::string &directory)

@@ -30,9 +30,9 @@ class QuickScene(unittest.TestCase):
         cls.comparison = read_json(cls.folder, "comparison.json")
 
     def test_every_promised_file_is_there_and_no_half_file(self):
-        for name in ["scene.prm", "provenance.json", "discrete.h5", "discrete.xdmf", "discrete.csv", "continuum.h5",
-                     "continuum.xdmf", "continuum.pvd", "continuum.csv", "comparison.json", "comparison.csv", "summary.csv",
-                     "fields.vtu", "grid.vtu", "report.html"]:
+        for name in ["scene.prm", "provenance.json", "discrete.h5", "discrete.pvd", "discrete_contacts.pvd", "discrete.csv", "continuum.h5",
+                     "continuum.pvd", "continuum.csv", "comparison.json", "comparison.csv", "summary.csv",
+                     "fields.pvd", "report.html"]:
             self.assertTrue(os.path.getsize(os.path.join(self.folder, name)) > 0, name)
         self.assertEqual(half_files(self.folder), [])
 

@@ -100,7 +100,7 @@ class _Panel:
         return self.advance(len(self.stages))
 
     def write(self, folder: str | os.PathLike[str]) -> None:
-        """Writes snapshots and history like the program (.h5, .xdmf, .csv). Raises FileNotFoundError if the folder does not exist.
+        """Writes snapshots and history like the program (.h5, .pvd, .csv). Raises FileNotFoundError if the folder does not exist.
         Raises FileExistsError for a result folder of the program, whose files have checksums."""
         if not os.path.isdir(folder):
             raise FileNotFoundError(f"{os.fspath(folder)}: no such folder")
