@@ -4,10 +4,11 @@
 
 from __future__ import annotations
 
+import bisect
 import functools
 import math
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -20,26 +21,12 @@ from .study_file import Family, Study
 PANELS = {"discrete": "grains", "continuum": "continuum", "difference": "difference", "material_point": "material point",
           "comparison": "comparison"}
 MOST_SAMPLES = 1000
+_ROUNDING = 1e-10  # smaller changes, relative to the values, are none
 _WIDEST_TABLE = 6  # points in a row of the terminal
 
 
-class Change(NamedTuple):
-    """Largest minus smallest mean with its interval; samples that would resolve it (NaN: more than 1000, or unknown)."""
-
-    change: Interval
-    needed: float
-
-
-@functools.cache
-def _range_quantile(n_levels: int, n_samples: int) -> float:
-    """95 % quantile of the studentized range for the residuals of n_levels points on the same n_samples samples."""
-    from scipy.stats import studentized_range  # loads slowly
-
-    return float(studentized_range.ppf(0.95, n_levels, (n_levels - 1) * (n_samples - 1)))
-
-
-def change_between(values: np.ndarray) -> Change:
-    """values (points, samples), all finite. Largest minus smallest mean +- q s / sqrt(n).
+def change_between(values: np.ndarray) -> tuple[Interval, float]:
+    """values (points, samples), all finite. Largest minus smallest mean with the interval +- q s / sqrt(n); and s.
 
     s: residual standard deviation after the means of points and samples are removed; q: quantile of the studentized range,
     which covers all pairs of points at once. With two points this is Student's interval of the paired differences.
@@ -48,28 +35,33 @@ def change_between(values: np.ndarray) -> Change:
     k, n = values.shape
     means = values.mean(axis=1)
     change = float(np.ptp(means))
-    if n < 2 or k < 2:
-        return Change(Interval(change, math.nan, math.nan), math.nan)
+    if change <= _ROUNDING * np.abs(values).max():
+        return Interval(0.0, 0.0, 0.0), 0.0
+    if n < 2:
+        return Interval(change, math.nan, math.nan), math.nan
     residual = values - means[:, None] - values.mean(axis=0) + values.mean()
     s = math.sqrt((residual**2).sum() / ((k - 1) * (n - 1)))
     half = _range_quantile(k, n) * s / math.sqrt(n)
-    return Change(Interval(change, change - half, change + half), _samples_needed(change, s, k))
+    return Interval(change, change - half, change + half), s
 
 
-def _samples_needed(change: float, s: float, n_levels: int) -> float:
-    """The smallest number of samples whose interval is narrower than the change. It falls with their number: by bisection."""
+@functools.cache
+def _range_quantile(n_points: int, n_samples: int) -> float:
+    """95 % quantile of the studentized range for the residuals of points on the same samples."""
+    from scipy.stats import studentized_range  # loads slowly
+
+    return float(studentized_range.ppf(0.95, n_points, (n_points - 1) * (n_samples - 1)))
+
+
+def samples_needed(change: float, s: float, n_points: int) -> float:
+    """The smallest number of samples whose interval is narrower than the change; NaN if it is above 1000."""
+    from scipy.stats import studentized_range
+
     def resolves(n: int) -> bool:
-        return _range_quantile(n_levels, n) * s / math.sqrt(n) < change
+        return studentized_range.sf(change * math.sqrt(n) / s, n_points, (n_points - 1) * (n - 1)) < 0.05
 
-    if not resolves(MOST_SAMPLES):
-        return math.nan
-    low, high = 1, 2
-    while not resolves(high):
-        low, high = high, min(2 * high, MOST_SAMPLES)
-    while high - low > 1:
-        middle = (low + high) // 2
-        low, high = (low, middle) if resolves(middle) else (middle, high)
-    return high
+    found = bisect.bisect_left(range(2, MOST_SAMPLES + 1), True, key=resolves) + 2
+    return found if found <= MOST_SAMPLES else math.nan
 
 
 def mean_of(quantity: dict[str, Any], values: Sequence[float]) -> dict[str, Any]:
@@ -94,8 +86,8 @@ def _complete(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def changes_of(study: Study, points: Sequence[Point], records: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Changes along every parameter as study.json has them; other parameters are averaged over. Quantities without values at two
-    points are left out."""
+    """Changes along every parameter as study.json has them; other parameters are averaged over. Quantities with values at less
+    than two points are left out."""
     changes = []
     for f, family in enumerate(study.families):
         mine = [record for point, record in zip(points, records) if point.family == f]
@@ -105,7 +97,7 @@ def changes_of(study: Study, points: Sequence[Point], records: Sequence[dict[str
                 found = np.array([record["quantities"][q]["values"] for record in mine], float)
                 shaped = found.reshape(*(len(of_axis) for _, of_axis in parameters), -1)
                 values, levels = _complete(np.moveaxis(shaped, a, 0).reshape(len(labels), -1, found.shape[1]))
-                if values.size and len(levels) > 1:
+                if len(levels) > 1:
                     changes.append({"family": family.name, "parameter": name, "quantity": quantity["name"],
                                     "panel": PANELS[quantity["source"]], "unit": quantity["unit"],
                                     **_change(quantity, values, [labels[k] for k in levels])})
@@ -114,13 +106,17 @@ def changes_of(study: Study, points: Sequence[Point], records: Sequence[dict[str
 
 def _change(quantity: dict[str, Any], values: np.ndarray, labels: Sequence[str]) -> dict[str, Any]:
     """values (levels, others, samples), all finite"""
+    if not values.size:
+        return {"smallest": math.nan, "smallest_at": "", "largest": math.nan, "largest_at": "",
+                "change": Interval(math.nan, math.nan, math.nan), "samples": 0, "verdict": "unknown", "samples_needed": math.nan}
     centre = line_statistics(values.ravel()).mean if quantity["line"] else 0.0
     turned = (line_turn(values, centre) if quantity["line"] else values).mean(axis=1)
-    change, needed = change_between(turned)
+    change, s = change_between(turned)
     means = turned.mean(axis=1) + centre
     low, high = int(np.argmin(means)), int(np.argmax(means))
-    verdict = ("unknown" if math.isnan(change.low) else "resolved" if change.low > 0 else
-               "no change" if change.value == 0 else "not resolved")
+    verdict = ("no change" if change.value == 0 else "unknown" if math.isnan(change.low) else
+               "resolved" if change.low > 0 else "not resolved")
+    needed = samples_needed(change.value, s, len(turned)) if verdict == "not resolved" else math.nan
     return {"smallest": means[low], "smallest_at": labels[low], "largest": means[high], "largest_at": labels[high],
             "change": change, "samples": turned.shape[1], "verdict": verdict, "samples_needed": needed}
 
@@ -166,23 +162,29 @@ def text_of_quantity(quantity: dict[str, Any]) -> str:
     return quantity["name"] + ("" if quantity["unit"] == "-" else f" [{quantity['unit']}]") + panel
 
 
-def text_of_changes(changes: Sequence[dict[str, Any]]) -> list[str]:
-    """For every parameter "discrete/friction: resolved: peak t/s (grains); not resolved: ... (grains, about 38 samples)"."""
+def text_of_changes(study: Study, changes: Sequence[dict[str, Any]]) -> list[str]:
+    """ "discrete/friction, not resolved: peak t/s (grains needs about 14 samples)"; one line per verdict and parameter."""
+    if len(study.seeds) < 2:
+        return ["one sample has no scatter to compare a change with; at least two are needed, such as --seeds 1-4"]
     lines = []
     for family, parameter in dict.fromkeys((change["family"], change["parameter"]) for change in changes):
         mine = [change for change in changes if (change["family"], change["parameter"]) == (family, parameter)]
-        parts = [f"{verdict}: " + "; ".join(_names(mine, verdict)) for verdict in ("resolved", "not resolved", "no change")
-                 if _names(mine, verdict)]
-        lines.append(f"{family}{': ' if family else ''}{parameter}: " + (". ".join(parts) or "one sample has no scatter to compare "
-                                                                    "with; give at least two, such as --seeds 1-4"))
+        for verdict in ("resolved", "not resolved", "unknown", "no change"):
+            panels: dict[str, list[str]] = {}
+            for change in mine:
+                if change["verdict"] == verdict:
+                    panels.setdefault(change["quantity"], []).append(change["panel"] + _needs(change))
+            if panels:
+                names = "; ".join(f"{name} ({', '.join(of_name)})" for name, of_name in panels.items())
+                lines.append(f"{family}{': ' if family else ''}{parameter}, {_VERDICTS.get(verdict, verdict)}: {names}")
     return lines
 
 
-def _names(changes: Sequence[dict[str, Any]], verdict: str) -> list[str]:
-    panels: dict[str, list[str]] = {}
-    for change in changes:
-        if change["verdict"] == verdict:
-            needed = f"about {change['samples_needed']:.0f}" if math.isfinite(change["samples_needed"]) else f"more than {MOST_SAMPLES}"
-            panels.setdefault(change["quantity"], []).append(
-                change["panel"] + (f" needs {needed} samples" if verdict == "not resolved" else ""))
-    return [f"{name} ({', '.join(of_name)})" for name, of_name in panels.items()]
+_VERDICTS = {"unknown": "unknown, since fewer than two samples have a value at every point"}
+
+
+def _needs(change: dict[str, Any]) -> str:
+    if change["verdict"] != "not resolved":
+        return ""
+    needed = f"about {change['samples_needed']:.0f}" if math.isfinite(change["samples_needed"]) else f"more than {MOST_SAMPLES}"
+    return f" needs {needed} samples"

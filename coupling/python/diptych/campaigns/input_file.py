@@ -123,11 +123,11 @@ class Part:
                 nearest = _diptych.nearest_name(key, list(keys))
                 self.refuse(f": unknown key; the nearest is '{nearest}'; allowed are {', '.join(keys)}", key)
 
-    def demand_distinct(self, key: str, names: Sequence[str]) -> None:
-        """Refuses a name that the entries of a list have twice."""
+    def demand_distinct(self, key: str, names: Sequence[str], of: str = "") -> None:
+        """Refuses a name that the entries of a list have twice. of: the key whose values they are."""
         for name, count in Counter(names).items():
             if count > 1:
-                self.refuse(f": '{name}' stands there twice", key)
+                self.refuse(f"{f' of {of}' if of else ''}: '{name}' stands there twice", key)
 
     def has(self, key: str) -> bool:
         return isinstance(self.value, dict) and key in self.value

@@ -94,7 +94,7 @@ def points_of(study: Study) -> list[Point]:
             point.reference = references[labels].reference
     every = [run for point in points for run in point.runs]
     if study.reference is None and all(run.scene is None for run in every):
-        raise SceneError(f"{study.file}: every point is refused: {every[0].refusal}" if every else f"{study.file}: no points")
+        raise SceneError(f"every point is refused: {every[0].refusal}")
     return [*references.values(), *points]
 
 

@@ -112,7 +112,10 @@ def _conclude(study: Study, points: Sequence[Point], record: dict[str, Any], opt
     """Prints what the study found, and warnings. Returns "7 points: 5 right, 2 stopped"."""
     n, records = sum(point.family >= 0 for point in points), record["points"]
     if study.reference is None:
-        for line in (text_of_means(study, points, records), *text_of_changes(record["changes"])):
+        for one in records:
+            if one["words"]:
+                complain(f"diptych: warning: {', '.join(one['labels'])}: {one['words']}")
+        for line in (text_of_means(study, points, records), *text_of_changes(study, record["changes"])):
             say(options, line)
         return f"{n} points"
     for quantity, found in zip(study.quantities, records[0]["quantities"]):

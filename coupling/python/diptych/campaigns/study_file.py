@@ -90,7 +90,7 @@ def _axis(part: Part) -> Axis:
     if not points:
         part.refuse("this axis has no points; give values or points")
     axis = Axis(part.word("name", key.partition("/")[2] or key), points, part.flag("converges"), part.flag("own_reference"))
-    part.demand_distinct("values" if part.has("key") else "points", [point.label for point in points])
+    part.demand_distinct("values" if part.has("key") else "points", [point.label for point in points], key)
     for point in points if axis.converges else []:
         if not point.value > 0:
             part.refuse(f" needs values above 0, which '{point.label}' is not", "converges")
@@ -249,7 +249,8 @@ def study_of(root: Part, name: str, overrides: Sequence[Setting]) -> Study:
     study.families = _families(root)
     root.demand_distinct("families", [family.name for family in study.families])
     varied = dict.fromkeys(axis.name for family in study.families for axis in family.axes)
-    study.title = root.word("title", name if study.reference is not None else f"{name}: effect of {', '.join(varied)}")
+    effect = f"{name_of(study.scene, 'scene')}: effect of {', '.join(varied)}"
+    study.title = root.word("title", effect if study.reference is None else name)
     study.quantities = _quantities(root, study)
     study.cost = [value_text(part.value) for part in root.list("cost")]
     for name in set(study.cost) - set(PHASES):  # a wrong name would count as a cost of zero

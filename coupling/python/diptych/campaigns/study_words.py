@@ -29,14 +29,15 @@ def _is_study_file(file: str) -> bool:
 def _axis(text: str) -> dict[str, Any]:
     """The axis of --vary section/key=V1,V2."""
     key, equals, words = text.partition("=")
-    if not equals or not words:
+    if not equals or not all(map(str.strip, words.split(","))):
         raise SceneError(f"--vary {text}: not of the form section/key=value,value, such as discrete/friction=0.2,0.3", key)
 
     def value(word: str) -> Any:
         try:
-            return float(word) if not word.lstrip("+-").isdigit() else int(word)
+            number = float(word)
         except ValueError:
             return word
+        return int(number) if number.is_integer() and abs(number) < 1e15 else number
 
     return {"name": key, "key": key, "values": [value(word.strip()) for word in words.split(",")]}
 

@@ -12,16 +12,19 @@ PANELS = {"discrete": ("grains", GRAINS, "o", "-"), "continuum": ("continuum", C
 LINE_COLOURS = (GRAINS, CONTINUUM, THIRD, "#CC79A7", "#E69F00", "#56B4E9")  # of the values of a second parameter
 WIDE = 20   # a numeric axis that spans more than this factor is logarithmic
 MOST_TICKS = 8
-STEP = 5    # points (1/72 inch) between the lines at one value, so that their intervals do not cover each other
+STEP = 9    # points (1/72 inch) between the lines at one value, so that their intervals do not cover each other
+BESIDE = 4  # points between the samples and their mean
 
 
 def over_parameter(study, family, places, label):
     """Means with 95 % intervals of one quantity over the first parameter of a family, samples as dots. One line per panel and per value
     of the other parameters. places: {panel: index of the quantity}. None without values."""
-    figure = Figure(figsize=(5.2, 3.3))
-    axes = ruled(figure.add_axes([0.155, 0.15, 0.825, 0.81]))
-    place_labels(axes, 0.03, 0.04)
     across, lines = family["axes"][0], _lines(study, family)
+    below = 0.5 if _are_numbers(across) else 0.45 + 0.033 * max(len(p["label"]) for p in across["points"])  # inches, for long names
+    height = 2.8 + below
+    figure = Figure(figsize=(5.2, height))
+    axes = ruled(figure.add_axes([0.155, below / height, 0.825, 2.67 / height]))
+    place_labels(axes, 0.03, 0.13 / height)
     drawn = [(panel, k, name, points) for panel, k in places.items() for name, points in lines.items()
              if any(point["quantities"][k]["mean"] is not None for _, point in points)]
     if not drawn:
@@ -29,10 +32,17 @@ def over_parameter(study, family, places, label):
     positions, names = _positions(axes, across), list(lines)
     for n, (panel, k, name, points) in enumerate(drawn):
         word, colour, mark, dashes = PANELS.get(panel, ("", INK, "D", "-"))
+        dashes = dashes if _are_numbers(across) else ""
         if len(names) > 1:
             colour = LINE_COLOURS[names.index(name) % len(LINE_COLOURS)]
-        shift = axes.transData + ScaledTranslation(STEP / 72 * (n - (len(drawn) - 1) / 2), 0, figure.dpi_scale_trans)
-        look = {"color": colour, "transform": shift, "markerfacecolor": "white" if panel == "continuum" and len(names) > 1 else colour}
+        shift = STEP * (n - (len(drawn) - 1) / 2)
+        at, beside = (axes.transData + ScaledTranslation(points_right / 72, 0, figure.dpi_scale_trans)
+                      for points_right in (shift, shift - BESIDE))
+        for place, point in points:
+            values = [v for v in point["quantities"][k]["values"] if v is not None]
+            axes.plot([positions[place]] * len(values), values, "o", color=colour, transform=beside, markersize=3, alpha=0.6,
+                      markeredgewidth=0)
+        look = {"color": colour, "transform": at, "markerfacecolor": "white" if panel == "continuum" and len(names) > 1 else colour}
         _line([(positions[place], point["quantities"][k]) for place, point in points], axes, mark, dashes, look,
               ", ".join(text for text in (word, name) if text))
     if list(places) == ["difference"]:
@@ -40,15 +50,27 @@ def over_parameter(study, family, places, label):
     axes.set(xlabel=across["name"], ylabel=label)
     if len(drawn) > 1:
         axes.legend(loc="best", fontsize=7.5, handlelength=2.2)
-    axes.margins(x=0.08)
+    _set_limits(axes, positions, [point["quantities"][k] for _, k, _, points in drawn for _, point in points])
     return svg(figure, f"{label} over {across['name']}: means with 95 % intervals, samples as dots.")
 
 
+def _set_limits(axes, positions, found):
+    """Shows all samples. An interval much longer than their range is cut, since it would hide them."""
+    values = [v for one in found for v in one["values"] if v is not None]
+    ends = [one[end] for one in found for end in ("low", "high") if one[end] is not None]
+    room = (max(values) - min(values)) or 0.1 * abs(values[0]) or 1
+    low, high = max(min(values + ends), min(values) - room), min(max(values + ends), max(values) + room)
+    margin = 0.05 * (high - low or room)
+    axes.set_ylim(low - margin, high + margin)
+    ends = np.array([min(positions), max(positions)], float)
+    if axes.get_xscale() == "log":
+        axes.set_xlim(*(ends * (ends[1] / ends[0]) ** np.array([-0.08, 0.08])))
+    else:
+        axes.set_xlim(*(ends + np.array([-0.12, 0.12]) * (np.ptp(ends) or 1)))
+
+
 def _line(found, axes, mark, dashes, look, label):
-    """One line. found: [(position, quantity of a point)]."""
-    for x, one in found:
-        values = [v for v in one["values"] if v is not None]
-        axes.plot([x] * len(values), values, ".", **{**look, "markerfacecolor": look["color"]}, markersize=4, alpha=0.5, markeredgewidth=0)
+    """Means and their intervals. found: [(position, quantity of a point)]."""
     known = [(x, one) for x, one in found if one["mean"] is not None]
     x, means = [x for x, _ in known], [one["mean"] for _, one in known]
     axes.plot(x, means, mark, linestyle=dashes, linewidth=1.2, markersize=5, label=label, **look)
@@ -73,12 +95,15 @@ def _order(family, place):
     return place if value is None else value
 
 
+def _are_numbers(across):
+    return all(p["value"] is not None for p in across["points"])
+
+
 def _positions(axes, across):
     """Positions of the values: numbers, or places in the list if one of them is a text."""
     values, labels = [p["value"] for p in across["points"]], [p["label"] for p in across["points"]]
-    if None in values:
-        axes.set_xticks(range(len(labels)), labels, rotation=30 if max(map(len, labels)) > 10 else 0)
-        axes.set_xlim(-0.5, len(labels) - 0.5)
+    if not _are_numbers(across):
+        axes.set_xticks(range(len(labels)), labels, rotation=30, ha="right")
         return range(len(labels))
     if min(values) > 0 and max(values) > WIDE * min(values):
         axes.set_xscale("log")

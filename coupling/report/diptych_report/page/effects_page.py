@@ -30,9 +30,10 @@ def _by_name(study):
 
 def _part(study, family, name, places):
     """Title, charts (panels, difference) and table of one quantity; charts without values are left out."""
-    label = tables.label(study.quantities[next(iter(places.values()))])
+    quantity = study.quantities[next(iter(places.values()))]
+    label = tables.typeset(name) + tables.unit_of(quantity)
     panels = {panel: k for panel, k in places.items() if panel != "difference"}
     charts = [figures.over_parameter(study, family, panels, label)]
     if "difference" in places:
-        charts.append(figures.over_parameter(study, family, {"difference": places["difference"]}, "continuum − grains: " + label))
+        charts.append(figures.over_parameter(study, family, {"difference": places["difference"]}, "continuum − grains" + tables.unit_of(quantity)))
     return {"title": tables.typeset(name), "charts": [chart for chart in charts if chart], "means": tables.means(study, family, places)}

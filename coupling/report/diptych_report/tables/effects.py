@@ -8,20 +8,31 @@ PANEL_WORDS = {"discrete": "grains", "continuum": "continuum", "difference": "co
 
 
 def changes(study):
-    """One row per quantity, panel and parameter: smallest and largest mean, change, verdict."""
+    """One row per quantity, panel and parameter: verdict, change, smallest and largest mean."""
     several = len({(row["family"], row["parameter"]) for row in study.record["changes"]}) > 1
+    head = ["quantity", "panel", *(["parameter"] if several else []), "verdict", "change [95 %]", "smallest mean", "largest mean", "samples"]
     rows = []
     for row in study.record["changes"]:
-        unit = suffix(row["unit"])
-        verdict = row["verdict"]
-        if verdict == "not resolved":
-            verdict += f": needs about {row['samples_needed']} samples" if row["samples_needed"] else ": needs more than 1000 samples"
         where = [": ".join(filter(None, (row["family"], row["parameter"])))] if several else []
-        ends = [f"{number(row[end], unit)} at {row[end + '_at']}" for end in ("smallest", "largest")]
         panel = "continuum − grains" if row["panel"] == "difference" else row["panel"]
-        rows.append([typeset(row["quantity"]), panel, *where, *ends, number(row["change"], unit, 3), row["samples"], verdict])
-    head = ["quantity", "panel", *(["parameter"] if several else []), "smallest mean", "largest mean", "change [95 %]", "samples", "verdict"]
+        rows.append([typeset(row["quantity"]), panel, *where, _verdict(row), *_ends(study, row), row["samples"]])
     return {"head": head, "rows": rows}
+
+
+def _verdict(row):
+    if row["verdict"] != "not resolved":
+        return row["verdict"]
+    return "not resolved: needs " + (f"about {row['samples_needed']}" if row["samples_needed"] else "more than 1000") + " samples"
+
+
+def _ends(study, row):
+    """Change, smallest and largest mean. The means of a few complete samples would not be those of the charts."""
+    unit = suffix(row["unit"])
+    if row["verdict"] == "no change":
+        return "0", number(row["smallest"], unit), number(row["smallest"], unit)
+    if row["samples"] < min(2, len(study.record["seeds"]) or 1):
+        return "–", "–", "–"
+    return number(row["change"], unit, 3), *(f"{number(row[end], unit)} at {row[end + '_at']}" for end in ("smallest", "largest"))
 
 
 def means(study, family, places):
@@ -40,7 +51,7 @@ def _mean(found, quantity):
     return text + (f" ({found['n']} of {len(found['values'])} samples)" if n_missing else "")
 
 
-def label(quantity):
-    """"10-90 % width of the band (d)"."""
+def unit_of(quantity):
+    """" (d)" behind the label of an axis, or ""."""
     unit = suffix(quantity["unit"]).strip()
-    return typeset(quantity["name"]) + (f" ({unit})" if unit else "")
+    return f" ({unit})" if unit else ""
