@@ -156,7 +156,7 @@ def test_an_effect_on_every_sample_is_resolved_although_the_samples_scatter_more
 
 
 def test_an_absent_effect_looks_resolved_in_one_study_of_twenty():
-    """Five points that differ by scatter alone. Student's interval of the two extreme points would call 23 % resolved."""
+    """Five points that differ by scatter alone. Student's interval of the two extreme points would call 18 % resolved."""
     random = np.random.default_rng(1)
     found = [effects.change_between(random.normal(size=(5, 4)))[0].low > 0 for _ in range(2000)]
     assert 0.035 < np.mean(found) < 0.065
