@@ -305,7 +305,7 @@ namespace diptych::coupling
     with_places({file, entries, "continuum"}, [&] { continuum::validate(scene.continuum); });
   }
 
-  std::vector<std::string> warnings_of(const Scene &scene, const std::vector<Entry> &entries)
+  std::vector<std::string> warnings_of(const Scene &scene, const std::vector<Entry> &entries, const bool compares)
   {
     Scene derived = scene;
     derive_keys(derived, {});
@@ -327,6 +327,8 @@ namespace diptych::coupling
         const auto set = last.find("continuum/" + name);
         warnings.push_back((set == last.end() ? "" : text_of(set->second.place) + ": ") + "continuum/" + name + text);
       }
+    if (!compares)
+      return warnings;
     if (const auto text = doubtful_platens(scene))
       warnings.push_back(*text + places_of(assignments_of({"discrete/platen_friction", "continuum/platens"}, entries)));
     if (const auto text = doubtful_coarse_mesh(scene))
