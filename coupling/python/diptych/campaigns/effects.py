@@ -15,7 +15,7 @@ import pandas as pd
 
 from ..arrays import Interval
 from .points import Point
-from .statistics import known, line_statistics, line_turn, statistics
+from .statistics import line_statistics, line_turn, statistics
 from .study_file import Family, Study
 
 PANELS = {"discrete": "grains", "continuum": "continuum", "difference": "difference", "material_point": "material point",
@@ -145,13 +145,13 @@ def _shown(found: dict[str, Any]) -> str:
 
 
 def text_of_means(study: Study, points: Sequence[Point], records: Sequence[dict[str, Any]]) -> str:
-    """A table for a terminal: a row per quantity, a column per point. Empty for many points."""
+    """A table for a terminal: a row per quantity, a column per point."""
     if len(points) > _WIDEST_TABLE:
-        return ""
-    names = [", ".join(point.labels) for point in points]
-    axes = ", ".join(axis.name for axis in study.families[0].axes)
-    rows = {text_of_quantity(q): [_shown(record["quantities"][k]) for record in records] for k, q in enumerate(study.quantities)
-            if any(len(known(record["quantities"][k]["values"])) for record in records)}
+        return f"the means of {len(points)} points are in effects.csv"
+    one = len(study.families) == 1
+    names = [("" if one else study.families[point.family].name + ": ") + ", ".join(point.labels) for point in points]
+    axes = ", ".join(axis.name for axis in study.families[0].axes) if one else ""
+    rows = {text_of_quantity(q): [_shown(record["quantities"][k]) for record in records] for k, q in enumerate(study.quantities)}
     table = pd.DataFrame.from_dict(rows, orient="index", columns=names).rename_axis(columns=axes)
     return "means" + (" and half widths of their 95 % intervals" if len(study.seeds) > 1 else "") + "\n" + table.to_string()
 
