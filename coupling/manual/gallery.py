@@ -81,7 +81,7 @@ def main(program, folder, *names):
         result = os.path.join(folder, name)
         scene = os.path.join(SOURCE, "coupling", "templates", name + ".prm")
         print(f"{name}:", flush=True)
-        if subprocess.run([program, command, scene, "--output", result, "--resume"], check=False).returncode:
+        if subprocess.run([program, command, scene, "--output", result], check=False).returncode:
             return 1
         path = os.path.join(HERE, "gallery", name + ".png")
         draw(result, path)
