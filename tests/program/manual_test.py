@@ -144,7 +144,7 @@ class Manual(Built):
 
     def test_the_gallery_shows_a_picture_of_each_test(self):
         page, templates = self.page("gallery.html"), os.path.join(SOURCE, "coupling", "templates")
-        names = re.findall(r"diptych new (\w+) ", self.shown("gallery.html"))
+        names = re.findall(r"diptych new (\w+) >", self.shown("gallery.html"))
         self.assertGreater(len(set(names)), 7)
         self.assertEqual(set(names), {name[:-4] for name in os.listdir(os.path.join(MANUAL, "gallery"))})
         for name in names:
