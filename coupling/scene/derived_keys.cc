@@ -81,8 +81,8 @@ namespace diptych::coupling
       const bool                 time     = o.mode == discrete::LoadingMode::time;
       const double               interval = time ? o.stage_time : o.stage_strain;
       const std::vector<double> &list     = o.stages;
-      const double               count    = list.empty() ? (time ? o.duration : o.axial_strain) / interval : double(list.size());
-      std::vector<double>        edges    = {0};
+      const double count = list.empty() ? std::round((time ? o.duration : o.axial_strain) / interval) : double(list.size());
+      std::vector<double> edges = {0};
       for (const double share : {0.25, 0.5, 1.})
         if (const double k = std::round(share * count); k > 0)
           if (const double end = list.empty() ? tidy(k * interval) : list[std::size_t(k) - 1]; end > edges.back())
@@ -113,6 +113,7 @@ namespace diptych::coupling
     struct DerivedKey
     {
       const char *name;
+      const char *rule; // words for `explain`
       void (*derive)(Scene &scene, const Given &given);
     };
 
@@ -126,36 +127,57 @@ namespace diptych::coupling
       return law_at(scene.discrete.law.friction);
     }
 
+    constexpr char by_friction[] = "from calibrations on dense samples, by discrete/friction";
+
     // Each needs only keys that stand before it.
     const DerivedKey derived_keys[] = {
-      {"loading/inertial_number",
+      {"loading/inertial_number", "1e-3 up to 2000 grains, 4e-4 for 4000, then lower with the square root of their number",
        [](Scene &s, const Given &) { s.loading.inertial_number = slow_enough(discrete::expected_grains(s.sample)); }},
-      {"continuum/hardening", [](Scene &s, const Given &) { law(s).hardening = continuum::HardeningKind::mobilisation; }},
-      {"continuum/youngs_modulus", [](Scene &s, const Given &) { law(s).elastic.youngs_modulus = fitting(s).youngs_modulus; }},
-      {"continuum/friction_angle_peak", [](Scene &s, const Given &) { law(s).friction_angle_peak = fitting(s).peak; }},
-      {"continuum/friction_angle_start",
+      {"continuum/hardening", "mobilisation",
+       [](Scene &s, const Given &) { law(s).hardening = continuum::HardeningKind::mobilisation; }},
+      {"continuum/youngs_modulus", by_friction,
+       [](Scene &s, const Given &) { law(s).elastic.youngs_modulus = fitting(s).youngs_modulus; }},
+      {"continuum/friction_angle_peak", by_friction,
+       [](Scene &s, const Given &) { law(s).friction_angle_peak = fitting(s).peak; }},
+      {"continuum/friction_angle_start", "a share of the peak angle, by discrete/friction",
        [](Scene &s, const Given &) { law(s).friction_angle_start = tidy(fitting(s).start * law(s).friction_angle_peak); }},
-      {"continuum/friction_angle_residual",
+      {"continuum/friction_angle_residual", "a share of the peak angle, by discrete/friction",
        [](Scene &s, const Given &) { law(s).friction_angle_residual = tidy(fitting(s).residual * law(s).friction_angle_peak); }},
-      {"continuum/dilatancy_angle_peak",
+      {"continuum/dilatancy_angle_peak", "a share of friction_angle_start, by discrete/friction",
        [](Scene &s, const Given &) {
          law(s).dilatancy_angle_peak = tidy(fitting(s).dilatancy *
                                             std::min(law(s).friction_angle_start, law(s).friction_angle_peak));
        }},
-      {"continuum/mobilisation_strain",
+      {"continuum/mobilisation_strain", by_friction,
        [](Scene &s, const Given &) { law(s).mobilisation_strain = fitting(s).mobilisation_strain; }},
-      {"continuum/softening_strain", [](Scene &s, const Given &) { law(s).softening_strain = 0.3; }},
-      {"continuum/internal_length", [](Scene &s, const Given &) { law(s).internal_length = fitting(s).internal_length; }},
-      {"continuum/element_size", [](Scene &s, const Given &) { s.continuum.element_size = element_size(s.continuum); }},
-      {"comparison/window_edges", [](Scene &s, const Given &) { s.comparison.window_edges = window_edges(s.loading); }},
-      {"comparison/coarse_element_size",
+      {"continuum/softening_strain", "0.3", [](Scene &s, const Given &) { law(s).softening_strain = 0.3; }},
+      {"continuum/internal_length", by_friction,
+       [](Scene &s, const Given &) { law(s).internal_length = fitting(s).internal_length; }},
+      {"continuum/element_size", "1.5 internal lengths, at most 3; 2 without an internal length",
+       [](Scene &s, const Given &) { s.continuum.element_size = element_size(s.continuum); }},
+      {"comparison/window_edges", "0, a quarter, half and the end of the loading, at stages",
+       [](Scene &s, const Given &) { s.comparison.window_edges = window_edges(s.loading); }},
+      {"comparison/coarse_element_size", "twice continuum/element_size",
        [](Scene &s, const Given &) { s.comparison.coarse_element_size = std::clamp(2 * s.continuum.element_size, 0.1, 100.); }},
-      {"comparison/parameters_from", [](Scene &s, const Given &given) { s.comparison.parameters_from = origin(s, given); }}};
+      {"comparison/parameters_from", "the origin of the default law if it was calibrated on such grains, otherwise nothing",
+       [](Scene &s, const Given &given) { s.comparison.parameters_from = origin(s, given); }}};
+
+    const DerivedKey *find(const std::string &key)
+    {
+      const auto found = std::find_if(std::begin(derived_keys), std::end(derived_keys),
+                                      [&](const DerivedKey &one) { return key == one.name; });
+      return found == std::end(derived_keys) ? nullptr : found;
+    }
   } // namespace
 
   bool is_derived(const std::string &key)
   {
-    return std::any_of(std::begin(derived_keys), std::end(derived_keys), [&](const DerivedKey &one) { return key == one.name; });
+    return find(key) != nullptr;
+  }
+
+  std::string rule_of(const std::string &key)
+  {
+    return find(key)->rule;
   }
 
   void derive_keys(Scene &scene, const Given &given)

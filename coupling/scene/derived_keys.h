@@ -12,6 +12,8 @@ namespace diptych::coupling
   // True if a key, as section/name, takes the value `auto`, which is also its default, and is then derived.
   bool is_derived(const std::string &key);
 
+  std::string rule_of(const std::string &derived_key); // how its value follows, for `explain`
+
   // Gives every derived key a value that fits the other keys, except those in `given`.
   //
   // Law of the continuum: from calibrations on dense samples with friction 0.2 to 0.8 (benchmarks/calibration/defaults), linear

@@ -305,19 +305,20 @@ namespace diptych::coupling
     with_places({file, entries, "continuum"}, [&] { continuum::validate(scene.continuum); });
   }
 
-  std::vector<std::string> warnings_of(const Scene &scene, const std::vector<Entry> &entries)
+  std::vector<std::string> warnings_of(const Scene &scene, const std::vector<Entry> &entries, const bool compares)
   {
     Scene derived = scene;
     derive_keys(derived, {});
-    const auto                   values = values_of(scene), defaults = values_of(Scene()), derived_values = values_of(derived);
+    const auto values = values_of(scene), defaults = values_of(Scene()), derived_values = values_of(derived);
+    const auto is_default = [&](const std::string &key) {
+      return values.at(key) == defaults.at(key) || (is_derived(key) && values.at(key) == derived_values.at(key));
+    };
     std::map<std::string, Entry> last;
     for (const Entry &entry : entries)
       last[entry.name()] = entry;
     std::vector<std::string> warnings;
     for (const auto &[key, because] : unused_keys(scene))
-      if (const auto set = last.find(key);
-          set != last.end() &&
-          (!set->second.of_resolved || (values.at(key) != defaults.at(key) && values.at(key) != derived_values.at(key))))
+      if (const auto set = last.find(key); set != last.end() && !(set->second.of_resolved && is_default(key)))
         {
           warnings.push_back(text_of(set->second.place) + ": " + key + " = '" + values.at(key) + "' is not used: " + because);
           last.erase(set); // one reason is enough
@@ -327,6 +328,8 @@ namespace diptych::coupling
         const auto set = last.find("continuum/" + name);
         warnings.push_back((set == last.end() ? "" : text_of(set->second.place) + ": ") + "continuum/" + name + text);
       }
+    if (!compares)
+      return warnings;
     if (const auto text = doubtful_platens(scene))
       warnings.push_back(*text + places_of(assignments_of({"discrete/platen_friction", "continuum/platens"}, entries)));
     if (const auto text = doubtful_coarse_mesh(scene))

@@ -147,7 +147,8 @@ namespace diptych::coupling
     }
 
     // `check`: check_scene() or part of it.
-    template <class Check> Scene checked_scene(const std::string &file, const std::vector<Entry> &entries, const Check &check)
+    template <class Check>
+    Scene checked_scene(const std::string &file, const std::vector<Entry> &entries, const bool compares, const Check &check)
     {
       Scene                 scene;
       std::set<std::string> given;
@@ -165,7 +166,7 @@ namespace diptych::coupling
       if (scene.output.directory.empty())
         scene.output.directory = "results/" + scene.name;
       check(scene);
-      scene.warnings = warnings_of(scene, entries);
+      scene.warnings = warnings_of(scene, entries, compares);
       return scene;
     }
   } // namespace
@@ -183,6 +184,7 @@ namespace diptych::coupling
         {
           key.value   = "auto";
           key.allowed = "auto or " + key.allowed;
+          key.meaning += "; auto: " + rule_of(key.section + "/" + key.name);
           if (!key.choices.empty())
             key.choices.insert(key.choices.begin(), "auto");
         }
@@ -231,7 +233,7 @@ namespace diptych::coupling
 
   Scene scene_of_entries(const std::string &file, const std::vector<Entry> &entries, const bool compares)
   {
-    return checked_scene(file, entries, [&](const Scene &scene) { check_scene(scene, file, entries, compares); });
+    return checked_scene(file, entries, compares, [&](const Scene &scene) { check_scene(scene, file, entries, compares); });
   }
 
   Scene read_computed_scene(const std::string &file, const std::vector<std::string> &overrides, const bool compares)
@@ -239,7 +241,7 @@ namespace diptych::coupling
     const std::vector<Entry> entries = entries_with(file, entries_of_overrides(overrides));
     if (!sets_every_key(entries))
       throw SceneError(file + " does not set every key. A run writes the scene that it used in this place; do not edit it.");
-    return checked_scene(file, entries, [&](const Scene &scene) { check_comparison(scene, file, entries, compares); });
+    return checked_scene(file, entries, compares, [&](const Scene &scene) { check_comparison(scene, file, entries, compares); });
   }
 
   std::vector<Entry> read_fragment(const std::string &file)
