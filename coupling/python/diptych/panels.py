@@ -17,6 +17,10 @@ from .errors import NotConverged
 
 OnStep = Optional[Callable[[dict[str, Any]], Any]]
 
+for _kind, _unit in ((_diptych.DiscreteSnapshot, "grains"), (_diptych.ContinuumSnapshot, "nodes")):
+    _kind.__repr__ = lambda self, unit=_unit: f"<{type(self).__name__}: {len(self.position)} {unit}, progress {self.progress:.4g}>"
+_diptych.Contacts.__repr__ = lambda self: f"<Contacts: {len(self)}>"
+
 
 class _Panel:
     """The common part of both panels."""

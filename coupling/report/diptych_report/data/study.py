@@ -66,4 +66,5 @@ def _curves(path):
     if not os.path.isfile(path):
         return {}
     with open_arrays(path) as file:
-        return {panel: (group["progress"][()], {name: group[name][()] for name in CURVES}) for panel, group in file.items()}
+        names = [panel for panel in ("discrete", "continuum", "material_point") if panel in file]  # the page opens on the first
+        return {panel: (file[panel]["progress"][()], {name: file[panel][name][()] for name in CURVES}) for panel in names}
