@@ -25,12 +25,13 @@ sys.path.insert(0, REPORT)
 
 from diptych_report.charts import ensemble, style, trends  # noqa: E402
 from diptych_report.charts.strips import _turn  # noqa: E402
+from diptych_report.data import study  # noqa: E402
 from diptych_report.data.ensemble import Ensemble  # noqa: E402
 from diptych_report.data.increments import Increment  # noqa: E402
 from diptych_report.data.numbers import Descriptions, Units  # noqa: E402
 from diptych_report.data.loading_variable import LOADING_VARIABLES  # noqa: E402
 from diptych_report.page.result_page import end_of, opens_at  # noqa: E402
-from diptych_report.tables import stage as tables  # noqa: E402
+from diptych_report.tables import calibration, stage as tables  # noqa: E402
 
 
 HALF_A_CODE = 0.5 / 65534 * 1.01  # in units of the range of an array
@@ -256,17 +257,30 @@ class Formulas(unittest.TestCase):
         results = Ensemble("", {}, {}, None, LOADING_VARIABLES["axial_strain"], None, {}, None, "", {})
         self.assertEqual(results.place("window 1e-05-0.02"), ("window", "0.001–2\u00a0%"))
 
+    def test_a_calibration_writes_numbers_without_exponents(self):
+        self.assertEqual([calibration.text(x, 2) for x in (-2.9, -110.4, 1e5)], ["−2.9", "−110", "100000"])
+
+    def test_the_curves_of_a_study_open_on_the_grains(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "study.h5")
+            with h5py.File(path, "w") as file:
+                for panel in ("continuum", "discrete"):
+                    for name in ("progress", *study.CURVES):
+                        file[f"{panel}/{name}"] = [0.0, 1.0]
+            self.assertEqual(list(study._curves(path)), ["discrete", "continuum"])
+
     def test_no_label_and_no_legend_leaves_its_place(self):
         verdict = {"quantity": "peak", "margin": 0.03, "verdict": "equivalent", "discrete": [0.3], "continuum": [0.4],
                    **dict.fromkeys(("difference", "difference_90"), {"value": 0.1, "low": None, "high": None})}
         long = "strength T/S from 0.3 % strain to the end of the loading"
-        result = types.SimpleNamespace(stages=[types.SimpleNamespace(end=0.01, bands=lambda panel: [{"to_minor_stress_deg": 40.0}])],
-                                       loading_variable=LOADING_VARIABLES["axial_strain"],
+        stage = types.SimpleNamespace(end=0.01, bands=lambda panel: [{"to_minor_stress_deg": 40.0}])
+        result = types.SimpleNamespace(stages=[stage], loading_variable=LOADING_VARIABLES["axial_strain"],
                                        part=lambda name: dict(coulomb_deg=58.8, arthur_deg=55.1, roscoe_deg=51.5))
         style.set_up()
         kept = lambda figure, alt: figure  # noqa: E731
         with mock.patch.object(ensemble, "svg", kept), mock.patch.object(trends, "svg", kept):
-            charts = [ensemble.dots(verdict, dict.fromkeys(("discrete", "continuum")), long), ensemble.differences([(long, verdict)]),
+            charts = [ensemble.dots(verdict, dict.fromkeys(("discrete", "continuum")), long),
+                      ensemble.differences([(long, verdict)]),
                       trends._inclination(result)[0]]
         for figure in charts:
             box = figure.get_tightbbox()

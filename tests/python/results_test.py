@@ -62,8 +62,8 @@ def test_what_a_user_prints_is_one_short_line(folder, tmp_path):
     (tmp_path / "plan.json").write_text("{}")
     frame = importers.Frame("1", {"id": np.arange(5)})
     shown = [results, results.discrete, results.continuum, results.discrete.history, start, results.continuum.snapshots[-1],
-             end.contacts, stress, stress.mesh, moved, bands, *bands.bands, diptych.compare(results), diptych.biaxial({}), frame,
-             diptych.probe(end, [(5, 5), (15, 5), (15, 15), (5, 15)]), diptych.PlanResult.load(tmp_path)]
+             end.contacts, stress, stress.mesh, moved, bands, *bands.bands, diptych.compare(results), diptych.biaxial({}),
+             frame, diptych.probe(end, [(5, 5), (15, 5), (15, 15), (5, 15)]), diptych.PlanResult.load(tmp_path)]
     for one in shown:
         assert len(str(one)) <= 200 and "\n" not in str(one) and " object at " not in str(one), str(one)
 
@@ -86,6 +86,10 @@ def test_plots_draw_the_values_into_the_given_axes(folder):
     assert band.plot(axes) is axes and len(axes.lines) == 3  # its middle and both edges
     with pytest.raises(ValueError, match="t_over_s"):
         stress.plot("colour")
+
+
+def test_a_table_is_searched_by_the_stages_of_the_scene(folder):
+    assert set(pandas.read_csv(folder / "comparison.csv").progress_to.dropna()) == {0.005, 0.01}
 
 
 def test_the_message_names_a_folder_without_results(tmp_path, folder):

@@ -85,8 +85,9 @@ class Mesh(NamedTuple):
         return np.asarray(self.polygons.mean(axis=1))
 
 
+# quantity -> label of its colour bar
 _MAPS = {"t_over_s": "t/s", "s": "mean stress s [pressure]", "t": "shear stress t [pressure]", "solid_fraction": "solid fraction",
-         **{name: f"{name} [pressure]" for name in ("sxx", "sxy", "syx", "syy")}}  # quantity -> label of its colour bar
+         "sxx": "sxx [pressure]", "sxy": "sxy [pressure]", "syx": "syx [pressure]", "syy": "syy [pressure]"}
 
 
 def _shear(stress: Array) -> Array:
@@ -136,7 +137,8 @@ class StressMap:
         grey. look: options of matplotlib's PolyCollection, such as cmap and clim."""
         if quantity not in _MAPS:
             raise ValueError(f"quantity = '{quantity}' is not allowed; there are {', '.join(_MAPS)}")
-        values = self.stress[:, "xy".index(quantity[1]), "xy".index(quantity[2])] if len(quantity) == 3 else getattr(self, quantity)
+        component = ["sxx", "sxy", "syx", "syy"].index(quantity) if len(quantity) == 3 else None
+        values = getattr(self, quantity) if component is None else self.stress.reshape(-1, 4)[:, component]
         return plotting.draw_cells(self.mesh, np.where(self.covered, values, np.nan), _MAPS[quantity], ax, look)
 
     def __repr__(self) -> str:

@@ -17,9 +17,9 @@ from .errors import NotConverged
 
 OnStep = Optional[Callable[[dict[str, Any]], Any]]
 
-for _kind, _unit in ((_diptych.DiscreteSnapshot, "grains"), (_diptych.ContinuumSnapshot, "nodes")):
-    _kind.__repr__ = lambda self, unit=_unit: f"<{type(self).__name__}: {len(self.position)} {unit}, progress {self.progress:.4g}>"
-_diptych.Contacts.__repr__ = lambda self: f"<Contacts: {len(self)}>"
+_diptych.DiscreteSnapshot.__repr__ = lambda s: f"<DiscreteSnapshot: {len(s.position)} grains, progress {s.progress:.4g}>"
+_diptych.ContinuumSnapshot.__repr__ = lambda s: f"<ContinuumSnapshot: {len(s.position)} nodes, progress {s.progress:.4g}>"
+_diptych.Contacts.__repr__ = lambda contacts: f"<Contacts: {len(contacts)}>"
 
 
 class _Panel:

@@ -125,8 +125,8 @@ def _record(scene: Any, seeds: Sequence[int], failed: Sequence[dict[str, Any]], 
     first = read_json(os.path.join(member_folder(scene.directory, done[0]), "comparison.json"))["summary"] if done else []
     return {"format": 1, "scene": scene.name, "seeds": list(seeds), "done": done, "failed": list(failed),
             "interrupted": list(interrupted), "margins": margins, "walk": scene.loading_variable(), "folded": folded,
-            "student_t_95": student_quantile(0.975, n - 1) if n > 1 else math.nan, "summary": ensemble_summary.summary(first, found),
-            **found}
+            "student_t_95": student_quantile(0.975, n - 1) if n > 1 else math.nan,
+            "summary": ensemble_summary.summary(first, found), **found}
 
 
 def _write(scene: Any, record: dict[str, Any], options: Options, phase: tuple[str, os.times_result]) -> None:

@@ -25,7 +25,8 @@ def described_at(verdict):
 def own_text(results, verdict):
     """("inclination of the band", unit of wording.rounded)."""
     at = described_at(verdict)
-    return results.numbers.meaning(at).split(",")[0] + (" of the band" if place_of(verdict)[0] else ""), shown_unit(results.numbers, at)
+    words = results.numbers.meaning(at).split(",")[0] + (" of the band" if place_of(verdict)[0] else "")
+    return words, shown_unit(results.numbers, at)
 
 
 def text_of(results, verdict):
