@@ -84,8 +84,9 @@ def test_plots_draw_the_values_into_the_given_axes(folder):
     assert cells.colorbar.ax.get_ylabel() == "syy [pressure]"
     band = diptych.Band(-40, 10, 4.55, 1, 1, 0, 1, 1, "", {}, np.zeros(2))
     assert band.plot(axes) is axes and len(axes.lines) == 3  # its middle and both edges
-    with pytest.raises(ValueError, match="t_over_s"):
-        stress.plot("colour")
+    for wrong in (stress, results):
+        with pytest.raises(ValueError, match="colour"):
+            wrong.plot("colour", axes)
 
 
 def test_a_table_is_searched_by_the_stages_of_the_scene(folder):

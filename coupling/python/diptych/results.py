@@ -56,17 +56,20 @@ class Results:
 
     def plot(self, column: str = "stress_ratio", ax: Axes | None = None) -> Axes:
         """Draws a column of the histories over the loading variable, for each panel that has it."""
-        for name, panel in (("grains", self.discrete), ("continuum", self.continuum)):
-            if panel is not None and column in panel.history:
-                ax = panel.history.plot(column, ax, label=name, **plotting.PANELS[name])
-        if ax is None:
+        histories = {name: panel.history for name, panel in self._panels() if column in panel.history}
+        if not histories:
             raise ValueError(f"column = '{column}' is not allowed: no panel has it")
+        for name, history in histories.items():
+            ax = history.plot(column, ax, label=name, **plotting.PANELS[name])
         ax.legend(frameon=False)
         return ax
 
     def __repr__(self) -> str:
-        panels = [name for name, panel in (("grains", self.discrete), ("continuum", self.continuum)) if panel is not None]
-        return f"<Results of {os.path.basename(os.path.normpath(self.folder))!r}: {' and '.join(panels)}>"
+        return f"<Results of {os.path.basename(os.path.normpath(self.folder))!r}: {' and '.join(dict(self._panels()))}>"
+
+    def _panels(self) -> list[tuple[str, PanelResults]]:
+        both = (("grains", self.discrete), ("continuum", self.continuum))
+        return [(name, panel) for name, panel in both if panel is not None]
 
 
 @dataclass(repr=False)
