@@ -309,15 +309,16 @@ namespace diptych::coupling
   {
     Scene derived = scene;
     derive_keys(derived, {});
-    const auto                   values = values_of(scene), defaults = values_of(Scene()), derived_values = values_of(derived);
+    const auto values = values_of(scene), defaults = values_of(Scene()), derived_values = values_of(derived);
+    const auto is_default = [&](const std::string &key) {
+      return values.at(key) == defaults.at(key) || (is_derived(key) && values.at(key) == derived_values.at(key));
+    };
     std::map<std::string, Entry> last;
     for (const Entry &entry : entries)
       last[entry.name()] = entry;
     std::vector<std::string> warnings;
     for (const auto &[key, because] : unused_keys(scene))
-      if (const auto set = last.find(key);
-          set != last.end() &&
-          (!set->second.of_resolved || (values.at(key) != defaults.at(key) && values.at(key) != derived_values.at(key))))
+      if (const auto set = last.find(key); set != last.end() && !(set->second.of_resolved && is_default(key)))
         {
           warnings.push_back(text_of(set->second.place) + ": " + key + " = '" + values.at(key) + "' is not used: " + because);
           last.erase(set); // one reason is enough

@@ -17,7 +17,7 @@ PROGRAM = os.environ.get("DIPTYCH_PROGRAM", "build/release/diptych")
 
 
 def calibration(friction):
-    """Seven parameters from eight samples in two loadings; eight other samples are predicted."""
+    """Six parameters from eight samples in two loadings; eight other samples are predicted."""
     def target(loading, seeds, **use):
         return {"name": f"{loading}, seeds {seeds}", "scene": f"{HERE}/{loading}.prm", "seeds": seeds,
                 "set": {"discrete/friction": friction, "continuum/element_size": 2}, **use}
@@ -27,25 +27,25 @@ def calibration(friction):
         "quantities": ["stress_ratio", "volumetric_strain", "ln_width"],
         "bins": [0.001, 0.002, 0.003, 0.004, 0.006, 0.008, 0.01, 0.0125, 0.015, 0.0175, 0.02, 0.0225, 0.025, 0.0275, 0.03, 0.035,
                  0.04],
-        "set": {"continuum/hardening": "mobilisation", "continuum/softening_strain": 0.3, "continuum/cohesion": 0.01},
+        "set": {"continuum/hardening": "mobilisation", "continuum/softening_strain": 0.3, "continuum/cohesion": 0.01,
+                "continuum/mobilisation_strain": 0.007},
         "load_step": 0.0012, "coarse_element_size": 3.5,
         "parameters": [
             {"key": "friction_angle_peak", "start": 25, "low": 12, "high": 45},
             {"key": "friction_angle_residual", "start": 0.5, "low": 0.05, "high": 0.9},
             {"key": "friction_angle_start", "start": 0.7, "low": 0.2, "high": 1},
-            {"key": "mobilisation_strain", "start": 0.005, "low": 0.0005, "high": 0.2},
             {"key": "dilatancy_angle_peak", "of": "friction_angle_start", "start": 0.5, "low": 0.05, "high": 1},
             {"key": "internal_length", "start": 1.5, "low": 0.6, "high": 8},
             {"key": "youngs_modulus", "start": 2000, "low": 200, "high": 100000}]}
 
 
 def calibrate(friction):
-    """A row of the table: friction, peak, start / peak, residual / peak, dilatancy / start, mobilisation strain, length, modulus."""
+    """A row of the table: friction, peak, start / peak, residual / peak, dilatancy / start, length, modulus."""
     found = diptych.calibrate(calibration(friction), f"{RESULTS}/calibration_{friction}", resume=True).parameters
     value = dict(zip(found["key"], found["value"]))
     peak, start = value["friction_angle_peak"], value["friction_angle_start"]
     row = (friction, peak, start / peak, value["friction_angle_residual"] / peak, value["dilatancy_angle_peak"] / start,
-           value["mobilisation_strain"], value["internal_length"], value["youngs_modulus"])
+           value["internal_length"], value["youngs_modulus"])
     print("{" + ", ".join(f"{x:.3g}" for x in row) + "}", flush=True)
 
 
