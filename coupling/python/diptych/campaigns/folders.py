@@ -148,7 +148,7 @@ def draw(options: Options, page: str, directory: str) -> None:
 
 @dataclass
 class SceneRun:
-    """One scene that a command runs. Without a scene its settings contradict each other, and `refusal` says how."""
+    """One scene that a command runs. Without a scene its settings contradict each other, and `refusal` is the message."""
 
     command: str
     name: str
