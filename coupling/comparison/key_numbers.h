@@ -27,9 +27,9 @@ namespace diptych::coupling
   {
     v({"quantity", "-", "name of the quantity", Kind::setting}, k.quantity);
     v({"unit", "-", "unit of the numbers", Kind::setting}, k.unit);
-    v({"grains", "as unit says", "value of the grains"}, k.grains);
-    v({"continuum", "as unit says", "value of the continuum"}, k.continuum);
-    v({"difference", "as unit says", "continuum minus grains"}, k.difference);
+    v({"grains", "as in unit", "value of the grains"}, k.grains);
+    v({"continuum", "as in unit", "value of the continuum"}, k.continuum);
+    v({"difference", "as in unit", "continuum minus grains"}, k.difference);
     v({"verdict", "-", "different: the interval of the difference excludes 0; cannot tell: it contains 0"}, k.verdict);
   }
 
@@ -37,15 +37,15 @@ namespace diptych::coupling
   {
     return {{{"quantity", "-", "name of the quantity"},
              {"unit", "-", "unit of the numbers"},
-             {"grains", "as unit says", "value of the grains"},
-             {"grains_low", "as unit says", "lower end of its 95 % interval; empty if there is none"},
-             {"grains_high", "as unit says", "upper end"},
-             {"continuum", "as unit says", "value of the continuum"},
-             {"continuum_low", "as unit says", "lower end"},
-             {"continuum_high", "as unit says", "upper end"},
-             {"difference", "as unit says", "continuum minus grains"},
-             {"difference_low", "as unit says", "lower end"},
-             {"difference_high", "as unit says", "upper end"},
+             {"grains", "as in unit", "value of the grains"},
+             {"grains_low", "as in unit", "lower end of its 95 % interval; empty if there is none"},
+             {"grains_high", "as in unit", "upper end"},
+             {"continuum", "as in unit", "value of the continuum"},
+             {"continuum_low", "as in unit", "lower end"},
+             {"continuum_high", "as in unit", "upper end"},
+             {"difference", "as in unit", "continuum minus grains"},
+             {"difference_low", "as in unit", "lower end"},
+             {"difference_high", "as in unit", "upper end"},
              {"verdict", "-", "different: the interval of the difference excludes 0; cannot tell: it contains 0"}}};
   }
 

@@ -118,8 +118,8 @@ namespace diptych::coupling
   {
     if (scene.continuum.mesh.kind != continuum::MeshOption::Kind::outline)
       throw SceneError("continuum/mesh = " + text_of(scene.continuum.mesh) +
-                       ": `diptych run` compares both panels on one sample and needs outline; the continuum alone runs with "
-                       "`diptych continuum`");
+                       ": `diptych run` compares both panels on one sample and needs outline; `diptych continuum` runs only "
+                       "the continuum");
   }
 
   int compare_and_report(const CommandLine &line, const Scene &scene, const Results &results, const std::string &next)

@@ -46,8 +46,8 @@ namespace
   {
     const Scene fine = scene_with({"continuum/internal_length=1"}), coarse = scene_with({"continuum/internal_length=10"}),
                 local = scene_with({"continuum/law=mohr_coulomb"});
-    EXPECT_EQ(fine.continuum.element_size, 1.5);
-    EXPECT_EQ(fine.comparison.coarse_element_size, 3);
+    EXPECT_EQ(fine.continuum.element_size, 1);
+    EXPECT_EQ(fine.comparison.coarse_element_size, 2);
     EXPECT_EQ(coarse.continuum.element_size, 3);
     EXPECT_EQ(local.continuum.element_size, 2);
     EXPECT_EQ(scene_with({"continuum/element_size=8"}).comparison.coarse_element_size, 16);

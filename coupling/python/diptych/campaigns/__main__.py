@@ -24,9 +24,9 @@ def parsed(words: Sequence[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="diptych", allow_abbrev=False)
     for name in ("command", "target"):
         parser.add_argument(name)
-    for option in ("--output", "--seeds", "--accuracy", "--for"):
+    for option in ("--output", "--seeds", "--accuracy", "--for", "--panels"):
         parser.add_argument(option, default="")
-    for option in ("--set", "--set-file"):
+    for option in ("--set", "--set-file", "--vary"):
         parser.add_argument(option, action="append", default=[])
     for option, default in (("--jobs", 0), ("--threads", 1)):
         parser.add_argument(option, type=int, default=default)
