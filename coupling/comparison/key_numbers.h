@@ -17,7 +17,7 @@ namespace diptych::coupling
   {
     std::string quantity, unit;
     Interval    grains, continuum, difference;
-    std::string verdict; // "different", "cannot tell", "no interval from one sample" or "not in both panels"
+    std::string verdict; // "different", "cannot tell", "one sample" (no interval) or "not in both panels"
   };
 
   // Peak, strength, volumetric strain, and inclination and width of the band in the last window. Lengths in mean diameters.
@@ -30,7 +30,9 @@ namespace diptych::coupling
     v({"grains", "as in unit", "value of the grains"}, k.grains);
     v({"continuum", "as in unit", "value of the continuum"}, k.continuum);
     v({"difference", "as in unit", "continuum minus grains"}, k.difference);
-    v({"verdict", "-", "different: the interval of the difference excludes 0; cannot tell: it contains 0"}, k.verdict);
+    v({"verdict", "-",
+       "different: the interval of the difference excludes 0; cannot tell: it contains 0; one sample: no interval"},
+      k.verdict);
   }
 
   inline std::array<NumberEntry, 12> summary_columns()
@@ -46,7 +48,8 @@ namespace diptych::coupling
              {"difference", "as in unit", "continuum minus grains"},
              {"difference_low", "as in unit", "lower end"},
              {"difference_high", "as in unit", "upper end"},
-             {"verdict", "-", "different: the interval of the difference excludes 0; cannot tell: it contains 0"}}};
+             {"verdict", "-",
+              "different: the interval of the difference excludes 0; cannot tell: it contains 0; one sample: no interval"}}};
   }
 
   std::string csv_of(const std::vector<KeyNumber> &numbers);  // with the columns summary_columns()

@@ -78,6 +78,14 @@ class Campaign(CampaignResult):
                               **{name: one["error"]["value"] for name, one in zip(names, point["quantities"])}}
                              for point in self.numbers["points"]])
 
+    def summary(self) -> pd.DataFrame:
+        """An ensemble: the rows and columns of Results.summary(), with means over the samples and their 95 % intervals."""
+        if "summary" not in self.numbers:
+            raise AttributeError("a study has no summary; use .points or .table")
+        table = pd.json_normalize(self.numbers["summary"], sep="_").rename(columns=lambda name: name.removesuffix("_value"))
+        numbers = [of + end for of in ("grains", "continuum", "difference") for end in ("", "_low", "_high")]
+        return table.set_index("quantity")[["unit", *numbers, "verdict"]].astype(dict.fromkeys(numbers, float))
+
     @property
     def effects(self) -> pd.DataFrame:
         """A study without a reference, effects.csv: a row per point, quantity and panel. The values of the parameters come first,
