@@ -53,6 +53,19 @@ namespace
     EXPECT_EQ(scene_with({"continuum/element_size=8"}).comparison.coarse_element_size, 16);
   }
 
+  TEST(DerivedKeys, LoadStepsFitTheLoadingAndEachOther)
+  {
+    const auto steps = [](const Words &overrides) {
+      const Scene scene = scene_with(overrides);
+      return std::vector<double>{scene.continuum.initial_step, scene.continuum.max_step};
+    };
+    EXPECT_EQ(steps({}), (std::vector<double>{0.001, 0.00125}));
+    EXPECT_EQ(steps({"continuum/initial_step=0.002"}), (std::vector<double>{0.002, 0.002}));
+    EXPECT_EQ(steps({"continuum/max_step=0.0005"}), (std::vector<double>{0.0005, 0.0005}));
+    EXPECT_EQ(steps({"loading/axial_strain=1e-6", "loading/stage_strain=1e-6"}), (std::vector<double>{1e-5, 1e-5}));
+    EXPECT_EQ(steps({"loading/mode=time", "loading/duration=64"})[1], 2);
+  }
+
   TEST(DerivedKeys, TheLawIsStrongerWithMoreFriction)
   {
     const auto law = [](const Words &overrides) { return scene_with(overrides).continuum.material; };
