@@ -54,7 +54,7 @@ def check(friction):
     """Differences continuum - grains of peak t/s (relative) and volume (absolute): mean of 16 samples, its standard error."""
     for loading in LOADINGS:
         differences = []
-        for seed in range(9, 25):
+        for seed in range(17, 33):
             folder = f"{RESULTS}/check_{friction}_{loading}_{seed}"
             subprocess.run([PROGRAM, "run", f"{HERE}/{loading}.prm", "--output", folder, "--set", f"discrete/friction={friction}",
                             "--set", f"sample/seed={seed}", "--set", "output/report=false", "--quiet"], check=True)
