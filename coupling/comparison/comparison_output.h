@@ -18,9 +18,9 @@ namespace diptych::coupling
              {"progress_to", "strain or time", "progress at the end of the window or stage"},
              {"panel", "-", "discrete, continuum, difference or mapping, or the part of comparison.json that holds the number"},
              {"quantity", "-", "keys on the path to the number; entries of lists are numbered from 1, or have their name"},
-             {"value", "as unit says", "value of the number"},
-             {"low", "as unit says", "lower end of the 95 % interval, if there is one"},
-             {"high", "as unit says", "upper end of the 95 % interval, if there is one"},
+             {"value", "as in unit", "value of the number"},
+             {"low", "as in unit", "lower end of the 95 % interval, if there is one"},
+             {"high", "as in unit", "upper end of the 95 % interval, if there is one"},
              {"unit", "-", "unit of value, low and high"}}};
   }
 

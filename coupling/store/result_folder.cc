@@ -85,6 +85,11 @@ namespace diptych::coupling
     return fs::exists(directory + "/calibration_input.json");
   }
 
+  bool is_homogenised_folder(const std::string &directory)
+  {
+    return fs::exists(directory + "/homogenised.json");
+  }
+
   bool is_result_folder(const std::string &directory)
   {
     for (const char *name : {"provenance.json", "ensemble.prm", "study_input.json", "calibration_input.json", "plan_input.prm",
@@ -256,6 +261,7 @@ namespace diptych::coupling
       remove_results(directory, comparison_files);
     if (!has_report(facts))
       remove_results(directory, {"report.html"});
+    remove_results(directory, {"movie.gif"}); // of the earlier panels; `report --movie` draws it
     if (facts.continuum_coarse.cells == 0)
       remove_results(directory, {"coarse"});
     if (facts.continuum.finished)

@@ -147,6 +147,8 @@ class Files(unittest.TestCase):
             self.assertEqual(movie.n_frames, len(self.stages) - 1)
             movie.seek(movie.n_frames - 1)
             self.assertGreater(len(movie.convert("RGB").getcolors(10 ** 6)), 50, "both panels are coloured")
+        finished("compare", self.folder, "--quiet")
+        self.assertFalse(os.path.exists(self.path("movie.gif")), "it would show the earlier comparison")
 
 
 if __name__ == "__main__":

@@ -17,6 +17,10 @@ from .errors import NotConverged
 
 OnStep = Optional[Callable[[dict[str, Any]], Any]]
 
+_diptych.DiscreteSnapshot.__repr__ = lambda s: f"<DiscreteSnapshot: {len(s.position)} grains, progress {s.progress:.4g}>"
+_diptych.ContinuumSnapshot.__repr__ = lambda s: f"<ContinuumSnapshot: {len(s.position)} nodes, progress {s.progress:.4g}>"
+_diptych.Contacts.__repr__ = lambda contacts: f"<Contacts: {len(contacts)}>"
+
 
 class _Panel:
     """The common part of both panels."""

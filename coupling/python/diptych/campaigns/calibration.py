@@ -152,7 +152,7 @@ class Calibrator:
                 "chi2": self._chi2(fit.residual) if np.isfinite(fit.chi2) else np.nan}
 
     def _report(self, fine: Fit, coarse: Fit) -> tuple[Knowledge, Array]:
-        """A misfit beyond noise and model tolerance counts as noise, too."""
+        """A misfit beyond noise and model tolerance also counts as noise."""
         data, record = self.data, self.record
         jacobian = data.unweighted(fine.jacobian[:len(data.mean)])
         record["misfit"] = np.sqrt(record["chi2"] / expected_chi2(jacobian, data.weights, data.of_means(True)))
