@@ -276,13 +276,14 @@ namespace diptych::coupling
         add_overwrite(homogenise);
         add_quiet(homogenise);
 
-        CLI::App *out = add(Command::export_sample, "write a sample of a result folder as a start for another code");
+        CLI::App *out = add(Command::export_sample,
+                            "write a sample of a result folder for another code, or all stages for OVITO");
         out->add_option("FOLDER", line.target, "result folder")->required();
-        out->add_option("--format", line.exported.format, "code that reads them")
+        out->add_option("--format", line.exported.format, "code that reads them; dump: OVITO")
           ->required()
           ->check(one_of({"lammps", "csv", "dump"}));
         add_output(out, "folder of the exported files (default: FOLDER_for_FORMAT)");
-        out->add_option("--stage", line.exported.stage, "number of the snapshot (default: 0, the prepared sample)")
+        out->add_option("--stage", line.exported.stage, "number of the snapshot (default: 0, the prepared sample); not for dump")
           ->check(in_range(0, 1000000));
         add_quiet(out);
       }
