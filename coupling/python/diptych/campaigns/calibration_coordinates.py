@@ -1,4 +1,4 @@
-# diptych: values of continuum keys as points of the unit cube, in which the search of a calibration works
+# diptych: values of keys as points of the unit cube, in which the search of a calibration works
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Strengths, stiffnesses and lengths are varied in their logarithm. A residual angle is varied by its drop, and a dilatancy
 angle by its share of a friction angle, so that no combination contradicts itself."""
@@ -20,7 +20,7 @@ USUAL = {"friction_angle_residual": "drop_from", "dilatancy_angle_peak": "share_
 
 @dataclass(frozen=True)
 class Parameter:
-    """A key of the section continuum. start, low and high are numbers of the coordinate: the value itself (also for a
+    """A key of the section continuum, or discrete/KEY. start, low and high are numbers of the coordinate: the value itself (also for a
     logarithm), a share or a drop. targets: names of the targets that it belongs to; empty: one value for all."""
 
     key: str
@@ -30,6 +30,12 @@ class Parameter:
     high: float
     other: str = ""
     targets: tuple[str, ...] = ()
+
+    @property
+    def setting(self) -> tuple[str, str]:
+        """Section and key."""
+        section, _, key = self.key.rpartition("/")
+        return section or "continuum", key
 
     def is_of(self, target: str) -> bool:
         """An empty name means: common to all targets."""
@@ -82,6 +88,6 @@ class Coordinates:
     def settings(self, point: Array, target: str) -> list[Setting]:
         """Settings of one target. An empty name gives those that all targets share."""
         numbers = self.numbers(point)
-        return [Setting("continuum", p.key, repr(self._value(p.key, target, numbers, 0)),
+        return [Setting(*p.setting, repr(self._value(p.key, target, numbers, 0)),
                         f"{p.key} = {number:.4g}" + (f" ({p.coordinate} {p.other})" if p.other else ""))
                 for p, number in zip(self.parameters, numbers) if p.is_of(target)]
