@@ -63,9 +63,9 @@ class Coordinates:
         return len(self.parameters)
 
     def numbers(self, point: Array) -> list[float]:
-        """Value, share or drop of every parameter."""
+        """Value, share or drop of every parameter, in 12 digits, so that the start is the number of the file."""
         here = self.low + point * self.span
-        return [float(np.exp(x)) if p.coordinate == "logarithm" else float(x) for p, x in zip(self.parameters, here)]
+        return [float(f"{np.exp(x) if p.coordinate == 'logarithm' else x:.12g}") for p, x in zip(self.parameters, here)]
 
     def _value(self, key: str, target: str, numbers: Sequence[float], depth: int) -> float:
         if depth > len(self):

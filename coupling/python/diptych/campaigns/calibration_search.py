@@ -17,7 +17,7 @@ from ..arrays import Array
 
 Residuals = Callable[[Sequence[Array]], "list[Array]"]  # of several points at once; NaN: the run failed
 DIFFERENCE = 0.005  # step of the forward differences; backward at the upper bound
-GRAINS_DIFFERENCE = 0.06  # the same where runs scatter; 0.05 of a friction of 0.4 between 0.1 and 0.9
+GRAINS_DIFFERENCE = 0.12  # the same where runs scatter; 0.1 of a friction of 0.4 between 0.1 and 0.9
 LEAST_GAIN, LEAST_DECREASE = 0.05, 1e-3  # of chi^2, absolute and relative: below either, a search has converged
 RADIUS_OF_FRESH, RADIUS_OF_GIVEN = 0.25, 0.1  # of the first trust region, with a Jacobian computed here or given
 EXACT = 1e-6  # mean square of the residuals below which the fit is exact
@@ -69,10 +69,12 @@ class Fit:
 
 
 class _Search:
-    """Steps with one Jacobian, fresh or old, and its updates."""
+    """Steps with one Jacobian, fresh or old, and its updates. Steps below `shortest` do not update it: they show the scatter of the
+    runs and not their slope."""
 
-    def __init__(self, residuals: Residuals, fit: Fit) -> None:
+    def __init__(self, residuals: Residuals, fit: Fit, shortest: float) -> None:
         self.residuals, self.fit, self.trial, self.failed, self.fresh = residuals, fit, (fit.point, fit.residual), False, False
+        self.shortest = shortest
 
     def value(self, x: Array) -> Array:
         if np.array_equal(x, self.fit.point):
@@ -91,7 +93,8 @@ class _Search:
         if not np.array_equal(x, fit.point):
             step, change = self.trial[0] - fit.point, self.trial[1] - fit.residual
             gain, before = fit.chi2 - self.trial[1] @ self.trial[1], fit.chi2
-            fit.jacobian = fit.jacobian + np.outer(change - fit.jacobian @ step, step) / (step @ step)
+            if step @ step >= self.shortest**2:
+                fit.jacobian = fit.jacobian + np.outer(change - fit.jacobian @ step, step) / (step @ step)
             fit.point, fit.residual = self.trial
             self.fresh = False
             if gain < max(LEAST_GAIN, LEAST_DECREASE * before) or fit.is_exact:
@@ -140,7 +143,7 @@ def least_squares(residuals: Residuals, start: Array, most_jacobians: int = 4, j
             fit.jacobian = difference_jacobian(residuals, fit.point, fit.residual, difference)
             fit.evaluations, fit.jacobians = fit.evaluations + len(fit.point), fit.jacobians + 1
         before = fit.chi2
-        went_well = fit.is_exact or _Search(residuals, fit).run(fresh)
+        went_well = fit.is_exact or _Search(residuals, fit, difference).run(fresh)
         if (fresh and before - fit.chi2 < max(LEAST_GAIN, LEAST_DECREASE * before)) or (not fresh and went_well):
             return fit
         if not fresh:
