@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <iostream>
 
+#include <unistd.h>
+
 #include "coupling/comparison/comparison_output.h"
 #include "coupling/comparison/key_numbers.h"
 #include "coupling/processes/progress.h"
@@ -44,6 +46,16 @@ namespace diptych::coupling
       return {scene.name, {scene.sample.seed}, line.text};
     }
 
+    // Bold on a terminal if nobody fitted the law.
+    std::string origin_of_law(const Scene &scene)
+    {
+      if (const std::string &from = scene.comparison.parameters_from; !from.empty())
+        return "parameters of the continuum: " + from;
+      const std::string text = "The parameters of the continuum were not fitted to these grains. To fit them: diptych calibrate "
+                               "SCENE --seeds 1-4";
+      return isatty(STDOUT_FILENO) != 0 ? "\033[1m" + text + "\033[0m" : text;
+    }
+
     // Writes the comparison to the folder `next`.
     // `text`: the numbers that a user asks for first.
     int comparison_of(const CommandLine &line,
@@ -65,7 +77,7 @@ namespace diptych::coupling
       c.cost = summary_of(read_run_facts(next).phases);
       write_comparison(next, {scene, c});
       record_files(next, "comparison");
-      text = text_of(key_numbers(c));
+      text = text_of(key_numbers(c)) + "\n" + origin_of_law(scene);
       progress.finish();
       for (const StageRecord &stage : c.stages)
         if (!(stage.mapping.total_relative_error < 1e-12))

@@ -7,24 +7,13 @@
 #include <CLI/App.hpp>
 
 #include "coupling/program/option_values.h"
-#include "coupling/scene/keys.h"
-#include "coupling/scene/scene.h"
+#include "coupling/scene/scene_file.h"
 #include "discrete/files/words.h"
 
 namespace diptych::coupling
 {
   namespace
   {
-    std::vector<KeyDescription> keys_of_scenes()
-    {
-      std::vector<KeyDescription> keys;
-      Scene                       defaults;
-      for_each_section(defaults, [&](const char *section, auto &options) {
-        visit_parameters(options, DescribeKeys{section, keys});
-      });
-      return keys;
-    }
-
     std::string assignments(const std::vector<KeyDescription> &keys)
     {
       std::vector<std::string> words;
@@ -124,7 +113,7 @@ namespace diptych::coupling
 
   std::string completion_script(CLI::App &app, const std::string &shell)
   {
-    const std::vector<KeyDescription> keys = keys_of_scenes();
+    const std::vector<KeyDescription> keys = described_keys();
     if (shell == "fish")
       return fish_completion(app, keys);
     std::ostringstream       out;

@@ -11,7 +11,6 @@
 #include "coupling/python/bindings.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
-#include "coupling/scene/keys.h"
 #include "coupling/version.h"
 
 namespace diptych::python
@@ -85,14 +84,9 @@ namespace diptych::python
 
     py::dict described()
     {
-      py::dict        keys;
-      coupling::Scene defaults;
-      coupling::for_each_section(defaults, [&](const char *section, auto &options) {
-        std::vector<coupling::KeyDescription> described;
-        visit_parameters(options, coupling::DescribeKeys{section, described});
-        for (const coupling::KeyDescription &key : described)
-          keys[py::str(key.section + "/" + key.name)] = py::make_tuple(key.unit, key.allowed, key.meaning);
-      });
+      py::dict keys;
+      for (const coupling::KeyDescription &key : coupling::described_keys())
+        keys[py::str(key.section + "/" + key.name)] = py::make_tuple(key.unit, key.allowed, key.meaning);
       return keys;
     }
   } // namespace

@@ -11,6 +11,7 @@
 
 #include "continuum/require.h"
 #include "coupling/processes/stop_signal.h"
+#include "coupling/scene/derived_keys.h"
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_error.h"
 #include "discrete/files/wrong_keys.h"
@@ -115,6 +116,25 @@ namespace diptych::coupling
       return "comparison/coarse_element_size = " + text_of(coarse) +
              " is not larger than continuum/element_size = " + text_of(fine) +
              ": the coarse run is not coarser than the first; give a larger size, or 0 to leave it out";
+    }
+
+    // The same platens should be rough, or smooth, in both panels.
+    std::optional<std::string> doubtful_platens(const Scene &scene)
+    {
+      const auto  &contacts = scene.discrete.law;
+      const double platens = contacts.platen_friction, grains = contacts.friction;
+      const bool   rough = scene.continuum.platens == continuum::Platens::rough;
+      if (scene.discrete.method.method == discrete::Method::imported || scene.sample.rough_platens)
+        return std::nullopt;
+      if (rough && platens < grains)
+        return "the platens are rough in the continuum (continuum/platens = rough), but grains slide along them: "
+               "discrete/platen_friction = " +
+               text_of(platens) + " is below discrete/friction = " + text_of(grains);
+      if (!rough && platens > 0.1)
+        return "the platens are smooth in the continuum (continuum/platens = smooth), but hold the grains: "
+               "discrete/platen_friction = " +
+               text_of(platens);
+      return std::nullopt;
     }
 
     // The last assignment of each key, in the order of the keys.
@@ -285,15 +305,20 @@ namespace diptych::coupling
     with_places({file, entries, "continuum"}, [&] { continuum::validate(scene.continuum); });
   }
 
-  std::vector<std::string> warnings_of(const Scene &scene, const std::vector<Entry> &entries)
+  std::vector<std::string> warnings_of(const Scene &scene, const std::vector<Entry> &entries, const bool compares)
   {
-    const auto                   values = values_of(scene), defaults = values_of(Scene());
+    Scene derived = scene;
+    derive_keys(derived, {});
+    const auto values = values_of(scene), defaults = values_of(Scene()), derived_values = values_of(derived);
+    const auto is_default = [&](const std::string &key) {
+      return values.at(key) == defaults.at(key) || (is_derived(key) && values.at(key) == derived_values.at(key));
+    };
     std::map<std::string, Entry> last;
     for (const Entry &entry : entries)
       last[entry.name()] = entry;
     std::vector<std::string> warnings;
     for (const auto &[key, because] : unused_keys(scene))
-      if (const auto set = last.find(key); set != last.end() && (!set->second.of_resolved || values.at(key) != defaults.at(key)))
+      if (const auto set = last.find(key); set != last.end() && !(set->second.of_resolved && is_default(key)))
         {
           warnings.push_back(text_of(set->second.place) + ": " + key + " = '" + values.at(key) + "' is not used: " + because);
           last.erase(set); // one reason is enough
@@ -303,6 +328,10 @@ namespace diptych::coupling
         const auto set = last.find("continuum/" + name);
         warnings.push_back((set == last.end() ? "" : text_of(set->second.place) + ": ") + "continuum/" + name + text);
       }
+    if (!compares)
+      return warnings;
+    if (const auto text = doubtful_platens(scene))
+      warnings.push_back(*text + places_of(assignments_of({"discrete/platen_friction", "continuum/platens"}, entries)));
     if (const auto text = doubtful_coarse_mesh(scene))
       warnings.push_back(*text +
                          places_of(assignments_of({"comparison/coarse_element_size", "continuum/element_size"}, entries)));

@@ -20,6 +20,6 @@ namespace diptych::coupling
   // Warnings about
   //   keys that differ from their default but have no effect, each with the key that is the reason;
   //   moduli and cohesions that are probably meant in another unit;
-  //   a coarse mesh that is no coarser than the first.
-  std::vector<std::string> warnings_of(const Scene &scene, const std::vector<Entry> &entries);
+  //   if both panels are compared: platens that are rough in one only, a coarse mesh that is no coarser than the first.
+  std::vector<std::string> warnings_of(const Scene &scene, const std::vector<Entry> &entries, bool compares);
 } // namespace diptych::coupling

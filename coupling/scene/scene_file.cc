@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "coupling/scene/keys.h"
+#include "coupling/scene/derived_keys.h"
 #include "coupling/scene/scene_check.h"
 #include "discrete/files/nearest_name.h"
 #include "discrete/files/words.h"
@@ -17,23 +17,12 @@ namespace diptych::coupling
 {
   namespace
   {
-    std::vector<KeyDescription> describe(const std::string &wanted_section)
-    {
-      std::vector<KeyDescription> keys;
-      Scene                       defaults;
-      for_each_section(defaults, [&](const char *section, auto &options) {
-        if (wanted_section.empty() || wanted_section == section)
-          visit_parameters(options, DescribeKeys{section, keys});
-      });
-      return keys;
-    }
-
     [[noreturn]] void refuse_section(const Place                    &place,
                                      const std::string              &section,
                                      const std::vector<std::string> &known = section_names())
     {
       std::vector<std::string> names = known;
-      for (const KeyDescription &key : describe(""))
+      for (const KeyDescription &key : described_keys(""))
         names.push_back(key.name);
       const std::string asked   = section.substr(section.find('/') + 1); // a key may be meant
       const std::string nearest = discrete::nearest_name(asked, names), keys = keys_with(asked);
@@ -48,7 +37,7 @@ namespace diptych::coupling
     [[noreturn]] void refuse_key(const Entry &entry)
     {
       std::vector<std::string> names;
-      for (const KeyDescription &key : describe(entry.section))
+      for (const KeyDescription &key : described_keys(entry.section))
         names.push_back(key.name);
       throw SceneError({entry.place, entry.name(), "", "",
                         "the nearest is '" + entry.section + "/" + discrete::nearest_name(entry.key, names) + "'"},
@@ -58,7 +47,7 @@ namespace diptych::coupling
     [[noreturn]] void refuse_value(const Entry &entry)
     {
       const bool has_comma = entry.value.find(',') != std::string::npos;
-      for (const KeyDescription &key : describe(entry.section))
+      for (const KeyDescription &key : described_keys(entry.section))
         if (key.name == entry.key)
           throw SceneError({entry.place, entry.name(), entry.value, key.allowed + " [" + key.unit + "]",
                             has_comma ? "decimals have a point, and only lists have commas" : ""},
@@ -75,8 +64,15 @@ namespace diptych::coupling
                          "begins or ends with a blank, which a scene file cannot hold");
     }
 
+    bool is_left_to_others(const Entry &entry)
+    {
+      return entry.value == "auto" && is_derived(entry.name());
+    }
+
     void set(Scene &scene, const Entry &entry)
     {
+      if (is_left_to_others(entry))
+        return;
       bool is_section = false;
       for_each_section(scene, [&](const std::string &section, auto &options) {
         if (section != entry.section)
@@ -110,7 +106,7 @@ namespace diptych::coupling
       std::set<std::string> set;
       for (const Entry &entry : entries)
         set.insert(entry.name());
-      const std::vector<KeyDescription> keys = describe("");
+      const std::vector<KeyDescription> keys = described_keys("");
       return std::all_of(keys.begin(), keys.end(),
                          [&](const KeyDescription &key) { return set.count(key.section + "/" + key.name) > 0; });
     }
@@ -139,7 +135,7 @@ namespace diptych::coupling
     // Keys whose section/name contains a word of at least three letters.
     std::vector<KeyDescription> keys_like(const std::string &word)
     {
-      std::vector<KeyDescription> keys = describe("");
+      std::vector<KeyDescription> keys = described_keys("");
       keys.erase(std::remove_if(keys.begin(), keys.end(),
                                 [&](const KeyDescription &key) {
                                   const std::string &text = word.find('/') == std::string::npos ? key.name
@@ -151,22 +147,49 @@ namespace diptych::coupling
     }
 
     // `check`: check_scene() or part of it.
-    template <class Check> Scene checked_scene(const std::string &file, const std::vector<Entry> &entries, const Check &check)
+    template <class Check>
+    Scene checked_scene(const std::string &file, const std::vector<Entry> &entries, const bool compares, const Check &check)
     {
-      Scene scene;
+      Scene                 scene;
+      std::set<std::string> given;
       for (const Entry &entry : entries)
         {
           demand_one_line(entry);
           set(scene, entry);
+          if (is_left_to_others(entry))
+            given.erase(entry.name());
+          else
+            given.insert(entry.name());
         }
+      derive_keys(scene, given);
       scene.name = scene_name(file);
       if (scene.output.directory.empty())
         scene.output.directory = "results/" + scene.name;
       check(scene);
-      scene.warnings = warnings_of(scene, entries);
+      scene.warnings = warnings_of(scene, entries, compares);
       return scene;
     }
   } // namespace
+
+  std::vector<KeyDescription> described_keys(const std::string &wanted_section)
+  {
+    std::vector<KeyDescription> keys;
+    Scene                       defaults;
+    for_each_section(defaults, [&](const char *section, auto &options) {
+      if (wanted_section.empty() || wanted_section == section)
+        visit_parameters(options, DescribeKeys{section, keys});
+    });
+    for (KeyDescription &key : keys)
+      if (is_derived(key.section + "/" + key.name))
+        {
+          key.value   = "auto";
+          key.allowed = "auto or " + key.allowed;
+          key.meaning += "; auto: " + rule_of(key.section + "/" + key.name);
+          if (!key.choices.empty())
+            key.choices.insert(key.choices.begin(), "auto");
+        }
+    return keys;
+  }
 
   std::string keys_with(const std::string &word)
   {
@@ -210,7 +233,7 @@ namespace diptych::coupling
 
   Scene scene_of_entries(const std::string &file, const std::vector<Entry> &entries, const bool compares)
   {
-    return checked_scene(file, entries, [&](const Scene &scene) { check_scene(scene, file, entries, compares); });
+    return checked_scene(file, entries, compares, [&](const Scene &scene) { check_scene(scene, file, entries, compares); });
   }
 
   Scene read_computed_scene(const std::string &file, const std::vector<std::string> &overrides, const bool compares)
@@ -218,7 +241,7 @@ namespace diptych::coupling
     const std::vector<Entry> entries = entries_with(file, entries_of_overrides(overrides));
     if (!sets_every_key(entries))
       throw SceneError(file + " does not set every key. A run writes the scene that it used in this place; do not edit it.");
-    return checked_scene(file, entries, [&](const Scene &scene) { check_comparison(scene, file, entries, compares); });
+    return checked_scene(file, entries, compares, [&](const Scene &scene) { check_comparison(scene, file, entries, compares); });
   }
 
   std::vector<Entry> read_fragment(const std::string &file)
@@ -277,7 +300,7 @@ namespace diptych::coupling
   std::string explain(const std::string &section)
   {
     std::vector<std::string>    known = section_names();
-    std::vector<KeyDescription> keys  = describe(section);
+    std::vector<KeyDescription> keys  = described_keys(section);
     if (!section.empty() && std::find(known.begin(), known.end(), section) == known.end())
       {
         keys = keys_like(section);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/scene/keys.h"
 #include "coupling/scene/scene.h"
 #include "coupling/scene/scene_error.h"
 #include "coupling/scene/scene_text.h"
@@ -44,6 +45,9 @@ namespace diptych::coupling
   std::optional<Scene> resolved_scene(const std::string &file);
 
   std::vector<std::string> section_names();
+
+  // The keys of a section (of all, if empty) with their defaults, `auto` for those that follow from others.
+  std::vector<KeyDescription> described_keys(const std::string &section = "");
 
   // Every key of a section (of all, if empty): default, unit, range, meaning. Throws SceneError on an unknown section.
   std::string explain(const std::string &section);

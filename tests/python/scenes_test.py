@@ -74,7 +74,7 @@ def wrong_values(allowed):
 def test_every_key_refuses_what_it_does_not_allow():
     free = []
     for key, (_, allowed, _) in diptych.keys().items():
-        if allowed in ("any text", "the name of a file", "outline, rectangle or a .msh or .geo file"):  # checked in use
+        if allowed in ("any text", "auto or any text", "the name of a file", "outline, rectangle or a .msh or .geo file"):  # checked in use
             free.append(key)
             continue
         section, name = key.split("/")
@@ -97,9 +97,10 @@ def test_the_error_of_a_wrong_file_has_file_line_and_key(tmp_path):
 
 
 def test_a_comparison_needs_windows_between_stages():
-    assert diptych.scene({"loading": {"axial_strain": 0.01}})
+    short = {"loading": {"axial_strain": 0.01}}
+    assert diptych.scene(short, compares=True)["comparison"]["window_edges"] == [0, 0.005, 0.01]
     with pytest.raises(diptych.SceneError) as thrown:
-        diptych.scene({"loading": {"axial_strain": 0.01}}, compares=True)
+        diptych.scene({**short, "comparison": {"window_edges": [0, 0.02]}}, compares=True)
     assert thrown.value.key == "comparison/window_edges"
 
 

@@ -113,7 +113,7 @@ namespace
 
   TEST(Warnings, ACoarseMeshThatIsNotCoarserIsNamedWithBothKeys)
   {
-    expect_one(warnings("subsection continuum\n  set element_size = 4\nend\n"),
+    expect_one(warnings("subsection comparison\n  set coarse_element_size = 4\nend\n", {"continuum/element_size=4"}),
                {"warned.prm, line 2", "comparison/coarse_element_size = 4", "continuum/element_size = 4"});
     expect_one(warnings("", {"continuum/element_size=3", "comparison/coarse_element_size=2"}),
                {"--set continuum/element_size=3", "--set comparison/coarse_element_size=2"});

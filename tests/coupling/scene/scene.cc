@@ -212,8 +212,8 @@ namespace
     expect_words(error_of("subsection loading\n  set axial_strain = 0.012\nend\n"),
                  {"loading/axial_strain", "loading/stage_strain"});
     expect_words(error_of("subsection comparison\n  set window_edges = 0, 0.013\nend\n"), {"window_edges", "0.013"});
-    expect_words(error_of("subsection continuum\n  set friction_angle_peak = 10\nend\n"),
-                 {"friction_angle_peak", "line 2", "continuum/friction_angle_peak = '10'"});
+    expect_words(error_of("subsection continuum\n  set friction_angle_residual = 50\nend\n"),
+                 {"friction_angle_peak", "line 2", "continuum/friction_angle_residual = '50'"});
     expect_words(error_of("", {"continuum/element=q1_bbar"}), {"continuum", "element = q1_bbar", "--set"});
     expect_words(error_of("", {"continuum/mesh=rectangle", "continuum/rectangle_width=3"}), {"rectangle_height = 0"});
     expect_words(error_of("", {"loading/mode=time", "comparison/window_edges=0, 5.5"}),

@@ -88,7 +88,7 @@ def typeset(text):
 
 def origin(text):
     """Origin of the continuum parameters, from the key comparison/parameters_from of the scene."""
-    return text or "origin not stated in the scene (key comparison/parameters_from)"
+    return text or "not fitted to these grains, or the scene does not say so (key comparison/parameters_from)"
 
 
 def ending(unit):

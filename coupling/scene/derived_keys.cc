@@ -1,0 +1,200 @@
+// diptych: keys whose value `auto` follows from other keys of the scene
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "coupling/scene/derived_keys.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <vector>
+
+namespace diptych::coupling
+{
+  namespace
+  {
+    using Given = std::set<std::string>;
+
+    // The law of dense samples with one friction between the grains.
+    struct CalibratedLaw
+    {
+      double friction;            // discrete/friction [-]
+      double peak;                // friction angle if fully mobilised [degrees]
+      double start;               // friction angle at the start / peak
+      double residual;            // residual friction angle / peak
+      double dilatancy;           // dilatancy angle / friction angle at the start
+      double mobilisation_strain; // [-]
+      double internal_length;     // [mean diameters]
+      double youngs_modulus;      // [loading/pressure]
+    };
+
+    constexpr std::array<CalibratedLaw, 5> calibrated = {{{0.2, 23.6, 0.71, 0.57, 0.59, 0.0075, 1.5, 6000},
+                                                          {0.3, 25.3, 0.73, 0.65, 0.69, 0.0070, 1.5, 6000},
+                                                          {0.4, 28.1, 0.75, 0.62, 0.69, 0.0070, 1.5, 10000},
+                                                          {0.5, 29.4, 0.79, 0.54, 0.71, 0.0070, 1.5, 12000},
+                                                          {0.8, 33.0, 0.74, 0.47, 0.77, 0.0070, 1.5, 20000}}};
+
+    // Without the round-off of a product: 0.3 for 3 x 0.1.
+    double tidy(double value)
+    {
+      char       text[32];
+      const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 10).ptr;
+      std::from_chars(text, end, value);
+      return value;
+    }
+
+    // Linear between two neighbours, constant beyond the ends.
+    CalibratedLaw law_at(const double friction)
+    {
+      const auto upper = std::upper_bound(calibrated.begin(), calibrated.end(), friction,
+                                          [](const double f, const CalibratedLaw &law) { return f < law.friction; });
+      if (upper == calibrated.begin())
+        return calibrated.front();
+      if (upper == calibrated.end())
+        return calibrated.back();
+      const CalibratedLaw &a = *(upper - 1), &b = *upper;
+      const double         w       = (friction - a.friction) / (b.friction - a.friction);
+      const auto           between = [&](double CalibratedLaw::*value) { return tidy((1 - w) * a.*value + w * b.*value); };
+      using Law                    = CalibratedLaw;
+      return {friction,
+              between(&Law::peak),
+              between(&Law::start),
+              between(&Law::residual),
+              between(&Law::dilatancy),
+              between(&Law::mobilisation_strain),
+              between(&Law::internal_length),
+              between(&Law::youngs_modulus)};
+    }
+
+    // benchmarks/studies/grains_inertia: 1e-3 is slow enough up to 2000 grains and 4e-4 for 4000. Beyond, the ratio of the
+    // platen's speed to that of waves stays the same.
+    double slow_enough(const double n_grains)
+    {
+      if (n_grains <= 4000)
+        return tidy(1e-3 * std::pow(std::max(1., n_grains / 2000), std::log(0.4) / std::log(2.)));
+      return tidy(4e-4 * std::sqrt(4000 / n_grains));
+    }
+
+    // 0, a quarter, half and the whole of the loading, at stages.
+    std::vector<double> window_edges(const LoadingOptions &o)
+    {
+      const bool                 time     = o.mode == discrete::LoadingMode::time;
+      const double               interval = time ? o.stage_time : o.stage_strain;
+      const std::vector<double> &list     = o.stages;
+      const double count = list.empty() ? std::round((time ? o.duration : o.axial_strain) / interval) : double(list.size());
+      std::vector<double> edges = {0};
+      for (const double share : {0.25, 0.5, 1.})
+        if (const double k = std::round(share * count); k > 0)
+          if (const double end = list.empty() ? tidy(k * interval) : list[std::size_t(k) - 1]; end > edges.back())
+            edges.push_back(end);
+      return edges;
+    }
+
+    // At most 2 internal lengths give peak and strength within 2 %, at most 1 the width of the band within 4 %.
+    double element_size(const continuum::Options &o)
+    {
+      return continuum::traits(o.law).is_cosserat ? std::min(tidy(1.5 * o.material.internal_length), 3.) : 2;
+    }
+
+    // Empty if nobody fitted the law to such grains.
+    std::string origin(const Scene &scene, const Given &given)
+    {
+      const auto is_own = [](const std::string &key) {
+        return key == "continuum/law" || key == "continuum/poisson_ratio" || key == "continuum/cohesion" ||
+               key == "continuum/couple_shear_ratio" || (is_derived(key) && key.rfind("continuum/", 0) == 0);
+      };
+      const bool own = std::any_of(given.begin(), given.end(),
+                                   [&](const std::string &key) { return is_own(key) && key != "continuum/element_size"; });
+      return own || !default_law_suits(scene)
+               ? ""
+               : "defaults, calibrated on dense samples of 1500 discs with friction 0.2 to 0.8 (benchmarks/calibration/defaults)";
+    }
+
+    struct DerivedKey
+    {
+      const char *name;
+      const char *rule; // words for `explain`
+      void (*derive)(Scene &scene, const Given &given);
+    };
+
+    continuum::LawOptions &law(Scene &scene)
+    {
+      return scene.continuum.material;
+    }
+
+    CalibratedLaw fitting(const Scene &scene)
+    {
+      return law_at(scene.discrete.law.friction);
+    }
+
+    constexpr char by_friction[] = "from calibrations on dense samples, by discrete/friction";
+
+    // Each needs only keys that stand before it.
+    const DerivedKey derived_keys[] = {
+      {"loading/inertial_number", "1e-3 up to 2000 grains, 4e-4 for 4000, then lower with the square root of their number",
+       [](Scene &s, const Given &) { s.loading.inertial_number = slow_enough(discrete::expected_grains(s.sample)); }},
+      {"continuum/hardening", "mobilisation",
+       [](Scene &s, const Given &) { law(s).hardening = continuum::HardeningKind::mobilisation; }},
+      {"continuum/youngs_modulus", by_friction,
+       [](Scene &s, const Given &) { law(s).elastic.youngs_modulus = fitting(s).youngs_modulus; }},
+      {"continuum/friction_angle_peak", by_friction,
+       [](Scene &s, const Given &) { law(s).friction_angle_peak = fitting(s).peak; }},
+      {"continuum/friction_angle_start", "a share of the peak angle, by discrete/friction",
+       [](Scene &s, const Given &) { law(s).friction_angle_start = tidy(fitting(s).start * law(s).friction_angle_peak); }},
+      {"continuum/friction_angle_residual", "a share of the peak angle, by discrete/friction",
+       [](Scene &s, const Given &) { law(s).friction_angle_residual = tidy(fitting(s).residual * law(s).friction_angle_peak); }},
+      {"continuum/dilatancy_angle_peak", "a share of friction_angle_start, by discrete/friction",
+       [](Scene &s, const Given &) {
+         law(s).dilatancy_angle_peak = tidy(fitting(s).dilatancy *
+                                            std::min(law(s).friction_angle_start, law(s).friction_angle_peak));
+       }},
+      {"continuum/mobilisation_strain", by_friction,
+       [](Scene &s, const Given &) { law(s).mobilisation_strain = fitting(s).mobilisation_strain; }},
+      {"continuum/softening_strain", "0.3", [](Scene &s, const Given &) { law(s).softening_strain = 0.3; }},
+      {"continuum/internal_length", by_friction,
+       [](Scene &s, const Given &) { law(s).internal_length = fitting(s).internal_length; }},
+      {"continuum/element_size", "1.5 internal lengths, at most 3; 2 without an internal length",
+       [](Scene &s, const Given &) { s.continuum.element_size = element_size(s.continuum); }},
+      {"comparison/window_edges", "0, a quarter, half and the end of the loading, at stages",
+       [](Scene &s, const Given &) { s.comparison.window_edges = window_edges(s.loading); }},
+      {"comparison/coarse_element_size", "twice continuum/element_size",
+       [](Scene &s, const Given &) { s.comparison.coarse_element_size = std::clamp(2 * s.continuum.element_size, 0.1, 100.); }},
+      {"comparison/parameters_from", "the origin of the default law if it was calibrated on such grains, otherwise nothing",
+       [](Scene &s, const Given &given) { s.comparison.parameters_from = origin(s, given); }}};
+
+    const DerivedKey *find(const std::string &key)
+    {
+      const auto found = std::find_if(std::begin(derived_keys), std::end(derived_keys),
+                                      [&](const DerivedKey &one) { return key == one.name; });
+      return found == std::end(derived_keys) ? nullptr : found;
+    }
+  } // namespace
+
+  bool is_derived(const std::string &key)
+  {
+    return find(key) != nullptr;
+  }
+
+  std::string rule_of(const std::string &key)
+  {
+    return find(key)->rule;
+  }
+
+  void derive_keys(Scene &scene, const Given &given)
+  {
+    for (const DerivedKey &key : derived_keys)
+      if (given.count(key.name) == 0)
+        key.derive(scene, given);
+  }
+
+  bool default_law_suits(const Scene &scene)
+  {
+    const discrete::SampleOptions &o = scene.sample;
+    const double                   f = scene.discrete.law.friction;
+    return scene.discrete.method.method == discrete::Method::nscd && o.file.empty() && o.preparation_friction == 0 &&
+           o.target_solid_fraction == 0 && o.radius_distribution == discrete::RadiusKind::uniform_by_number &&
+           o.radius_min >= 0.25 && o.radius_min <= 0.35 && f >= calibrated.front().friction && f <= calibrated.back().friction &&
+           scene.discrete.law.platen_friction >= f && scene.loading.mode == discrete::LoadingMode::descent &&
+           scene.discrete.lateral.lateral == discrete::Lateral::end_grains;
+  }
+} // namespace diptych::coupling

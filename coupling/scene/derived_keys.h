@@ -1,0 +1,26 @@
+// diptych: keys whose value `auto` follows from other keys of the scene
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "coupling/scene/scene.h"
+
+namespace diptych::coupling
+{
+  // True if a key, as section/name, takes the value `auto`, which is also its default, and is then derived.
+  bool is_derived(const std::string &key);
+
+  std::string rule_of(const std::string &derived_key); // how its value follows, for `explain`
+
+  // Gives every derived key a value that fits the other keys, except those in `given`.
+  //
+  // Law of the continuum: from calibrations on dense samples with friction 0.2 to 0.8 (benchmarks/calibration/defaults), linear
+  // in discrete/friction between them. Angles that are given change those that depend on them: start and dilatancy stay shares of
+  // the peak.
+  void derive_keys(Scene &scene, const std::set<std::string> &given);
+
+  // True if the law that derive_keys() takes was calibrated on such grains: their friction, grading and preparation.
+  bool default_law_suits(const Scene &scene);
+} // namespace diptych::coupling

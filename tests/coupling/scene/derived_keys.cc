@@ -1,0 +1,104 @@
+// diptych: keys that follow from others: speed, windows, meshes and the law of the continuum
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <cmath>
+
+#include "coupling/scene/scene_file.h"
+#include "discrete/files/text_file.h"
+#include "tests/files.h"
+
+namespace
+{
+  using namespace diptych::coupling;
+  using namespace diptych::tests;
+  using Words = std::vector<std::string>;
+
+  Scene scene_with(const Words &overrides)
+  {
+    const Folder folder;
+    diptych::discrete::write_text(folder / "short.prm", "# all defaults\n");
+    return read_scene(folder / "short.prm", overrides);
+  }
+
+  TEST(DerivedKeys, TheSpeedFollowsFromTheNumberOfGrains)
+  {
+    const auto speed = [](const char *grains) {
+      return scene_with({std::string("sample/grains=") + grains}).loading.inertial_number;
+    };
+    EXPECT_EQ(speed("1500"), 1e-3);
+    EXPECT_EQ(speed("4000"), 4e-4);
+    EXPECT_NEAR(speed("3000"), 5.85e-4, 1e-6);
+    EXPECT_NEAR(speed("16000"), 2e-4, 1e-9);
+    EXPECT_EQ(scene_with({"loading/inertial_number=1e-5"}).loading.inertial_number, 1e-5);
+  }
+
+  TEST(DerivedKeys, WindowsEndAtStages)
+  {
+    const auto edges = [](const Words &overrides) { return scene_with(overrides).comparison.window_edges; };
+    EXPECT_EQ(edges({}), (std::vector<double>{0, 0.01, 0.02, 0.04}));
+    EXPECT_EQ(edges({"loading/axial_strain=0.03"}), (std::vector<double>{0, 0.01, 0.015, 0.03}));
+    EXPECT_EQ(edges({"loading/axial_strain=0.3", "loading/stage_strain=0.1"}), (std::vector<double>{0, 0.1, 0.2, 0.3}));
+    EXPECT_EQ(edges({"loading/axial_strain=0.005"}), (std::vector<double>{0, 0.005}));
+    EXPECT_EQ(edges({"loading/stages=0.001, 0.02, 0.04"}), (std::vector<double>{0, 0.001, 0.02, 0.04}));
+    EXPECT_EQ(edges({"loading/mode=time", "loading/duration=4"}), (std::vector<double>{0, 1, 2, 4}));
+  }
+
+  TEST(DerivedKeys, ElementsFollowFromTheInternalLength)
+  {
+    const Scene fine = scene_with({"continuum/internal_length=1"}), coarse = scene_with({"continuum/internal_length=10"}),
+                local = scene_with({"continuum/law=mohr_coulomb"});
+    EXPECT_EQ(fine.continuum.element_size, 1.5);
+    EXPECT_EQ(fine.comparison.coarse_element_size, 3);
+    EXPECT_EQ(coarse.continuum.element_size, 3);
+    EXPECT_EQ(local.continuum.element_size, 2);
+    EXPECT_EQ(scene_with({"continuum/element_size=8"}).comparison.coarse_element_size, 16);
+  }
+
+  TEST(DerivedKeys, TheLawIsStrongerWithMoreFriction)
+  {
+    const auto law = [](const Words &overrides) { return scene_with(overrides).continuum.material; };
+    const auto low = law({"discrete/friction=0.3"}), between = law({"discrete/friction=0.45"}),
+               high = law({"discrete/friction=0.5"});
+    const auto part = law({"discrete/friction=0.3", "continuum/friction_angle_peak=20"});
+    EXPECT_LT(low.friction_angle_peak, between.friction_angle_peak);
+    EXPECT_LT(between.friction_angle_peak, high.friction_angle_peak);
+    EXPECT_LT(low.dilatancy_angle_peak, high.dilatancy_angle_peak);
+    EXPECT_NEAR(part.friction_angle_start / 20, low.friction_angle_start / low.friction_angle_peak, 1e-9);
+    EXPECT_NEAR(part.dilatancy_angle_peak / part.friction_angle_start, low.dilatancy_angle_peak / low.friction_angle_start, 1e-9);
+    EXPECT_EQ(part.friction_angle_peak, 20);
+  }
+
+  TEST(DerivedKeys, OnlyALawFittedToSuchGrainsNamesItsOrigin)
+  {
+    const auto origin = [](const Words &overrides) { return scene_with(overrides).comparison.parameters_from; };
+    EXPECT_NE(origin({}).find("calibrated"), std::string::npos);
+    EXPECT_NE(origin({"discrete/friction=0.3", "loading/horizontal_over_vertical=0"}), "");
+    for (const char *change :
+         {"discrete/friction=0.1", "sample/preparation_friction=0.3", "sample/radius_distribution=uniform_by_mass",
+          "continuum/friction_angle_peak=25", "continuum/law=mohr_coulomb", "discrete/method=penalty"})
+      EXPECT_EQ(origin({change}), "") << change;
+    EXPECT_EQ(origin({"discrete/friction=0.1", "comparison/parameters_from=my fit"}), "my fit");
+  }
+
+  TEST(DerivedKeys, AutoIsTheSameAsNothingAndTheEchoHasNumbers)
+  {
+    const Folder folder;
+    const Scene  scene = scene_with({"continuum/hardening=table", "continuum/hardening=auto", "comparison/window_edges=auto"});
+    EXPECT_EQ(scene.continuum.material.hardening, diptych::continuum::HardeningKind::mobilisation);
+    diptych::discrete::write_text(folder / "echo.prm", resolved_text(scene));
+    const Scene echo = read_scene(folder / "echo.prm", {"discrete/friction=0.2"});
+    EXPECT_EQ(echo.continuum.material.friction_angle_peak, scene.continuum.material.friction_angle_peak);
+    EXPECT_TRUE(echo.warnings.empty());
+    EXPECT_NE(explain("continuum/youngs_modulus").find("auto"), std::string::npos);
+  }
+
+  TEST(DerivedKeys, PlatensRoughInOnePanelOnlyAreAWarning)
+  {
+    const auto warnings = [](const Words &overrides) { return scene_with(overrides).warnings; };
+    EXPECT_TRUE(warnings({}).empty());
+    EXPECT_TRUE(warnings({"discrete/platen_friction=0", "continuum/platens=smooth"}).empty());
+    ASSERT_EQ(warnings({"discrete/platen_friction=0"}).size(), 1);
+    EXPECT_NE(warnings({"discrete/platen_friction=0"})[0].find("slide along"), std::string::npos);
+    EXPECT_EQ(warnings({"continuum/platens=smooth"}).size(), 1);
+    EXPECT_EQ(warnings({"discrete/friction=0.95"}).size(), 1);
+  }
+} // namespace
