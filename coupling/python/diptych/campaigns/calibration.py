@@ -288,7 +288,8 @@ def _check_data(calibration: Calibration, paths: Sequence[Path], runs: Calibrati
         if not target.is_fitted:
             continue
         if target.curve:
-            record["words"].append(f"target '{target.name}' is a measured curve: nothing was run again")
+            if not target.seeds:
+                record["words"].append(f"target '{target.name}' is a measured curve: nothing was run again")
         elif path.scene.dict()["discrete"]["method"] == "imported":
             stages = path.scene.stages()  # between frames nothing is known of the grains
             path.left_out = ["" if one.kind == "ln_width" or any(one.low <= at <= one.high for at in stages)
