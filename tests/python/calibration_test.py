@@ -314,8 +314,8 @@ def test_a_scene_with_seeds_has_standard_parameters():
 
 
 def test_friction_of_noisy_grains_is_found_within_its_interval():
-    """Curves of a laboratory against eight noisy samples, the same at every point. A run depends on friction through its mean and
-    through a part of its noise, as chaotic grains do."""
+    """Curves of a laboratory against eight noisy samples, the same at every point. A run depends on friction through its mean
+    and through a part of its noise, as chaotic grains do."""
     c = calibration([Parameter("discrete/friction", "logarithm", 0.3, 0.1, 0.9)])
     c.noise, c.targets[0].curve = Noise(stress_discrepancy=0, early_stress_discrepancy=0, volume_discrepancy=0), "lab.csv"
     observables = c.observables_of(SCENE)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # diptych: the mean curve of synthetic tests, in the place of a laboratory
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: laboratory.py FRICTION SEEDS CURVE.csv, for example 0.4 101-148 lab.csv. Runs scene.prm with this friction of the grains
+"""Usage: laboratory.py FRICTION SEEDS CURVE.csv, for example 0.4 101-196 lab.csv. Runs scene.prm with this friction of the grains
 and writes the mean curve of all seeds with the deviation of this mean."""
 import os
 import sys
@@ -12,7 +12,7 @@ import pandas as pd
 from diptych import scenes
 from diptych.campaigns.input_file import read_seeds
 
-STRAIN = np.linspace(0.0005, 0.02, 40)
+STRAIN = np.linspace(0.00025, 0.01, 40)
 SCENE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "scene.prm")
 
 

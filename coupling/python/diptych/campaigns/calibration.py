@@ -25,8 +25,8 @@ from .calibration_findings import parameter_records, parameter_words, path_recor
 from .calibration_grains import GrainRuns
 from .calibration_noise import Data, FittedData, noise_of
 from .calibration_runs import CalibrationRuns, Observation, Path, observe_curve, read_target
-from .calibration_search import (DIFFERENCE, GRAINS_DIFFERENCE, PRIOR, Fit, Knowledge, difference_jacobian, expected_chi2, identify,
-                                 least_squares, spread_point)
+from .calibration_search import (DIFFERENCE, GRAINS_DIFFERENCE, PRIOR, Fit, Knowledge, difference_jacobian, expected_chi2,
+                                 identify, least_squares, spread_point)
 from .calibration_standard import standard_calibration
 from .engine import DONE, NOT_CONVERGED, Options, complain, say, tell
 from .folders import Folder, draw
@@ -168,8 +168,8 @@ class Calibrator:
                              self.noise.degrees_of_freedom)
         if record["misfit"] > 1:
             record["words"].append(f"chi^2 is {record['chi2']:.3g}, {record['misfit'] ** 2:.3g} times the expected value: this "
-                                   f"{'law' if record['model'] == 'continuum' else 'kind of grains'} cannot reproduce the data within noise and model tolerance; deviations of the "
-                                   f"parameters are multiplied by {record['misfit']:.3g}")
+                                   f"{'law' if record['model'] == 'continuum' else 'kind of grains'} cannot reproduce the "
+                                   f"data within noise and model tolerance; deviations of the parameters are multiplied by {record['misfit']:.3g}")
         record["parameters"] = parameter_records(self.coordinates, knowledge, fine.point)
         record["correlation"] = knowledge.correlation
         record["words"] += parameter_words(record["parameters"])
@@ -317,11 +317,11 @@ def _standard(line: argparse.Namespace) -> dict[str, Any] | None:
     """Contents of the standard calibration of a scene; None for a calibration file."""
     is_file = line.target.endswith(".json")
     if is_file and (line.seeds or line.set or line.set_file):
-        raise SceneError(f"--seeds, --set and --set-file belong to a scene; {line.target} is a calibration file, whose targets have "
-                         "seeds and set")
+        raise SceneError(f"--seeds, --set and --set-file belong to a scene; {line.target} is a calibration file, whose targets "
+                         "have seeds and set")
     if not is_file and not line.seeds:
-        raise SceneError(f"{line.target}: a scene needs the samples of the fit, for example --seeds 1-4; it then takes the standard "
-                         "parameters. Other parameters need a calibration file, .json")
+        raise SceneError(f"{line.target}: a scene needs the samples of the fit, for example --seeds 1-4; it then takes the "
+                         "standard parameters. Other parameters need a calibration file, .json")
     return None if is_file else standard_calibration(line.target, line.seeds, settings_of(line.set, line.set_file))
 
 

@@ -81,8 +81,8 @@ def measured(mean: float, deviation: float, now: float, kind: str) -> Difference
 def predictions(path: Path, runs: Sequence[Observation], deviations: Array, quantile: float) -> list[dict[str, Any]]:
     """Single numbers of a path with verdicts: two one-sided tests against the margins of the scene.
 
-    deviations: (observables), of `after`: from the parameters if the path was not fitted, and from runs of grains; they widen the
-    intervals. That of the angle is unknown, because the
+    deviations: (observables), of `after`: from the parameters if the path was not fitted, and from runs of grains; they widen
+    the intervals. That of the angle is unknown, because the
     fit has no derivative of it. Near a flat peak the largest running mean moves as the largest mean over a bin does. The given
     deviation of a measured curve replaces the scatter of samples; that of its peak is the one of its largest bin.
     """
@@ -183,8 +183,8 @@ def _fragment(record: dict[str, Any]) -> str:
     origin, section = _origin(record), "continuum" if record["model"] == "continuum" else "discrete"
     lines = [f"# {origin}, by diptych {_diptych.git_revision}"]
     if record["status"] == "finished":
-        lines += [f"# chi^2 of {record['n_observables']} observables: {record['chi2_before']:.4g} before, {record['chi2']:.4g} now; "
-                  "calibration.json holds intervals"]
+        lines += [f"# chi^2 of {record['n_observables']} observables: {record['chi2_before']:.4g} before, {record['chi2']:.4g} "
+                  "now; calibration.json holds intervals"]
     lines += [f"subsection {section}", *("  set " + one.removeprefix(section + "/") for one in record["settings"])]
     lines += [f"  # {own['target']}: set {own['key'].removeprefix(section + '/')} = {_diptych.text_of_number(own['value'])}"
               for own in record["own"]]

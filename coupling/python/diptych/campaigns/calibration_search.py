@@ -69,8 +69,8 @@ class Fit:
 
 
 class _Search:
-    """Steps with one Jacobian, fresh or old, and its updates. Steps below `shortest` do not update it: they show the scatter of the
-    runs and not their slope."""
+    """Steps with one Jacobian, fresh or old, and its updates. Steps below `shortest` do not update it: they show the scatter of
+    the runs and not their slope."""
 
     def __init__(self, residuals: Residuals, fit: Fit, shortest: float) -> None:
         self.residuals, self.fit, self.trial, self.failed, self.fresh = residuals, fit, (fit.point, fit.residual), False, False
