@@ -169,7 +169,8 @@ class Calibrator:
         if record["misfit"] > 1:
             record["words"].append(f"chi^2 is {record['chi2']:.3g}, {record['misfit'] ** 2:.3g} times the expected value: this "
                                    f"{'law' if record['model'] == 'continuum' else 'kind of grains'} cannot reproduce the "
-                                   f"data within noise and model tolerance; deviations of the parameters are multiplied by {record['misfit']:.3g}")
+                                   "data within noise and model tolerance; deviations of the parameters are multiplied by "
+                                   f"{record['misfit']:.3g}")
         record["parameters"] = parameter_records(self.coordinates, knowledge, fine.point)
         record["correlation"] = knowledge.correlation
         record["words"] += parameter_words(record["parameters"])

@@ -69,8 +69,8 @@ class GrainRuns(CalibrationRuns):
 
     def evaluate(self, paths: Sequence[Path], points: Sequence[Sequence[Sequence[Setting]]], fine: bool,
                  load_step: float) -> list[list[Observation]]:
-        """Means over the seeds, [point][path]; grains have no mesh. A smaller load step stands for half the step of the grains: the
-        change of the first samples is added to the mean of all."""
+        """Means over the seeds, [point][path]; grains have no mesh. A smaller load step stands for half the step of the grains:
+        the change of the first samples is added to the mean of all."""
         found = self._samples(paths, points)
         means = [[mean_of(samples, path.scene.averaging_width()) for path, samples in zip(paths, point)] for point in found]
         if load_step < self.calibration.load_step:
