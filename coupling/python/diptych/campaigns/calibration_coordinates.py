@@ -20,8 +20,8 @@ USUAL = {"friction_angle_residual": "drop_from", "dilatancy_angle_peak": "share_
 
 @dataclass(frozen=True)
 class Parameter:
-    """A key of the section continuum, or discrete/KEY. start, low, high: numbers of the coordinate, the value itself (also for a
-    logarithm), a share or a drop. targets: names of the targets that it belongs to; empty: one value for all."""
+    """A key of the section continuum, or discrete/KEY. start, low, high: numbers of the coordinate, the value itself (also of
+    a logarithm), a share or a drop. targets: names of the targets that it belongs to; empty: one value for all."""
 
     key: str
     coordinate: str

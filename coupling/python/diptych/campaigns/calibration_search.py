@@ -18,6 +18,7 @@ from ..arrays import Array
 Residuals = Callable[[Sequence[Array]], "list[Array]"]  # of several points at once; NaN: the run failed
 DIFFERENCE = 0.005  # step of the forward differences; backward at the upper bound
 GRAINS_DIFFERENCE = 0.12  # the same where runs scatter; 0.1 of a friction of 0.4 between 0.1 and 0.9
+SMALLEST_STEP = 0.02  # of the search, in differences; the runs do not resolve a smaller one
 LEAST_GAIN, LEAST_DECREASE = 0.05, 1e-3  # of chi^2, absolute and relative: below either, a search has converged
 RADIUS_OF_FRESH, RADIUS_OF_GIVEN = 0.25, 0.1  # of the first trust region, with a Jacobian computed here or given
 EXACT = 1e-6  # mean square of the residuals below which the fit is exact
@@ -83,6 +84,8 @@ class _Search:
             self.failed = True
             if not self.fresh:
                 raise _Ended
+        if np.linalg.norm(x - self.fit.point) < SMALLEST_STEP * self.shortest:
+            raise _Ended
         self.trial = (x.copy(), self.residuals([x])[0])
         self.fit.evaluations += 1
         return self.trial[1]
