@@ -36,7 +36,7 @@ namespace diptych::continuum
       }
     catch (const std::string &error)
       {
-        throw Error(what + ": gmsh says " + error);
+        throw Error(what + ": gmsh reports: " + error);
       }
     catch (const int code)
       {

@@ -1,13 +1,13 @@
-// diptych: computes the arrays of a comparison: comparison.h5 for the report, fields.vtu for ParaView
+// diptych: computes the arrays of a comparison: comparison.h5 for the report, fields.pvd for ParaView
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/comparison/comparison_arrays.h"
 
 #include "coupling/comparison/comparison_output.h"
-#include "coupling/store/vtu_file.h"
 #include "discrete/files/field_arrays.h"
 #include "discrete/files/hdf5_file.h"
 #include "coupling/store/file_names.h"
 #include "discrete/files/staged_file.h"
+#include "discrete/files/vtu_file.h"
 
 namespace diptych::coupling
 {
@@ -66,9 +66,9 @@ namespace diptych::coupling
       list_increment_attributes(window, IntoGroup{file, group});
     }
 
-    VtuGrid vtu_of(const CellFields &fields, const MotionUnits &unit)
+    discrete::VtuGrid vtu_of(const CellFields &fields, const MotionUnits &unit)
     {
-      VtuGrid grid{fields.mesh.node, {}, VtkCell::quadrilateral, {}};
+      discrete::VtuGrid grid{fields.mesh.node, {}, discrete::VtkCell::quadrilateral, {}};
       for (const auto &cell : fields.mesh.cell)
         grid.cells.insert(grid.cells.end(), cell.begin(), cell.end());
       list_cell_arrays(fields, unit, [&](const ArrayEntry &entry, const auto &values) {
@@ -164,10 +164,10 @@ namespace diptych::coupling
     file.finish();
   }
 
-  void write_fields_vtu(const std::string &directory, const Comparison &c)
+  void write_fields(const std::string &directory, const Comparison &c)
   {
-    const StageRecord &last = c.stages.back();
-    write_vtu(fields_vtu(directory), vtu_of(last.fields, motion_units(last.increment)));
-    write_vtu(grid_vtu(directory), vtu_of(last.grid, motion_units(last.increment)));
+    discrete::VtuSeries series(fields_series(directory), {}, 1); // stage 0 is the sample before loading
+    for (const StageRecord &stage : c.stages)
+      series.add(stage.progress, vtu_of(stage.fields, motion_units(stage.increment)));
   }
 } // namespace diptych::coupling

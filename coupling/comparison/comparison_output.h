@@ -18,9 +18,9 @@ namespace diptych::coupling
              {"progress_to", "strain or time", "progress at the end of the window or stage"},
              {"panel", "-", "discrete, continuum, difference or mapping, or the part of comparison.json that holds the number"},
              {"quantity", "-", "keys on the path to the number; entries of lists are numbered from 1, or have their name"},
-             {"value", "as unit says", "value of the number"},
-             {"low", "as unit says", "lower end of the 95 % interval, if there is one"},
-             {"high", "as unit says", "upper end of the 95 % interval, if there is one"},
+             {"value", "as in unit", "value of the number"},
+             {"low", "as in unit", "lower end of the 95 % interval, if there is one"},
+             {"high", "as in unit", "upper end of the 95 % interval, if there is one"},
              {"unit", "-", "unit of value, low and high"}}};
   }
 
@@ -31,8 +31,8 @@ namespace diptych::coupling
   // comparison.h5: the arrays behind the report's figures, as listed in comparison_arrays.h.
   void write_comparison_h5(const std::string &directory, const ComparisonDocument &document, const Results &results);
 
-  // fields.vtu: the last stage of both panels on the continuum's mesh in its current position. It has every field of CellFields
-  // under its name in comparison.h5, and the difference of the stresses. Tensors are 3x3 tensors (positive in compression), and
-  // vectors have three components. `grid.vtu`: the same on the regular grid.
-  void write_fields_vtu(const std::string &directory, const Comparison &c);
+  // fields.pvd: all stages of both panels on the continuum's mesh in its current position. It has every field of CellFields under
+  // its name in comparison.h5, and the difference of the stresses. Tensors are 3x3 tensors (positive in compression), and vectors
+  // have three components.
+  void write_fields(const std::string &directory, const Comparison &c);
 } // namespace diptych::coupling

@@ -18,7 +18,7 @@ namespace diptych::coupling
       if (std::isnan(difference.value))
         return "not in both panels";
       if (std::isnan(difference.low) || std::isnan(difference.high))
-        return "no interval from one sample";
+        return "one sample";
       return difference.low > 0 || difference.high < 0 ? "different" : "cannot tell";
     }
 
@@ -111,6 +111,9 @@ namespace diptych::coupling
           text += row[k] + std::string(width[k] - row[k].size() + 2, ' ');
         text += row.back() + (&row == &rows.back() ? "" : "\n");
       }
+    const auto of_one = [](const KeyNumber &k) { return k.verdict == "one sample"; };
+    if (std::any_of(numbers.begin(), numbers.end(), of_one))
+      text += "\none sample: run the scene with --seeds 1-8 for intervals and verdicts";
     return text;
   }
 } // namespace diptych::coupling

@@ -17,7 +17,7 @@ namespace diptych::coupling
   {
     std::string quantity, unit;
     Interval    grains, continuum, difference;
-    std::string verdict; // "different", "cannot tell", "no interval from one sample" or "not in both panels"
+    std::string verdict; // "different", "cannot tell", "one sample" (no interval) or "not in both panels"
   };
 
   // Peak, strength, volumetric strain, and inclination and width of the band in the last window. Lengths in mean diameters.
@@ -27,26 +27,29 @@ namespace diptych::coupling
   {
     v({"quantity", "-", "name of the quantity", Kind::setting}, k.quantity);
     v({"unit", "-", "unit of the numbers", Kind::setting}, k.unit);
-    v({"grains", "as unit says", "value of the grains"}, k.grains);
-    v({"continuum", "as unit says", "value of the continuum"}, k.continuum);
-    v({"difference", "as unit says", "continuum minus grains"}, k.difference);
-    v({"verdict", "-", "different: the interval of the difference excludes 0; cannot tell: it contains 0"}, k.verdict);
+    v({"grains", "as in unit", "value of the grains"}, k.grains);
+    v({"continuum", "as in unit", "value of the continuum"}, k.continuum);
+    v({"difference", "as in unit", "continuum minus grains"}, k.difference);
+    v({"verdict", "-",
+       "different: the interval of the difference excludes 0; cannot tell: it contains 0; one sample: no interval"},
+      k.verdict);
   }
 
   inline std::array<NumberEntry, 12> summary_columns()
   {
     return {{{"quantity", "-", "name of the quantity"},
              {"unit", "-", "unit of the numbers"},
-             {"grains", "as unit says", "value of the grains"},
-             {"grains_low", "as unit says", "lower end of its 95 % interval; empty if there is none"},
-             {"grains_high", "as unit says", "upper end"},
-             {"continuum", "as unit says", "value of the continuum"},
-             {"continuum_low", "as unit says", "lower end"},
-             {"continuum_high", "as unit says", "upper end"},
-             {"difference", "as unit says", "continuum minus grains"},
-             {"difference_low", "as unit says", "lower end"},
-             {"difference_high", "as unit says", "upper end"},
-             {"verdict", "-", "different: the interval of the difference excludes 0; cannot tell: it contains 0"}}};
+             {"grains", "as in unit", "value of the grains"},
+             {"grains_low", "as in unit", "lower end of its 95 % interval; empty if there is none"},
+             {"grains_high", "as in unit", "upper end"},
+             {"continuum", "as in unit", "value of the continuum"},
+             {"continuum_low", "as in unit", "lower end"},
+             {"continuum_high", "as in unit", "upper end"},
+             {"difference", "as in unit", "continuum minus grains"},
+             {"difference_low", "as in unit", "lower end"},
+             {"difference_high", "as in unit", "upper end"},
+             {"verdict", "-",
+              "different: the interval of the difference excludes 0; cannot tell: it contains 0; one sample: no interval"}}};
   }
 
   std::string csv_of(const std::vector<KeyNumber> &numbers);  // with the columns summary_columns()

@@ -8,6 +8,7 @@
 #include <limits>
 #include <sstream>
 
+#include "coupling/import/exported_dump.h"
 #include "coupling/scene/scene_error.h"
 #include "discrete/files/csv_file.h"
 
@@ -142,13 +143,15 @@ namespace diptych::coupling
     }
   } // namespace
 
-  ExportedFiles exported_sample(const std::string        &format,
-                                const Scene              &scene,
-                                const discrete::Snapshot &snapshot,
-                                const int                 stage)
+  ExportedFiles exported_sample(const std::string                     &format,
+                                const Scene                           &scene,
+                                const std::vector<discrete::Snapshot> &snapshots,
+                                const int                              stage)
   {
+    if (format == "dump")
+      return {{"grains.dump", grain_dump(snapshots)}, {"contacts.dump", contact_dump(snapshots)}};
     if (format == "lammps")
-      return as_lammps(scene, snapshot);
-    return as_csv(snapshot, stage);
+      return as_lammps(scene, snapshots[std::size_t(stage)]);
+    return as_csv(snapshots[std::size_t(stage)], stage);
   }
 } // namespace diptych::coupling

@@ -12,8 +12,8 @@ namespace diptych::coupling
   // The contents of import.json: options, notes and the numbers of every check.
   std::string import_record(const ForeignOptions &options, const Arrival &arrival);
 
-  // Checks the frames. Writes discrete.h5, .xdmf and .csv, import.json and provenance.json to the folder `output`; from two
-  // frames on also scene.prm. Prints the checks. Throws SceneError if the frames are refused or the folder holds other files;
+  // Checks the frames. Writes the files of the discrete panel, import.json and provenance.json to the folder `output`; from
+  // two frames on also scene.prm. Prints the checks. Throws SceneError if the frames are refused or the folder holds other files;
   // nothing is written then.
   void import_frames(const ForeignSample  &sample,
                      const ForeignOptions &options,

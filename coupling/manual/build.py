@@ -24,10 +24,10 @@ import reference
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 UNUSED = ("404.html", "sitemap.xml", "sitemap.xml.gz", "assets/javascripts/lunr", "assets/javascripts/workers")
-PAGES = [("index", "Start"), ("install", "Install"), ("first_comparison", "First comparison"), ("own_scene", "Your own scene"),
-         ("own_data", "Your own data"), ("result_folders", "Result folders"), ("ensembles", "Ensembles"), ("studies", "Studies and plans"),
+PAGES = [("index", "Start"), ("install", "Install"), ("first_comparison", "First comparison"), ("gallery", "Gallery"),
+         ("own_scene", "Your own scene"), ("own_data", "Your own data"), ("result_folders", "Result folders"), ("ensembles", "Ensembles"), ("studies", "Studies and plans"),
          ("calibration", "Calibration"), ("python", "Python"), ("cost", "What it costs"), ("conventions", "Conventions"),
-         ("equations", "Equations"), ("limits", "Limits"), ("glossary", "Glossary")]
+         ("equations", "Equations"), ("limits", "Limits"), ("faq", "Questions"), ("glossary", "Glossary")]
 
 
 def text_of(path):

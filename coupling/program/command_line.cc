@@ -141,7 +141,7 @@ namespace diptych::coupling
           ->type_name("KEY=VALUES");
         study->add_option("--seeds", ignored, "with --vary: samples of each point, a list like 1-4 (default: the scene's one)")
           ->type_name("LIST");
-        study->add_option("--panels", ignored, "with --vary: the panels that run (default: both)")
+        study->add_option("--panels", ignored, "with --vary: the panels that run (default: both, which bands need)")
           ->check(one_of({"both", "discrete", "continuum"}));
         add_output(study, "folder of the study (default: results/<name>_study)");
         add_set(study);
@@ -189,7 +189,7 @@ namespace diptych::coupling
                        "quantities, separated by commas: peak_stress_ratio, strength (both by default), final_volumetric_strain, "
                        "width_10_90, angle, or a number of comparison.json; for one panel, put discrete. or continuum. before it")
           ->type_name("NAMES");
-        plan->add_flag("--run", "run the planned samples, too");
+        plan->add_flag("--run", "also run the planned samples");
         add_resume(plan, "keep finished runs, compute the others");
         add_overwrite(plan);
         add_quiet(plan);
@@ -197,7 +197,7 @@ namespace diptych::coupling
 
       void add_panels()
       {
-        CLI::App *grains = add(Command::discrete, "compute the grains alone");
+        CLI::App *grains = add(Command::discrete, "compute only the grains");
         add_scene_output_set(grains);
         add_threads(grains);
         add_resume(grains, "an interrupted run");
@@ -210,7 +210,7 @@ namespace diptych::coupling
         add_quiet(grains);
 
         CLI::App *continuum = add(Command::continuum,
-                                  "compute the continuum alone (continuum/mesh = outline prepares the grains); "
+                                  "compute only the continuum (continuum/mesh = outline prepares the grains); "
                                   "also under mpirun");
         add_scene_output_set(continuum);
         add_resume(continuum, "an interrupted run");
@@ -247,8 +247,7 @@ namespace diptych::coupling
         compare->add_option("DIR", line.target, "result folder")->required();
         add_set(compare);
         add_quiet(compare);
-        CLI::App *report = add(Command::report,
-                               "draw report.html again, of a result folder, an ensemble, a study or a calibration");
+        CLI::App *report = add(Command::report, "draw report.html again, of any folder of results");
         report->add_option("DIR", line.target, "result folder")->required();
         report->add_flag("--movie", line.draws_movie, "also draw both panels step by step: movie.gif");
         add_quiet(report);
@@ -272,16 +271,19 @@ namespace diptych::coupling
         homogenise->add_option("FILES", ignored_words, "files of grains, contacts and walls of another code");
         homogenise->add_option("--grid", ignored_number, "size of the cells in mean diameters (default: 3)")
           ->check(in_range(0.5, 1000.0));
-        add_output(homogenise, "folder of the results (default: FOLDER_homogenised)");
+        add_output(homogenise, "folder of the results (default: FOLDER_homogenised; required with FILES)");
         add_import_options(homogenise);
         add_overwrite(homogenise);
         add_quiet(homogenise);
 
-        CLI::App *out = add(Command::export_sample, "write a sample of a result folder as a start for another code");
+        CLI::App *out = add(Command::export_sample,
+                            "write a sample of a result folder for another code, or all stages for OVITO");
         out->add_option("FOLDER", line.target, "result folder")->required();
-        out->add_option("--format", line.exported.format, "code that reads them")->required()->check(one_of({"lammps", "csv"}));
+        out->add_option("--format", line.exported.format, "code that reads them; dump: OVITO")
+          ->required()
+          ->check(one_of({"lammps", "csv", "dump"}));
         add_output(out, "folder of the exported files (default: FOLDER_for_FORMAT)");
-        out->add_option("--stage", line.exported.stage, "number of the snapshot (default: 0, the prepared sample)")
+        out->add_option("--stage", line.exported.stage, "number of the snapshot (default: 0, the prepared sample); not for dump")
           ->check(in_range(0, 1000000));
         add_quiet(out);
       }

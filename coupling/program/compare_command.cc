@@ -72,7 +72,7 @@ namespace diptych::coupling
         ResultFolder(scene).open_next_comparison(line.text);
       complete_record(scene.output.directory, next);
       write_comparison_h5(next, {scene, c}, results);
-      write_fields_vtu(next, c);
+      write_fields(next, c);
       record_phases(next, origin_of(line, scene), {timer.stop()});
       c.cost = summary_of(read_run_facts(next).phases);
       write_comparison(next, {scene, c});
@@ -118,8 +118,8 @@ namespace diptych::coupling
   {
     if (scene.continuum.mesh.kind != continuum::MeshOption::Kind::outline)
       throw SceneError("continuum/mesh = " + text_of(scene.continuum.mesh) +
-                       ": `diptych run` compares both panels on one sample and needs outline; the continuum alone runs with "
-                       "`diptych continuum`");
+                       ": `diptych run` compares both panels on one sample and needs outline; `diptych continuum` runs only "
+                       "the continuum");
   }
 
   int compare_and_report(const CommandLine &line, const Scene &scene, const Results &results, const std::string &next)

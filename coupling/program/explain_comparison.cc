@@ -48,7 +48,7 @@ namespace diptych::coupling
       list_increment_arrays(increment, grains, AddArrays{stages, "", result});
       list_grain_arrays(increment, grains, grains, AddArrays{stages, "", result});
       list_mesh_arrays(QuadMesh(), AddArrays{stages, "cells/, grid/ ", result});
-      list_cell_arrays(fields, {}, AddArrays{stages + "; fields.vtu (cells), grid.vtu (grid)", "cells/, grid/ ", result});
+      list_cell_arrays(fields, {}, AddArrays{stages + "; fields/stage_NNNN.vtu (cells)", "cells/, grid/ ", result});
       list_increment_attributes(increment, AddArrays{windows, "", result});
       list_increment_arrays(increment, grains, AddArrays{windows, "", result});
       list_mesh_arrays(QuadMesh(), AddArrays{windows, "cells/", result});

@@ -44,8 +44,9 @@ namespace diptych::coupling
     if (std::size_t(line.exported.stage) >= snapshots.size())
       throw SceneError("--stage " + std::to_string(line.exported.stage) + ": " + file + " holds " +
                        std::to_string(snapshots.size()) + " snapshots, 0 to " + std::to_string(snapshots.size() - 1));
-    const ExportedFiles files  = exported_sample(line.exported.format, scene, snapshots[std::size_t(line.exported.stage)],
-                                                 line.exported.stage);
+    if (line.exported.format == "dump" && line.exported.stage != 0)
+      throw SceneError("--stage " + std::to_string(line.exported.stage) + ": a dump holds all stages; leave --stage out");
+    const ExportedFiles files  = exported_sample(line.exported.format, scene, snapshots, line.exported.stage);
     const std::string   folder = line.output.empty() ? folder_beside(line.target) + "_for_" + line.exported.format : line.output;
     if (std::error_code none; fs::equivalent(folder, line.target, none))
       throw SceneError("--output " + folder + ": is the result folder itself; name a new folder");

@@ -136,7 +136,7 @@ namespace
     if (n_processes() > 1)
       throw SceneError(
         "mpirun: diptych " + name_of(line.command) +
-        " runs on one process; several may run `diptych continuum` alone, `diptych run` with --seeds, `diptych study` or "
+        " runs on one process; use several for `diptych continuum`, `diptych run` with --seeds, `diptych study` or "
         "`diptych calibrate`");
     leave_if_stopped(name_of(line.command));
     switch (line.command)

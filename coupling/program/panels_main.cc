@@ -23,7 +23,7 @@ namespace
     if (n_processes() > 1 && line.command != Command::continuum)
       throw SceneError(
         "mpirun: diptych " + name_of(line.command) +
-        " runs on one process; several may run `diptych continuum` alone, `diptych run` with --seeds, `diptych study` or "
+        " runs on one process; use several for `diptych continuum`, `diptych run` with --seeds, `diptych study` or "
         "`diptych calibrate`");
     if (any_process(stop_requested()))
       throw StoppedOnRequest(name_of(line.command) + ": stopped on request");

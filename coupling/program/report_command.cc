@@ -34,6 +34,8 @@ namespace diptych::coupling
           return "study";
         case Drawing::calibration:
           return "calibration";
+        case Drawing::homogenised:
+          return "homogenised";
         case Drawing::movie:
           return "movie";
         default:
@@ -85,10 +87,11 @@ namespace diptych::coupling
     const Drawing drawing = is_study_folder(line.target)         ? Drawing::study
                             : is_calibration_folder(line.target) ? Drawing::calibration
                             : is_ensemble_folder(line.target)    ? Drawing::ensemble
+                            : is_homogenised_folder(line.target) ? Drawing::homogenised
                                                                  : Drawing::page;
     if (drawing == Drawing::page && !fs::exists(comparison_json(line.target)))
-      throw SceneError(line.target +
-                       " is not a result folder (no comparison.json), nor the folder of an ensemble, a study or a calibration");
+      throw SceneError(line.target + " is not a result folder (no comparison.json), nor the folder of an ensemble, a study, a "
+                                     "calibration or homogenised grains");
     if (drawing == Drawing::page)
       {
         check_files(line.target);

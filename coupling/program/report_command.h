@@ -14,6 +14,7 @@ namespace diptych::coupling
     ensemble,    // report.html of an ensemble
     study,       // report.html of a study
     calibration, // report.html of a calibration
+    homogenised, // report.html of homogenised grains
     step_study,  // study_step.png
     movie        // movie.gif of a result folder
   };

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# diptych: pages and pictures of results; usage: draw.py page|ensemble|study|calibration|step-study DIR [NEXT]
+# diptych: pages and pictures; usage: draw.py page|movie|ensemble|study|calibration|homogenised|step-study DIR [NEXT]
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Exit codes: 0 done, 2 wrong input (usage, missing or broken file, another format), 4 a module is missing or a file cannot be written.
 A new page replaces the old one only when it is complete."""
@@ -17,9 +17,11 @@ from diptych_report import InputError  # noqa: E402
 # what to draw -> (module with draw(folder), its input files); only a page also takes a folder of newer files
 DRAWINGS = {
     "page": ("page.result_page", "comparison.json, comparison.h5, discrete.csv, continuum.csv, provenance.json"),
+    "movie": ("page.movie", "comparison.json, comparison.h5, discrete.csv, continuum.csv, provenance.json"),
     "ensemble": ("page.ensemble_page", "ensemble.json, ensemble.h5"),
     "study": ("page.study_page", "study.json, study_cost.json, study.h5"),
     "calibration": ("page.calibration_page", "calibration.json, calibration_cost.json"),
+    "homogenised": ("page.homogenised_page", "homogenised.json, fields_*.vtu, provenance.json"),
     "step-study": ("charts.step_study", "study_step.json, study_step.csv"),
 }
 
@@ -44,7 +46,7 @@ def main(arguments):
               f"{type(error).__name__}: {error}", file=sys.stderr)
         return 2
     except ImportError as error:
-        print(f"report: {sys.executable} lacks a module: {error}. Install python3-h5py, python3-matplotlib and python3-jinja2 (Debian)",
+        print(f"report: {sys.executable} lacks a module: {error}. Install python3-h5py, python3-matplotlib, python3-jinja2 and python3-meshio (Debian)",
               file=sys.stderr)
         return 4
     return 0

@@ -135,9 +135,9 @@ namespace diptych::coupling
       return s;
     }
 
-    VtuGrid vtu_of(const Snapshot &s)
+    discrete::VtuGrid vtu_of(const Snapshot &s)
     {
-      VtuGrid grid{s.position, node_list(s), VtkCell::biquadratic_quadrilateral, {}};
+      discrete::VtuGrid grid{s.position, node_list(s), discrete::VtkCell::biquadratic_quadrilateral, {}};
       for_each_array(s, [&](const std::string &name, const auto &values, const char *, const char *, const bool of_cells) {
         using Value = typename std::decay_t<decltype(values)>::value_type;
         if (name != "nodes/position")
@@ -148,56 +148,26 @@ namespace diptych::coupling
     }
   } // namespace
 
-  ContinuumSnapshotFile::ContinuumSnapshotFile(const std::string &path_without_ending)
-      : path(path_without_ending),
-        stages(path),
-        collection{"continuum", {}}
-  {
-    std::filesystem::remove_all(path);
-  }
+  ContinuumSnapshotFile::ContinuumSnapshotFile(const std::string &path)
+      : stages(path),
+        views(path)
+  {}
 
-  ContinuumSnapshotFile::ContinuumSnapshotFile(const std::string &path_without_ending, const std::size_t kept)
-      : path(path_without_ending),
-        stages(path, kept),
-        collection{"continuum", {}}
-  {
-    for (std::size_t stage = kept; std::filesystem::remove(path + "/" + discrete::stage_name(stage) + ".vtu"); ++stage)
-      {}
-    if (kept > 0)
-      for (const Snapshot &snapshot : read_continuum_snapshots(path + ".h5"))
-        list(snapshot);
-  }
+  ContinuumSnapshotFile::ContinuumSnapshotFile(const std::string &path, const std::size_t kept)
+      : stages(path, kept),
+        views(path, discrete::progress_of_stages(path + ".h5", kept))
+  {}
 
   void ContinuumSnapshotFile::add(const Snapshot &snapshot)
   {
     check_lengths(snapshot);
-    const std::string stage = discrete::stage_name(stages.size());
     stages.add([&](Hdf5Writer &file, const std::string &group) { write_stage(file, group, snapshot); });
-    write_vtu(path + "/" + stage + ".vtu", vtu_of(snapshot));
-    list(snapshot);
-    discrete::write_xdmf(path, {collection});
-    write_pvd(path + ".pvd", views);
+    views.add(snapshot.progress, vtu_of(snapshot));
   }
 
   void ContinuumSnapshotFile::close()
   {
     stages.close();
-  }
-
-  void ContinuumSnapshotFile::list(const Snapshot &s)
-  {
-    const std::string  stage = discrete::stage_name(collection.grids.size()), folder = std::filesystem::path(path).filename();
-    discrete::XdmfGrid grid{stage,
-                            s.progress,
-                            {stage + "/nodes/position", {s.position.size(), 3}},
-                            {stage + "/" + continuum::cells_name, {s.cells.size(), 9}, discrete::XdmfNumber::integer},
-                            {}};
-    for_each_array(s, [&](const std::string &name, const auto &values, const char *, const char *, const bool of_cells) {
-      if (name != "nodes/position")
-        grid.attributes.push_back(discrete::xdmf_field(stage + "/" + name, values, of_cells));
-    });
-    collection.grids.push_back(std::move(grid));
-    views.push_back({s.progress, folder + "/" + stage + ".vtu"});
   }
 
   std::vector<Snapshot> read_continuum_snapshots(const std::string &h5_path)

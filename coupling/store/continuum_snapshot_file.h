@@ -6,15 +6,14 @@
 #include <vector>
 
 #include "continuum/snapshot.h"
-#include "coupling/store/vtu_file.h"
 #include "discrete/files/staged_file.h"
-#include "discrete/files/xdmf.h"
+#include "discrete/files/vtu_file.h"
 
 namespace diptych::coupling
 {
-  // Writes the added snapshots to PATH.h5, PATH.xdmf, PATH.pvd and PATH/stage_NNNN.vtu. continuum/snapshot_fields.h lists names
-  // and units. The files are complete after every add(), and no snapshot is written twice. ParaView shows the progress as time.
-  // All functions throw std::runtime_error with the name of a file that cannot be written.
+  // Writes the added snapshots to PATH.h5, PATH.pvd and PATH/stage_NNNN.vtu. continuum/snapshot_fields.h lists names and units.
+  // The files are complete after every add(), and no snapshot is written twice. ParaView shows the progress as time. All
+  // functions throw std::runtime_error with the name of a file that cannot be written.
   class ContinuumSnapshotFile
   {
   public:
@@ -30,12 +29,8 @@ namespace diptych::coupling
     std::size_t size() const { return stages.size(); }
 
   private:
-    void list(const continuum::Snapshot &snapshot);
-
-    std::string              path;
-    discrete::StagedFile     stages;
-    discrete::XdmfCollection collection;
-    std::vector<PvdEntry>    views;
+    discrete::StagedFile stages;
+    discrete::VtuSeries  views;
   };
 
   // Returns the snapshots with the same bits as they were added. Throws std::invalid_argument with file, stage and array if an

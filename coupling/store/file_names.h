@@ -74,13 +74,9 @@ namespace diptych::coupling
   {
     return folder + "/comparison.h5";
   }
-  inline std::string fields_vtu(const std::string &folder) // fields on the continuum's mesh
+  inline std::string fields_series(const std::string &folder) // fields on the continuum's mesh: .pvd and a folder of stages
   {
-    return folder + "/fields.vtu";
-  }
-  inline std::string grid_vtu(const std::string &folder) // fields on the regular grid
-  {
-    return folder + "/grid.vtu";
+    return folder + "/fields";
   }
   inline std::string study_step(const std::string &folder, const std::string &extension)
   {

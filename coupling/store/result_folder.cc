@@ -22,7 +22,7 @@ namespace diptych::coupling
     namespace fs = std::filesystem;
 
     const std::vector<std::string> comparison_files = {"comparison.json", "comparison.csv", "comparison.h5",
-                                                       "fields.vtu",      "grid.vtu",       "summary.csv"};
+                                                       "fields.pvd",      "fields",         "summary.csv"};
 
     // Absolute, without a slash at its end.
     fs::path plain_path(const std::string &directory)
@@ -83,6 +83,11 @@ namespace diptych::coupling
   bool is_calibration_folder(const std::string &directory)
   {
     return fs::exists(directory + "/calibration_input.json");
+  }
+
+  bool is_homogenised_folder(const std::string &directory)
+  {
+    return fs::exists(directory + "/homogenised.json");
   }
 
   bool is_result_folder(const std::string &directory)
@@ -256,6 +261,7 @@ namespace diptych::coupling
       remove_results(directory, comparison_files);
     if (!has_report(facts))
       remove_results(directory, {"report.html"});
+    remove_results(directory, {"movie.gif"}); // of the earlier panels; `report --movie` draws it
     if (facts.continuum_coarse.cells == 0)
       remove_results(directory, {"coarse"});
     if (facts.continuum.finished)

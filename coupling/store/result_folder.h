@@ -38,6 +38,7 @@ namespace diptych::coupling
   bool is_ensemble_folder(const std::string &directory);
   bool is_study_folder(const std::string &directory);
   bool is_calibration_folder(const std::string &directory);
+  bool is_homogenised_folder(const std::string &directory);
 
   // Results of any command: a run, an import, an ensemble, a study, a plan or a calibration.
   bool is_result_folder(const std::string &directory);

@@ -10,7 +10,6 @@
 #include <Eigen/Core>
 
 #include "discrete/files/hdf5_file.h"
-#include "discrete/files/xdmf.h"
 
 namespace diptych::discrete
 {
@@ -118,13 +117,6 @@ namespace diptych::discrete
           take(next, value);
         return values;
       }
-  }
-
-  template <class T> XdmfAttribute xdmf_field(const std::string &path, const std::vector<T> &values, const bool of_cells = false)
-  {
-    return {path.substr(path.find_last_of('/') + 1),
-            {path, extents_of<T>(values.size()), is_whole<T> ? XdmfNumber::integer : XdmfNumber::real},
-            of_cells};
   }
 
   // Splits a list of structs into columns: action(name, values, unit, meaning) for each member that fields(entry, visit)

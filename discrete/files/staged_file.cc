@@ -43,6 +43,15 @@ namespace diptych::discrete
     return n;
   }
 
+  std::vector<double> progress_of_stages(const std::string &h5_path, const std::size_t n)
+  {
+    const Hdf5Reader    file(h5_path);
+    std::vector<double> progress;
+    for (std::size_t stage = 0; stage < n; ++stage)
+      progress.push_back(file.attribute(stage_name(stage), "progress"));
+    return progress;
+  }
+
   StagedFile::StagedFile(std::string path_without_ending)
       : path(std::move(path_without_ending))
   {

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "discrete/files/hdf5_file.h"
 
@@ -41,4 +42,7 @@ namespace diptych::discrete
   // Number of stages in a file. Throws std::invalid_argument with its name if it has none.
   bool        is_written_by_us(const Hdf5Reader &file); // true if the file records how many stages it must have
   std::size_t count_stages(const Hdf5Reader &file);
+
+  // The attribute `progress` of the first n stages.
+  std::vector<double> progress_of_stages(const std::string &h5_path, std::size_t n);
 } // namespace diptych::discrete

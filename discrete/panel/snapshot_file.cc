@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "discrete/files/field_arrays.h"
+#include "discrete/panel/snapshot_views.h"
 #include "discrete/snapshot_fields.h"
 
 namespace diptych::discrete
@@ -253,57 +254,28 @@ namespace diptych::discrete
     }
   } // namespace
 
-  SnapshotFile::SnapshotFile(const std::string &path_without_ending)
-      : path(path_without_ending),
-        stages(path)
+  SnapshotFile::SnapshotFile(const std::string &path)
+      : stages(path),
+        grains(path),
+        contacts(path + "_contacts")
   {}
 
-  SnapshotFile::SnapshotFile(const std::string &path_without_ending, const std::size_t kept)
-      : path(path_without_ending),
-        stages(path, kept)
-  {
-    if (kept > 0)
-      for (const Snapshot &snapshot : read_snapshots(path + ".h5"))
-        list(snapshot);
-  }
+  SnapshotFile::SnapshotFile(const std::string &path, const std::size_t kept)
+      : stages(path, kept),
+        grains(path, progress_of_stages(path + ".h5", kept)),
+        contacts(path + "_contacts", progress_of_stages(path + ".h5", kept))
+  {}
 
   void SnapshotFile::add(const Snapshot &snapshot)
   {
     stages.add([&](Hdf5Writer &file, const std::string &group) { write_stage(file, group, snapshot); });
-    list(snapshot);
-    write_xdmf(path, collections);
+    grains.add(snapshot.progress, grains_of(snapshot));
+    contacts.add(snapshot.progress, contacts_of(snapshot));
   }
 
   void SnapshotFile::close()
   {
     stages.close();
-  }
-
-  void SnapshotFile::list(const Snapshot &s)
-  {
-    const std::string stage  = stage_name(collections[0].grids.size()) + "/";
-    const auto        points = [&](const char *name, const std::string &array, const std::size_t n) {
-      return XdmfGrid{stage + name, s.progress, {stage + name + "/" + array, {n, 3}}, {}, {}};
-    };
-    XdmfGrid grains = points("grains", "position", s.position.size()), contacts = points("contacts", "point", s.contacts.size()),
-             window = points("window", "point", s.window_forces.size());
-    visit_grain_fields(s, [&](const std::string &name, const auto &values, const char *, const char *) {
-      if (name != "grains/position" && is_known(values))
-        grains.attributes.push_back(xdmf_field(stage + name, values));
-    });
-    visit_contact_lists(s, [&](const std::string &list, const std::vector<ContactForce> &entries, const char *, const char *) {
-      for_each_column(entries, contact_fields, [&](const std::string &name, const auto &values, const char *, const char *) {
-        if (name != "point")
-          (list == "contacts" ? contacts : window).attributes.push_back(xdmf_field(stage + list + "/" + name, values));
-      });
-    });
-    visit_contact_values(s, [&](const std::string &name, const auto &values, const char *, const char *) {
-      if (is_stored(s, name, values.size()))
-        (name.rfind("contacts/", 0) == 0 ? contacts : window).attributes.push_back(xdmf_field(stage + name, values));
-    });
-    collections[0].grids.push_back(std::move(grains));
-    collections[1].grids.push_back(std::move(contacts));
-    collections[2].grids.push_back(std::move(window));
   }
 
   void write_snapshots(const std::string &path_without_ending, const std::vector<Snapshot> &snapshots)

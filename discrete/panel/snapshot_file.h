@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "discrete/files/staged_file.h"
-#include "discrete/files/xdmf.h"
+#include "discrete/files/vtu_file.h"
 #include "discrete/snapshot.h"
 
 namespace diptych::discrete
 {
-  // PATH.h5 has one group stage_NNNN per snapshot (fields: snapshot_fields.h). PATH.xdmf shows grains, contacts and window
-  // forces as points in ParaView. Adding a snapshot does not touch the earlier ones.
+  // PATH.h5 has one group stage_NNNN per snapshot (fields: snapshot_fields.h). For ParaView, PATH.pvd lists the grains of all
+  // stages and PATH_contacts.pvd the contact forces (snapshot_views.h). Adding a snapshot does not touch the earlier ones.
   class SnapshotFile
   {
   public:
@@ -24,11 +24,8 @@ namespace diptych::discrete
     std::size_t size() const { return stages.size(); }
 
   private:
-    void list(const Snapshot &snapshot);
-
-    std::string                 path;
-    StagedFile                  stages;
-    std::vector<XdmfCollection> collections = {{"grains", {}}, {"contacts", {}}, {"window", {}}};
+    StagedFile stages;
+    VtuSeries  grains, contacts;
   };
 
   void write_snapshots(const std::string &path_without_ending, const std::vector<Snapshot> &snapshots);

@@ -91,6 +91,16 @@ class Statistics(Ensemble):
         self.assertAlmostEqual(row["mean"], mean, places=8)
         self.assertAlmostEqual(row["seed_3"], peaks[2], places=8)
 
+    def test_the_summary_has_the_rows_of_a_single_run_with_intervals_and_verdicts(self):
+        """The terminal ends with it. Its peak is the mean over the seeds; its difference is that of the means."""
+        first, single = read(self.three)["summary"], read(os.path.join(self.three, "seed_1"), "comparison.json")["summary"]
+        self.assertEqual([(row["quantity"], row["unit"]) for row in first], [(row["quantity"], row["unit"]) for row in single])
+        peak = quantity(self.three, "discrete_summary peak_stress_ratio")
+        self.assertEqual(first[0]["grains"], {"value": peak["mean"], "low": peak["low"], "high": peak["high"]})
+        self.assertAlmostEqual(first[0]["difference"]["value"], first[0]["continuum"]["value"] - peak["mean"], places=12)
+        self.assertRegex(first[0]["verdict"], r"^(equivalent within|different by more than|cannot tell \(margin) 3 %")
+        self.assertRegex(self.process.stdout.splitlines()[-len(first)], r"^peak t/s +0\.\d+ \[.*3 %")
+
     def test_the_number_at_once_does_not_change_a_bit(self):
         self.run_seeds("3,1-2", "--jobs", "2")
         for name in ("ensemble.json", "ensemble.csv"):
@@ -101,7 +111,7 @@ class Statistics(Ensemble):
         result = subprocess.run(words, env=ENVIRONMENT, capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(content(self.path("ensemble.json")), content(os.path.join(self.three, "ensemble.json")))
-        self.assertEqual(result.stdout.count("peak_stress_ratio"), 1)  # only the first process speaks
+        self.assertEqual(result.stdout.count("peak t/s"), 1)  # only the first process speaks
         self.assertEqual(read(self.path("seed_2"), "comparison.json")["continuum_summary"]["processes"], 1)
 
     def test_other_margins_need_no_run(self):

@@ -234,7 +234,7 @@ namespace
   }
 
   // Only store/ knows where a result folder has which file.
-  const std::string path_in_a_folder = R"x("/[a-z_]+\.(h5|csv|json|prm|vtu|xdmf|html|msh|png)")x";
+  const std::string path_in_a_folder = R"x("/[a-z_]+\.(h5|csv|json|prm|vtu|pvd|html|msh|png)")x";
 
   TEST(House, OnlyTheStoreNamesFilesOfAResultFolder)
   {

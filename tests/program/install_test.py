@@ -111,6 +111,7 @@ class Package(unittest.TestCase):
         for words in (["run", scene, *few, "--seeds", "1-2", "--output", folder], ["report", member]):
             done = self.run_program(*words, "--quiet")
             self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("biaxial: ", self.run_program("new").stdout)
         for page in (folder, member):
             self.assertGreater(os.path.getsize(os.path.join(page, "report.html")), 100000)
 

@@ -142,6 +142,15 @@ class Manual(Built):
                 count += 1
         self.assertGreater(count, 40)
 
+    def test_the_gallery_shows_a_picture_of_each_test(self):
+        page, templates = self.page("gallery.html"), os.path.join(SOURCE, "coupling", "templates")
+        names = re.findall(r"diptych new (\w+) >", self.shown("gallery.html"))
+        self.assertGreater(len(set(names)), 7)
+        self.assertEqual(set(names), {name[:-4] for name in os.listdir(os.path.join(MANUAL, "gallery"))})
+        for name in names:
+            self.assertIn(f"coupling/manual/gallery/{name}.png", page)
+            self.assertTrue(os.path.exists(os.path.join(templates, name + ".prm")), name)
+
     def test_every_link_works(self):
         self.assertEqual(broken_links(self.site), [])
 

@@ -5,6 +5,7 @@
 
 import csv
 import os
+import re
 import shutil
 import subprocess
 import unittest
@@ -30,9 +31,9 @@ class QuickScene(unittest.TestCase):
         cls.comparison = read_json(cls.folder, "comparison.json")
 
     def test_every_promised_file_is_there_and_no_half_file(self):
-        for name in ["scene.prm", "provenance.json", "discrete.h5", "discrete.xdmf", "discrete.csv", "continuum.h5",
-                     "continuum.xdmf", "continuum.pvd", "continuum.csv", "comparison.json", "comparison.csv", "summary.csv",
-                     "fields.vtu", "grid.vtu", "report.html"]:
+        for name in ["scene.prm", "provenance.json", "discrete.h5", "discrete.pvd", "discrete_contacts.pvd", "discrete.csv", "continuum.h5",
+                     "continuum.pvd", "continuum.csv", "comparison.json", "comparison.csv", "summary.csv",
+                     "fields.pvd", "report.html"]:
             self.assertTrue(os.path.getsize(os.path.join(self.folder, name)) > 0, name)
         self.assertEqual(half_files(self.folder), [])
 
@@ -207,6 +208,19 @@ class CommandLine(unittest.TestCase):
                 self.assertEqual(result.returncode, 2, result.stderr)
                 for text in texts:
                     self.assertIn(text, result.stderr)
+
+    def test_new_lists_templates_and_prints_scenes_that_run(self):
+        listed, folder = diptych("new", check=True).stdout.splitlines(), temporary(self)
+        self.assertGreater(len(listed), 7)
+        for name in (line.split(":")[0] for line in listed):
+            text = diptych("new", name, check=True).stdout
+            self.assertEqual(text.splitlines()[0], "# " + next(line for line in listed if line.startswith(name + ":")))
+            scene = write(os.path.join(folder, name + ".prm"), text)
+            command = re.search(r"^# Run it: diptych (\w+) FILE", text, re.MULTILINE)[1]
+            short = ["--check"] if command == "run" else ["--output", os.path.join(folder, name), *setting(
+                sample_grains=100, loading_axial_strain=1e-5, loading_stage_strain=1e-5)]
+            done = diptych(command, scene, *short)
+            self.assertEqual(done.returncode, 0, name + done.stderr)
 
 
     def test_completion_offers_commands_options_keys_and_values(self):

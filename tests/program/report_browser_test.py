@@ -65,6 +65,14 @@ class Browser(unittest.TestCase):
         self.assertEqual(self.page.run(bad), 0)
         self.assertTrue(self.page.run("[...document.images].every((i) => i.complete && i.naturalWidth > 0)"))
 
+    def test_a_phone_cuts_no_title_of_a_colour_bar(self):
+        # A title that is too wide for its canvas leaves ink in the first or the last column.
+        self.page.size(*PHONE)
+        self.page.open(os.path.join(self.folder, "report.html"))
+        cut = self.page.run("""[...document.querySelectorAll('canvas.bar')].filter((c) => [0, c.width - 1].some((x) =>
+          c.getContext('2d').getImageData(x, 30 * pixels, 1, c.height - 30 * pixels).data.some((v) => v < 250))).length""")
+        self.assertEqual((self.page.run("document.querySelectorAll('canvas.bar').length > 2"), cut), (True, 0))
+
     def test_a_map_has_the_right_colour_at_a_place(self):
         # The limits of the window are 0 and 3.9 %. Continuum, third cell: 0.08 * 2/5 = 3.2 %, so colour floor(256 * 3.2/3.9) = 210.
         # Grains: grain 20 (fifth row, first column) at (0.5, 4.5): 2 * 20/39 = 1.0256 %, so floor(256 * 1.0256/3.9) = 67.

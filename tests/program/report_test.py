@@ -12,6 +12,7 @@ import sys
 import tempfile
 import types
 import unittest
+from unittest import mock
 
 import h5py
 import numpy as np
@@ -22,14 +23,15 @@ from report_folder import REPORT, read, run, write_folder, write_json
 sys.dont_write_bytecode = True
 sys.path.insert(0, REPORT)
 
-from diptych_report.charts import style  # noqa: E402
+from diptych_report.charts import ensemble, style, trends  # noqa: E402
 from diptych_report.charts.strips import _turn  # noqa: E402
+from diptych_report.data import study  # noqa: E402
 from diptych_report.data.ensemble import Ensemble  # noqa: E402
 from diptych_report.data.increments import Increment  # noqa: E402
 from diptych_report.data.numbers import Descriptions, Units  # noqa: E402
 from diptych_report.data.loading_variable import LOADING_VARIABLES  # noqa: E402
 from diptych_report.page.result_page import end_of, opens_at  # noqa: E402
-from diptych_report.tables import stage as tables  # noqa: E402
+from diptych_report.tables import calibration, stage as tables  # noqa: E402
 
 
 HALF_A_CODE = 0.5 / 65534 * 1.01  # in units of the range of an array
@@ -215,7 +217,7 @@ class OtherFolders(unittest.TestCase):
             with h5py.File(path("comparison.h5"), "w") as file:
                 file["mine"] = [1.0]
 
-        self.refused(lambda path: None, r"usage: draw\.py page\|ensemble\|study\|calibration\|step-study", "figure")
+        self.refused(lambda path: None, r"usage: draw\.py page\|ensemble\|study\|calibration\|homogenised\|step-study", "figure")
         self.refused(lambda path: os.remove(path("continuum.csv")), r"missing: .*continuum\.csv")
         self.refused(lambda path: write_json(path(""), "comparison.json", {"format": 1}), r".*comparison\.json: format 1, .* 2;")
         self.refused(lambda path: write_json(path(""), "provenance.json", {"a": [1, 2]}), r".*provenance\.json")
@@ -254,6 +256,37 @@ class Formulas(unittest.TestCase):
     def test_an_ensembles_places_keep_their_ends_apart(self):
         results = Ensemble("", {}, {}, None, LOADING_VARIABLES["axial_strain"], None, {}, None, "", {})
         self.assertEqual(results.place("window 1e-05-0.02"), ("window", "0.001–2\u00a0%"))
+
+    def test_a_calibration_writes_numbers_without_exponents(self):
+        self.assertEqual([calibration.text(x, 2) for x in (-2.9, -110.4, 1e5)], ["−2.9", "−110", "100000"])
+
+    def test_the_curves_of_a_study_open_on_the_grains(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "study.h5")
+            with h5py.File(path, "w") as file:
+                for panel in ("continuum", "discrete"):
+                    for name in ("progress", *study.CURVES):
+                        file[f"{panel}/{name}"] = [0.0, 1.0]
+            self.assertEqual(list(study._curves(path)), ["discrete", "continuum"])
+
+    def test_no_label_and_no_legend_leaves_its_place(self):
+        verdict = {"quantity": "peak", "margin": 0.03, "verdict": "equivalent", "discrete": [0.3], "continuum": [0.4],
+                   **dict.fromkeys(("difference", "difference_90"), {"value": 0.1, "low": None, "high": None})}
+        long = "strength T/S from 0.3 % strain to the end of the loading"
+        stage = types.SimpleNamespace(end=0.01, bands=lambda panel: [{"to_minor_stress_deg": 40.0}])
+        result = types.SimpleNamespace(stages=[stage], loading_variable=LOADING_VARIABLES["axial_strain"],
+                                       part=lambda name: dict(coulomb_deg=58.8, arthur_deg=55.1, roscoe_deg=51.5))
+        style.set_up()
+        kept = lambda figure, alt: figure  # noqa: E731
+        with mock.patch.object(ensemble, "svg", kept), mock.patch.object(trends, "svg", kept):
+            charts = [ensemble.dots(verdict, dict.fromkeys(("discrete", "continuum")), long),
+                      ensemble.differences([(long, verdict)]),
+                      trends._inclination(result)[0]]
+        for figure in charts:
+            box = figure.get_tightbbox()
+            self.assertTrue(box.x0 >= 0 and box.y0 >= 0 and (box.max <= figure.get_size_inches()).all(), box)
+        axes = charts[-1].axes[0]
+        self.assertGreater(axes.get_legend().get_window_extent().x0, axes.bbox.x0)
 
     def test_the_page_opens_on_the_last_window_or_stage(self):
         windows, stages = ([types.SimpleNamespace(kind=kind, end=end) for end in ends]

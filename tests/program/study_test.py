@@ -235,9 +235,62 @@ class Failures(Study):
                 result = self.run_study(study, code=2)
                 for word in [*words, "steps.json, line "]:
                     self.assertIn(word, result.stderr)
-        self.assertIn("with scene, reference", diptych("study", write(os.path.join(self.work, "empty.json"), "")).stderr)
+        self.assertIn("with scene and axes", diptych("study", write(os.path.join(self.work, "empty.json"), "")).stderr)
         self.assertIn("not valid JSON", diptych("study", write(os.path.join(self.work, "broken.json"), "{")).stderr)
         self.assertIn("--resume", diptych("study", self.study_file(STUDY), "--study", "step").stderr)
+        self.assertFalse(os.path.exists(self.folder))
+
+
+class Effects(Folder):
+    """Two frictions on two samples, both panels."""
+
+    SCENE = ("subsection sample\n  set grains = 150\nend\nsubsection loading\n  set inertial_number = 1e-3\n  set axial_strain = 0.01\n"
+             "end\nsubsection comparison\n  set window_edges = 0, 0.01\nend\n")
+
+    @classmethod
+    def setUpClass(cls):
+        work = cls.enterClassContext(tempfile.TemporaryDirectory())
+        cls.scene, cls.done = write(os.path.join(work, "tiny.prm"), cls.SCENE), os.path.join(work, "done")
+        cls.process = diptych("study", cls.scene, "--vary", "discrete/friction=0.1,0.6", "--seeds", "1-2", "--output", cls.done)
+        assert cls.process.returncode == 0, cls.process.stdout + cls.process.stderr
+
+    def test_means_follow_from_the_summaries_of_the_runs(self):
+        table, record = pandas.read_csv(os.path.join(self.done, "effects.csv")), read_json(self.done, "study.json")
+        self.assertEqual(len(table), 2 * 5 * 3)  # points, key numbers, panels
+        peaks = table[(table["discrete/friction"] == 0.6) & (table.quantity == "peak t/s")].set_index("panel")["mean"]
+        summaries = [pandas.read_csv(os.path.join(self.done, folder, "summary.csv")) for folder in record["points"][1]["folders"]]
+        for panel in ("grains", "continuum", "difference"):
+            self.assertAlmostEqual(peaks[panel], sum(s[panel][0] for s in summaries) / 2, places=8)
+
+    def test_terminal_and_page_judge_nothing(self):
+        page = content(os.path.join(self.done, "report.html")).decode()
+        for text in (self.process.stdout, page):
+            for word in ("unjudged", "heapest", "reference"):
+                self.assertNotIn(word, text)
+            self.assertIn("peak t/s", text)
+        self.assertIn("<h1>tiny: effect of discrete/friction</h1>", page)
+        self.assertRegex(self.process.stdout, "discrete/friction, (resolved|not resolved): ")
+
+    def test_the_kept_study_file_gives_the_same_and_keeps_the_runs(self):
+        shutil.copytree(self.done, self.folder)
+        file = shutil.copy(self.path("study_input.json"), os.path.join(self.work, "tiny.json"))
+        result = diptych("study", file, "--output", self.folder, "--resume")
+        self.assertIn("4 of 4 runs are finished", result.stdout, result.stderr)
+        self.assertEqual(content(self.path("study.json")), content(os.path.join(self.done, "study.json")))
+
+    def test_wrong_words_are_refused_with_key_value_and_range(self):
+        file = write(os.path.join(self.work, "file.json"), json.dumps(STUDY))
+        for words, expected in [([self.scene], "is a scene; give --vary"), ([file, "--vary", "discrete/friction=1"], "is a study file"),
+                                ([self.scene, "--vary", "discrete/friction"], "section/key=value,value"),
+                                ([self.scene, "--vary", "discrete/friktion=1,2"], "the nearest is 'discrete/friction'"),
+                                ([self.scene, "--vary", "discrete/friction=1,-2"], "discrete/friction = '-2' is not allowed; give a number from 0"),
+                                ([self.scene, "--vary", "discrete/friction=1,1.0"], "values of discrete/friction: '1' stands there twice"),
+                                ([self.scene, "--vary", "sample/seed=1,2", "--seeds", "1-2"], "sample/seed = 1"),
+                                ([self.scene, "--vary", "loading/axial_strain=0.013"], "every point is refused")]:
+            with self.subTest(words=words[1:]):
+                result = diptych("study", *words, "--output", self.folder)
+                self.assertEqual(result.returncode, 2)
+                self.assertIn(expected, result.stderr)
         self.assertFalse(os.path.exists(self.folder))
 
 

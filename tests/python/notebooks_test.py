@@ -3,6 +3,7 @@
 import glob
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -12,6 +13,14 @@ import pytest
 from conftest import SOURCE
 
 NOTEBOOKS = sorted(glob.glob(os.path.join(SOURCE, "coupling", "python", "notebooks", "*.ipynb")))
+
+
+def test_notebooks_hold_their_outputs_without_paths_of_a_machine():
+    for path in NOTEBOOKS:
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        assert "image/png" in text, path
+        assert not re.search(r"/(home|root|tmp|work)/", text), path
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=[os.path.basename(path) for path in NOTEBOOKS])

@@ -8,6 +8,7 @@ import pandas
 import pytest
 
 import diptych
+from diptych import importers
 
 
 @pytest.fixture(scope="module")
@@ -51,6 +52,45 @@ def test_a_history_is_a_frame_with_units(folder):
     assert isinstance(frame, pandas.DataFrame) and list(frame.columns) == list(history)
     assert frame.attrs["unit"]["sxx"] == "pressure" and "t/s" in history.meaning["stress_ratio"]
     np.testing.assert_array_equal(frame["stress_ratio"], pandas.read_csv(folder / "discrete.csv", float_precision="round_trip")["stress_ratio"])
+
+
+def test_what_a_user_prints_is_one_short_line(folder, tmp_path):
+    results = diptych.load(folder)
+    start, end = results.discrete.snapshots[0], results.discrete.snapshots[-1]
+    stress, moved = diptych.map_stress(end), diptych.increment(start, end)
+    bands = diptych.find_bands(**moved)
+    (tmp_path / "plan.json").write_text("{}")
+    frame = importers.Frame("1", {"id": np.arange(5)})
+    shown = [results, results.discrete, results.continuum, results.discrete.history, start, results.continuum.snapshots[-1],
+             end.contacts, stress, stress.mesh, moved, bands, *bands.bands, diptych.compare(results), diptych.biaxial({}),
+             frame, diptych.probe(end, [(5, 5), (15, 5), (15, 15), (5, 15)]), diptych.PlanResult.load(tmp_path)]
+    for one in shown:
+        assert len(str(one)) <= 200 and "\n" not in str(one) and " object at " not in str(one), str(one)
+
+
+def test_plots_draw_the_values_into_the_given_axes(folder):
+    import matplotlib
+
+    matplotlib.use("agg")
+    results = diptych.load(folder)
+    axes = results.plot("volumetric_strain")
+    assert axes.get_ylabel() == "volumetric strain [%]" and axes.get_xlabel() == "axial strain [%]"
+    for line, panel in zip(axes.lines, (results.discrete, results.continuum), strict=True):
+        np.testing.assert_allclose(line.get_ydata(), 100 * panel.history["volumetric_strain"])
+    stress = diptych.map_stress(results.discrete.snapshots[-1])
+    axes = stress.plot("syy")
+    cells = axes.collections[0]
+    np.testing.assert_array_equal(cells.get_array()[stress.covered], stress.stress[stress.covered, 1, 1])
+    assert cells.colorbar.ax.get_ylabel() == "syy [pressure]"
+    band = diptych.Band(-40, 10, 4.55, 1, 1, 0, 1, 1, "", {}, np.zeros(2))
+    assert band.plot(axes) is axes and len(axes.lines) == 3  # its middle and both edges
+    for wrong in (stress, results):
+        with pytest.raises(ValueError, match="colour"):
+            wrong.plot("colour", axes)
+
+
+def test_a_table_is_searched_by_the_stages_of_the_scene(folder):
+    assert set(pandas.read_csv(folder / "comparison.csv").progress_to.dropna()) == {0.005, 0.01}
 
 
 def test_the_message_names_a_folder_without_results(tmp_path, folder):

@@ -15,7 +15,7 @@ import pytest
 from conftest import SMALL
 
 import diptych
-from diptych.campaigns import evaluation, statistics
+from diptych.campaigns import effects, evaluation, statistics
 from diptych.campaigns.folders import SceneRun
 from diptych.campaigns.points import Point, RunResult, points_of
 from diptych.campaigns.study_file import Axis, AxisPoint, Family, Study, quantity, read_study
@@ -25,7 +25,7 @@ def study_of(n, **changes):
     """A quantity with a limit of 2 %, four samples, one axis of n points h = 1, 2, 4 ..."""
     axis = Axis("step", [AxisPoint(str(k), [], 2.0**k) for k in range(n)], converges=True)
     strength = quantity("strength", **{"limit": 0.02, **changes})
-    return Study(seeds=[1, 2, 3, 4], families=[Family(axes=[axis])], quantities=[strength])
+    return Study(seeds=[1, 2, 3, 4], reference=[], families=[Family(axes=[axis])], quantities=[strength])
 
 
 def points_on(n):
@@ -138,6 +138,44 @@ def test_other_work_on_the_machine_is_noticed():
     assert not RunResult(load=2.3, at_once=2).disturbed and RunResult(load=3.1, at_once=2).disturbed
 
 
+def change(values, **changes):
+    """The change of a quantity with values (points, samples) in a study without a reference."""
+    study = study_of(len(values), **{"limit": None, **changes})
+    study.reference = None
+    points = points_on(len(values))[1:]
+    results = [[RunResult(known=True, values=[value]) for value in samples] for samples in values]
+    return effects.changes_of(study, points, evaluation.evaluate(study, points, results))[0]
+
+
+def test_an_effect_on_every_sample_is_resolved_although_the_samples_scatter_more():
+    """The samples differ by 0.05, the points by 0.01. With two points the interval is Student's of the paired differences."""
+    samples, other = np.array([0.38, 0.40, 0.41, 0.43]), np.array([1, -1, 2, -1]) * 1e-3
+    found = change([samples, samples + 0.01 + other])
+    assert (found["verdict"], found["smallest_at"], found["largest_at"], found["samples"]) == ("resolved", "0", "1", 4)
+    assert found["change"] == pytest.approx(statistics.paired(samples, samples + 0.01 + other).difference, rel=1e-6)
+
+
+def test_an_absent_effect_looks_resolved_in_one_study_of_twenty():
+    """Five points that differ by scatter alone. Student's interval of the two extreme points would call 18 % resolved."""
+    random = np.random.default_rng(1)
+    found = [effects.change_between(random.normal(size=(5, 4)))[0].low > 0 for _ in range(2000)]
+    assert 0.035 < np.mean(found) < 0.065
+
+
+def test_as_many_samples_are_asked_for_as_resolve_the_change():
+    """Paired differences of 1 +- 2: t(0.975, n - 1) 2 / sqrt(n) is 1.028 for 17 samples and 0.995 for 18."""
+    differences = 1 + math.sqrt(3) * np.array([-1, 1, -1, 1])
+    found = change([np.array([3, 1, 4, 1]), np.array([3, 1, 4, 1]) + differences])
+    assert (found["verdict"], found["samples_needed"]) == ("not resolved", 18)
+
+
+def test_a_change_of_lines_is_a_turn_and_a_sample_without_a_value_does_not_count():
+    found = change([[89, 88, math.nan, 89.5], [-89, -90, 80, -89]], line=True)
+    assert found["change"].value == pytest.approx(11 / 6) and found["samples"] == 3 and found["verdict"] == "resolved"
+    assert change([[1, math.nan, 3, math.nan], [math.nan, 1, 2, 4]])["verdict"] == "unknown"
+    assert change([[1, 2, 3, 4]] * 2)["verdict"] == "no change"
+
+
 AXES = [{"key": "discrete/step", "values": [0.1, 0.2]}, {"key": "discrete/friction", "values": [0.3, 0.4, 0.5]}]
 FILE = {"scene": "scene.prm", "command": "discrete", "axes": AXES, "reference": {"discrete/step": 0.1},
         "quantities": [{"strength": [0.005, 0.02]}]}
@@ -203,7 +241,8 @@ def test_contradictory_settings_refuse_only_their_point(read):
     ({"quantities": [{"column": "stres_ratio", "last": True}]}, ["stres_ratio", "stress_ratio"]),
     ({"quantities": [{"strength": [0.02, 0.01]}]}, ["ascending"]),
     ({"quantities": [{"last": True, "largest": True, "column": "time"}]}, ["exactly one of"]),
-    ({"quantities": []}, ["quantities", "missing or empty"]), ({"reference": None}, ["'reference' is missing"]),
+    ({"quantities": []}, ["quantities", "missing or empty"]),
+    ({"reference": None, "quantities": [{"strength": [0, 1], "limit": {"relative": 1}}]}, ["limit", "'reference' is missing"]),
     ({"quantities": [{"of": "continuum", "strength": [0.005, 0.02]}]}, ["discrete does not write", "continuum"]),
     ({"reference": {"loading/axial_strain": 0.013}}, ["the reference is refused", "0.013"]),
     ({"command": "run", "quantities": [{"number": "window 0-0.01 discrete band width"}]}, ["'width'", "nearest"]),
@@ -236,17 +275,7 @@ def test_ctrl_c_keeps_an_ensemble_of_a_dict_and_the_same_call_goes_on(tmp_path, 
         found.points
 
 
-def test_a_study_of_a_dict_gives_data_frames_and_explained_keys(tmp_path):
-    steps = {"scene": os.path.join(diptych.benchmarks_dir(), "moreau_quick", "scene.prm"), "command": "material-point",
-             "set": {"loading/axial_strain": 0.02}, "reference": {"continuum/initial_step": 1e-5},
-             "axes": [{"key": "continuum/initial_step", "values": [4e-4, 2e-4, 1e-4], "converges": True}],
-             "quantities": [{"name": "peak", "column": "stress_ratio", "largest": True, "limit": {"relative": 0.01}}]}
-    with pytest.raises(diptych.SceneError, match="'quantities'"):
-        diptych.study({**steps, "quantity": []}, tmp_path / "out")
-    found = diptych.study(steps, tmp_path / "out", jobs=2)
-    assert list(found.points["class"]) == ["right"] * 4 and found.points["peak"][0] == 0
-    assert len(found.table) == 4 and found.cost["runs"] == 4
-    assert found.numbers["points"][1]["quantities"][0]["error"]["low"] is None  # one sample has no interval
+def expect_explained(found):
     explained = pd.read_csv(os.path.join(os.path.dirname(statistics.__file__), "result_entries.tsv"), sep="\t", keep_default_na=False)
 
     def keys(record, place=""):
@@ -258,6 +287,33 @@ def test_a_study_of_a_dict_gives_data_frames_and_explained_keys(tmp_path):
 
     for file, record in (("study.json", found.numbers), ("study_cost.json", found.cost)):
         assert set(keys(record)) <= set(explained[explained.file == file].entry)
+
+
+def test_parameters_of_a_dict_give_means_and_changes(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    scene = {"sample": {"grains": 150}, "loading": {"axial_strain": 0.01, "inertial_number": 1e-3}}
+    found = diptych.study(scene, "out", vary={"discrete/friction": [0.1, 0.6]}, seeds=range(1, 4), panels="discrete")
+    peaks = found.effects[found.effects.quantity == "peak t/s"]
+    assert list(peaks["discrete/friction"]) == [0.1, 0.6] and list(peaks.n) == [3, 3] and set(peaks.panel) == {"grains"}
+    assert found.changes["change.value"][0] == pytest.approx(peaks["mean"].iloc[1] - peaks["mean"].iloc[0])
+    assert found.changes["verdict"][0] == "resolved"
+    expect_explained(found)
+    with pytest.raises(AttributeError, match="effects"):
+        found.points
+
+
+def test_a_study_of_a_dict_gives_data_frames_and_explained_keys(tmp_path):
+    steps = {"scene": os.path.join(diptych.benchmarks_dir(), "moreau_quick", "scene.prm"), "command": "material-point",
+             "set": {"loading/axial_strain": 0.02}, "reference": {"continuum/initial_step": 1e-5},
+             "axes": [{"key": "continuum/initial_step", "values": [4e-4, 2e-4, 1e-4], "converges": True}],
+             "quantities": [{"name": "peak", "column": "stress_ratio", "largest": True, "limit": {"relative": 0.01}}]}
+    with pytest.raises(diptych.SceneError, match="'quantities'"):
+        diptych.study({**steps, "quantity": []}, tmp_path / "out")
+    found = diptych.study(steps, tmp_path / "out", jobs=2)
+    assert list(found.points["class"]) == ["right"] * 4 and found.points["peak"][0] == 0
+    assert len(found.table) == 4 and found.cost["runs"] == 4
+    assert found.numbers["points"][1]["quantities"][0]["error"]["low"] is None  # one sample has no interval
+    expect_explained(found)
     with pytest.raises(diptych.SceneError, match="--resume"):
         diptych.study(steps, tmp_path / "out")
     assert diptych.Campaign.load(tmp_path / "out").numbers == found.numbers

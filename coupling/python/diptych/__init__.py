@@ -29,7 +29,11 @@ from .shipped import benchmarks_dir, notebooks_dir
 
 
 def __getattr__(name: str) -> object:
-    """Campaigns need pandas and SciPy, which load only with them."""
+    """Campaigns and homogenise() need pandas and SciPy, which load only with them."""
+    if name in ("Homogenised", "homogenise"):
+        from . import homogenisation
+
+        return getattr(homogenisation, name)
     if name in ("CalibrationResult", "Campaign", "PlanResult", "calibrate", "ensemble", "plan", "study"):
         from .campaigns import api
 
@@ -39,7 +43,7 @@ def __getattr__(name: str) -> object:
 
 __all__ = [
     "Band", "BandReport", "CalibrationResult", "Campaign", "Comparison", "Contacts", "ContinuumPanel", "ContinuumSnapshot", "DiscretePanel",
-    "DiscreteSnapshot", "History", "Interval", "Mesh", "NotConverged", "PanelResults", "PlanResult", "Record", "Results", "SceneError", "SceneWarning", "Stopped", "StressMap",
-    "__version__", "benchmarks_dir", "biaxial", "calibrate", "compare", "contacts", "ensemble", "find_bands", "grid", "increment", "integrate",
+    "DiscreteSnapshot", "History", "Homogenised", "Interval", "Mesh", "NotConverged", "PanelResults", "PlanResult", "Record", "Results", "SceneError", "SceneWarning", "Stopped", "StressMap",
+    "__version__", "benchmarks_dir", "biaxial", "calibrate", "compare", "contacts", "ensemble", "find_bands", "grid", "homogenise", "increment", "integrate",
     "keys", "load", "map_stress", "notebooks_dir", "plan", "principal", "probe", "scene", "shear_strain", "solve", "strips", "study", "theory_lines",
 ]

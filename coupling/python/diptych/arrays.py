@@ -5,14 +5,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from . import plotting
+
 if TYPE_CHECKING:
     import pandas
+    from matplotlib.axes import Axes
 
 Array = NDArray[Any]
 
@@ -33,8 +36,12 @@ class History(dict[str, Array]):
         frame.attrs["unit"] = self.unit
         return frame
 
+    def plot(self, column: str = "stress_ratio", ax: Axes | None = None, **look: Any) -> Axes:
+        """Draws a column over the loading variable. look: options of matplotlib's plot()."""
+        return plotting.draw_history(self, column, ax, look)
+
     def __repr__(self) -> str:
-        return f"History({len(next(iter(self.values()), ()))} rows of {', '.join(self)})"
+        return f"<History: {len(next(iter(self.values()), ()))} rows, {len(self)} columns: {', '.join([*self][:5])}, ...>"
 
 
 class Interval(NamedTuple):
@@ -55,7 +62,7 @@ class Record(dict[str, Any]):
             raise AttributeError(f"there is no '{name}'; there are {', '.join(self)}") from None
 
     def __repr__(self) -> str:
-        return f"Record({', '.join(self)})"
+        return f"<Record: {', '.join(self)}>"
 
 
 class Mesh(NamedTuple):
@@ -63,6 +70,9 @@ class Mesh(NamedTuple):
 
     nodes: Array
     cells: Array
+
+    def __repr__(self) -> str:
+        return f"<Mesh: {len(self.nodes)} nodes, {len(self.cells)} cells>"
 
     @property
     def polygons(self) -> Array:
@@ -73,6 +83,16 @@ class Mesh(NamedTuple):
     def centres(self) -> Array:
         """(k, 2): means of the corners."""
         return np.asarray(self.polygons.mean(axis=1))
+
+
+# quantity -> label of its colour bar
+_MAPS = {"t_over_s": "t/s", "s": "mean stress s [pressure]", "t": "shear stress t [pressure]", "solid_fraction": "solid fraction",
+         "sxx": "sxx [pressure]", "sxy": "sxy [pressure]", "syx": "syx [pressure]", "syy": "syy [pressure]"}
+
+
+def _shear(stress: Array) -> Array:
+    """(s1 - s2)/2 of the symmetric part of (..., 2, 2)."""
+    return np.asarray(0.5 * np.hypot(stress[..., 0, 0] - stress[..., 1, 1], stress[..., 0, 1] + stress[..., 1, 0]))
 
 
 @dataclass(repr=False)
@@ -100,8 +120,7 @@ class StressMap:
     @property
     def t(self) -> Array:
         """(k): shear stress (s1 - s2)/2 >= 0 [pressure]."""
-        sym = self.symmetric
-        return np.asarray(np.hypot(0.5 * (sym[:, 0, 0] - sym[:, 1, 1]), sym[:, 0, 1]))
+        return _shear(self.stress)
 
     @property
     def t_over_s(self) -> Array:
@@ -113,8 +132,21 @@ class StressMap:
         """(2, 2): mean stress over all cells [pressure]."""
         return np.asarray(np.einsum("k,kab->ab", self.area, self.stress) / self.area.sum())
 
+    def plot(self, quantity: str = "t_over_s", ax: Axes | None = None, **look: Any) -> Axes:
+        """Draws the cells coloured by t_over_s, s, t, solid_fraction, sxx, sxy, syx or syy. Cells that grains do not cover are
+        grey. look: options of matplotlib's PolyCollection, such as cmap and clim."""
+        if quantity not in _MAPS:
+            raise ValueError(f"quantity = '{quantity}' is not allowed; there are {', '.join(_MAPS)}")
+        component = ["sxx", "sxy", "syx", "syy"].index(quantity) if len(quantity) == 3 else None
+        values = getattr(self, quantity) if component is None else self.stress.reshape(-1, 4)[:, component]
+        return plotting.draw_cells(self.mesh, np.where(self.covered, values, np.nan), _MAPS[quantity], ax, look)
 
-@dataclass
+    def __repr__(self) -> str:
+        ratio = _shear(self.total) / (0.5 * np.trace(self.total))
+        return f"<StressMap: {len(self.area)} cells, t/s of the mean stress {ratio:.3g}>"
+
+
+@dataclass(repr=False)
 class Band:
     """A shear band: u = c + G x + (J/2) tanh((n.(x - centre) - offset) / half_width), n its normal with n_y >= 0."""
 
@@ -136,6 +168,13 @@ class Band:
         angle = np.radians(self.angle_deg)
         return np.array([-np.sin(angle), np.cos(angle)])
 
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws the middle (solid) and the edges of the 10-90 % width (dashed), on a map or alone."""
+        return plotting.draw_bands([self], ax, (6 * self.width_10_90, 6 * self.width_10_90))
+
+    def __repr__(self) -> str:
+        return f"<Band: angle {self.angle_deg:.1f} degrees, 10-90 % width {self.width_10_90:.3g}, jump {self.jump:.3g}>"
+
     def line(self, length: float, at: float = 0.0) -> Array:
         """(2, 2): ends of a line of this length along the middle of the band. `at` shifts the line across the band, in half widths
         (1.0986: the edge of the 10-90 % width)."""
@@ -145,7 +184,7 @@ class Band:
         return np.array([middle - along, middle + along])
 
 
-@dataclass
+@dataclass(repr=False)
 class BandReport:
     """Bands of a displacement field, the strongest first. No band: the field is diffuse."""
 
@@ -155,4 +194,11 @@ class BandReport:
     bic: Array  # (3): for no, one and two bands
     residual: Array  # (3): misfit / |platen increment|
     n_effective: float  # independent samples assumed
-    frame: dict[str, Any] = field(repr=False)  # reference lengths: centre, width, height, ...
+    frame: dict[str, Any]  # reference lengths: centre, width, height, ...
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws all bands as Band.plot() does; alone in a box as large as the sample."""
+        return plotting.draw_bands(self.bands, ax, (self.frame["width"], self.frame["height"]))
+
+    def __repr__(self) -> str:
+        return f"<BandReport: {len(self.bands)} bands; {self.verdict}>"

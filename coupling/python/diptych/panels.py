@@ -17,6 +17,10 @@ from .errors import NotConverged
 
 OnStep = Optional[Callable[[dict[str, Any]], Any]]
 
+_diptych.DiscreteSnapshot.__repr__ = lambda s: f"<DiscreteSnapshot: {len(s.position)} grains, progress {s.progress:.4g}>"
+_diptych.ContinuumSnapshot.__repr__ = lambda s: f"<ContinuumSnapshot: {len(s.position)} nodes, progress {s.progress:.4g}>"
+_diptych.Contacts.__repr__ = lambda contacts: f"<Contacts: {len(contacts)}>"
+
 
 class _Panel:
     """The common part of both panels."""
@@ -100,7 +104,7 @@ class _Panel:
         return self.advance(len(self.stages))
 
     def write(self, folder: str | os.PathLike[str]) -> None:
-        """Writes snapshots and history like the program (.h5, .xdmf, .csv). Raises FileNotFoundError if the folder does not exist.
+        """Writes snapshots and history like the program (.h5, .pvd, .csv). Raises FileNotFoundError if the folder does not exist.
         Raises FileExistsError for a result folder of the program, whose files have checksums."""
         if not os.path.isdir(folder):
             raise FileNotFoundError(f"{os.fspath(folder)}: no such folder")

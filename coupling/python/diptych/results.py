@@ -9,12 +9,13 @@ import os
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from . import _diptych, scenes
+from . import _diptych, plotting, scenes
 from .arrays import History, Mesh
 from .panels import ContinuumPanel, DiscretePanel
 
 if TYPE_CHECKING:
     import pandas
+    from matplotlib.axes import Axes
 
 
 class PanelResults:
@@ -31,6 +32,9 @@ class PanelResults:
 
     def _results(self) -> Any:
         return self._kept
+
+    def __repr__(self) -> str:
+        return f"<PanelResults: {len(self.snapshots)} snapshots, {len(self.history['step'])} steps>"
 
 
 @dataclass(repr=False)
@@ -50,6 +54,23 @@ class Results:
 
         return pandas.read_csv(os.path.join(self.folder, "summary.csv"), index_col="quantity")
 
+    def plot(self, column: str = "stress_ratio", ax: Axes | None = None) -> Axes:
+        """Draws a column of the histories over the loading variable, for each panel that has it."""
+        histories = {name: panel.history for name, panel in self._panels() if column in panel.history}
+        if not histories:
+            raise ValueError(f"column = '{column}' is not allowed: no panel has it")
+        for name, history in histories.items():
+            ax = history.plot(column, ax, label=name, **plotting.PANELS[name])
+        ax.legend(frameon=False)
+        return ax
+
+    def __repr__(self) -> str:
+        return f"<Results of {os.path.basename(os.path.normpath(self.folder))!r}: {' and '.join(dict(self._panels()))}>"
+
+    def _panels(self) -> list[tuple[str, PanelResults]]:
+        both = (("grains", self.discrete), ("continuum", self.continuum))
+        return [(name, panel) for name, panel in both if panel is not None]
+
 
 @dataclass(repr=False)
 class Comparison:
@@ -62,6 +83,9 @@ class Comparison:
     def mesh(self, stage: int = -1) -> Mesh:
         """The deformed mesh of the continuum at a stage."""
         return Mesh(self.fields[stage]["nodes"], self.fields[stage]["cells"])
+
+    def __repr__(self) -> str:
+        return f"<Comparison: {len(self.numbers['stages'])} stages, {len(self.numbers['windows'])} windows>"
 
 
 def _panel(folder: str, name: str) -> PanelResults | None:

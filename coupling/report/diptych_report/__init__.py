@@ -1,6 +1,6 @@
 # diptych: the report of a result folder
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""page -> charts, tables -> data; data knows none of the others."""
+"""page -> charts, tables -> data; data uses none of the others."""
 
 
 class InputError(Exception):

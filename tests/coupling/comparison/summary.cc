@@ -133,13 +133,14 @@ namespace
     const std::vector<KeyNumber> numbers = key_numbers(c);
     ASSERT_EQ(numbers.size(), 5u);
     EXPECT_NEAR(numbers[0].difference.value, -0.04, 1e-15);
-    EXPECT_EQ(numbers[0].verdict, "no interval from one sample");
+    EXPECT_EQ(numbers[0].verdict, "one sample");
     EXPECT_EQ(numbers[1].verdict, "not in both panels") << "no strength";
     EXPECT_EQ(numbers[3].difference.value, -4);
     EXPECT_EQ(numbers[3].verdict, "different");
     EXPECT_EQ(numbers[4].grains.value, 2);
     EXPECT_EQ(numbers[4].verdict, "cannot tell");
-    EXPECT_NE(csv_of(numbers).find("\npeak t/s,-,0.4,,,0.36,,,-0.04,,,no interval from one sample\n"), std::string::npos);
+    EXPECT_NE(csv_of(numbers).find("\npeak t/s,-,0.4,,,0.36,,,-0.04,,,one sample\n"), std::string::npos);
+    EXPECT_NE(text_of(numbers).find("--seeds 1-8"), std::string::npos);
   }
 
   TEST(Summary, WithoutABandThereIsNoDifference)

@@ -46,11 +46,24 @@ namespace
   {
     const Scene fine = scene_with({"continuum/internal_length=1"}), coarse = scene_with({"continuum/internal_length=10"}),
                 local = scene_with({"continuum/law=mohr_coulomb"});
-    EXPECT_EQ(fine.continuum.element_size, 1.5);
-    EXPECT_EQ(fine.comparison.coarse_element_size, 3);
+    EXPECT_EQ(fine.continuum.element_size, 1);
+    EXPECT_EQ(fine.comparison.coarse_element_size, 2);
     EXPECT_EQ(coarse.continuum.element_size, 3);
     EXPECT_EQ(local.continuum.element_size, 2);
     EXPECT_EQ(scene_with({"continuum/element_size=8"}).comparison.coarse_element_size, 16);
+  }
+
+  TEST(DerivedKeys, LoadStepsFitTheLoadingAndEachOther)
+  {
+    const auto steps = [](const Words &overrides) {
+      const Scene scene = scene_with(overrides);
+      return std::vector<double>{scene.continuum.initial_step, scene.continuum.max_step};
+    };
+    EXPECT_EQ(steps({}), (std::vector<double>{0.001, 0.00125}));
+    EXPECT_EQ(steps({"continuum/initial_step=0.002"}), (std::vector<double>{0.002, 0.002}));
+    EXPECT_EQ(steps({"continuum/max_step=0.0005"}), (std::vector<double>{0.0005, 0.0005}));
+    EXPECT_EQ(steps({"loading/axial_strain=1e-6", "loading/stage_strain=1e-6"}), (std::vector<double>{1e-5, 1e-5}));
+    EXPECT_EQ(steps({"loading/mode=time", "loading/duration=64"})[1], 2);
   }
 
   TEST(DerivedKeys, TheLawIsStrongerWithMoreFriction)

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/store/continuum_snapshot_file.h"
 
-#include <map>
-#include <regex>
 #include <set>
 
 #include <hdf5.h>
@@ -212,70 +210,5 @@ namespace
                               "upper_fy,newton_iterations,linear_iterations,factorisations,cut_backs,plastic_share,"
                               "share_zz_not_intermediate,max_equivalent_plastic_strain,assembly_cpu_s,solve_cpu_s,";
     EXPECT_EQ(read_text(folder / "continuum.csv").substr(0, first.size()), first);
-  }
-
-  const std::map<std::string, std::string> node_fields = {{"displacement", "Vector"},
-                                                          {"rotation", "Scalar"},
-                                                          {"weight", "Scalar"}};
-  const std::map<std::string, std::string> cell_fields = {{"stress", "Tensor"},
-                                                          {"strain", "Tensor"},
-                                                          {"plastic_strain", "Tensor"},
-                                                          {"couple_stress", "Vector"},
-                                                          {"area", "Scalar"},
-                                                          {"equivalent_plastic_strain", "Scalar"},
-                                                          {"dissipation", "Scalar"},
-                                                          {"overstress", "Scalar"},
-                                                          {"share_zz_not_intermediate", "Scalar"},
-                                                          {"acoustic_determinant", "Scalar"},
-                                                          {"localisation_angle", "Scalar"},
-                                                          {"friction_angle", "Scalar"},
-                                                          {"solid_fraction", "Scalar"}};
-
-  // ParaView takes names, kinds and extents from the .xdmf and the numbers from the .h5.
-  TEST(ContinuumSnapshotFile, XdmfListsEveryFieldWithTheExtentsOfItsDataset)
-  {
-    const Folder folder;
-    {
-      ContinuumSnapshotFile file(folder / "continuum");
-      file.add(example(2, 0.1, true));
-      file.add(example(3, 0.3, false));
-      file.close();
-    }
-    const std::string xdmf = read_text(folder / "continuum.xdmf");
-
-    std::set<std::string> listed, expected;
-    const std::regex      attribute("<Attribute Name=\"(\\w+)\" AttributeType=\"(\\w+)\" Center=\"(\\w+)\"><DataItem[^>]*>"
-                                         "continuum.h5:/(\\w+)/(\\w+)/(\\w+)<");
-    for (std::sregex_iterator m(xdmf.begin(), xdmf.end(), attribute), end; m != end; ++m)
-      {
-        EXPECT_EQ((*m)[1], (*m)[6]);
-        EXPECT_EQ((*m)[5], (*m)[3] == "Node" ? "nodes" : "cells");
-        listed.insert((*m)[4].str() + ' ' + (*m)[1].str() + ' ' + (*m)[2].str() + ' ' + (*m)[3].str());
-      }
-    for (const std::string stage : {"stage_0000", "stage_0001"})
-      {
-        for (const auto &[name, type] : node_fields)
-          if (stage == "stage_0000" || name != "rotation")
-            expected.insert(stage + ' ' + name + ' ' + type + " Node");
-        for (const auto &[name, type] : cell_fields)
-          expected.insert(stage + ' ' + name + ' ' + type + " Cell");
-      }
-    EXPECT_EQ(listed, expected);
-
-    const discrete::Hdf5Reader file(folder / "continuum.h5");
-    const std::regex           item("<DataItem [^>]*Dimensions=\"([0-9 ]+)\">continuum.h5:/([^<]+)<");
-    std::size_t                n_items = 0;
-    for (std::sregex_iterator m(xdmf.begin(), xdmf.end(), item), end; m != end; ++m, ++n_items)
-      {
-        std::string extents;
-        for (const std::size_t n : file.extents((*m)[2]))
-          extents += (extents.empty() ? "" : " ") + std::to_string(n);
-        EXPECT_EQ((*m)[1], extents) << (*m)[2];
-      }
-    EXPECT_EQ(n_items, expected.size() + 2 * 2); // and topology and geometry of both stages
-    EXPECT_NE(xdmf.find("<Time Value=\"0.1\"/>"), std::string::npos);
-    EXPECT_NE(xdmf.find("/cells/stress<"), std::string::npos);
-    EXPECT_NE(xdmf.find("Dimensions=\"4 3 3\""), std::string::npos);
-    EXPECT_NE(xdmf.find("Dimensions=\"9 3 3\""), std::string::npos);
   }
 } // namespace

@@ -21,7 +21,7 @@ namespace
     return course.snapshots;
   }
 
-  // Snapshots in a file, with the file that shows them in ParaView.
+  // Snapshots in a file.
   struct Output : testing::Test
   {
     const Folder      folder;
@@ -60,20 +60,6 @@ namespace
     EXPECT_EQ(read[1].window_forces.size(), written[1].window_forces.size());
     EXPECT_TRUE(read[1].window_dissipation.empty());
     EXPECT_EQ(read[2].window_dissipation, written[2].window_dissipation);
-  }
-
-  // ParaView finds the numbers through the .xdmf file: points, and one value for each.
-  TEST_F(Output, XdmfShowsTheDissipationAtThePairsOfItsWindow)
-  {
-    const std::vector<Snapshot> written = short_run();
-    write_snapshots(stem, written);
-    const std::string xdmf = read_text(stem + ".xdmf");
-    for (const auto &[extents, array] : {std::pair{"", "dissipation<"}, std::pair{" 3", "force<"}, std::pair{" 3", "point<"}})
-      {
-        const std::string item = "Dimensions=\"" + std::to_string(written[2].window_forces.size()) + extents + "\">" +
-                                 "run.h5:/stage_0002/window/" + array;
-        EXPECT_NE(xdmf.find(item), std::string::npos) << item;
-      }
   }
 
   TEST_F(Output, AttributesAreFiniteUnlessTheirMeaningSaysOtherwise)

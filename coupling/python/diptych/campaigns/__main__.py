@@ -15,17 +15,18 @@ from .engine import NOT_CONVERGED, SYSTEM_FAILURE, WRONG_INPUT, Options, complai
 
 
 COMMANDS = {"run": ("ensemble", "run_ensemble"), "compare": ("ensemble", "compare_again"), "study": ("study", "run_study"),
-            "plan": ("plan", "main_plan"), "calibrate": ("calibration", "run_calibration")}
+            "plan": ("plan", "main_plan"), "calibrate": ("calibration", "run_calibration"),
+            "homogenise": ("homogenise", "run_homogenise")}
 
 
 def parsed(words: Sequence[str]) -> argparse.Namespace:
-    """The words of a command line. All commands share their options; the program refuses those that a command does not have."""
+    """The words of a command line. Commands of scenes share their options; the program refuses those that a command does not have."""
     parser = argparse.ArgumentParser(prog="diptych", allow_abbrev=False)
     for name in ("command", "target"):
         parser.add_argument(name)
-    for option in ("--output", "--seeds", "--accuracy", "--for"):
+    for option in ("--output", "--seeds", "--accuracy", "--for", "--panels"):
         parser.add_argument(option, default="")
-    for option in ("--set", "--set-file"):
+    for option in ("--set", "--set-file", "--vary"):
         parser.add_argument(option, action="append", default=[])
     for option, default in (("--jobs", 0), ("--threads", 1)):
         parser.add_argument(option, type=int, default=default)
@@ -39,16 +40,16 @@ def parsed(words: Sequence[str]) -> argparse.Namespace:
 
 def main(words: Sequence[str]) -> int:
     """Does a command and returns its exit code; an error is a message."""
-    line = parsed(words)
-    module, function = COMMANDS[line.command]  # pandas and SciPy load only now
+    module, function = COMMANDS[words[0]]
     try:
-        command = getattr(importlib.import_module("." + module, __package__), function)
-        return command(line, Options(line.jobs, line.threads, line.quiet, line.resume, line.overwrite, words))
+        loaded = importlib.import_module("." + module, __package__)  # pandas and SciPy load only now
+        line = getattr(loaded, "parsed", parsed)(words)  # a command may have options of its own
+        return getattr(loaded, function)(line, Options(line.jobs, line.threads, line.quiet, line.resume, line.overwrite, words))
     except Stopped as stopped:
         code, text = NOT_CONVERGED, str(stopped)
     except ValueError as error:
         code, text = WRONG_INPUT, str(error)
-    except (OSError, RuntimeError, MemoryError) as error:
+    except (OSError, RuntimeError, MemoryError, ImportError) as error:
         code, text = SYSTEM_FAILURE, str(error) or "out of memory"
     complain(f"diptych: {text}")
     return code

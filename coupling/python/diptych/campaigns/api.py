@@ -67,14 +67,39 @@ class Campaign(CampaignResult):
 
     @property
     def points(self) -> pd.DataFrame:
-        """A study: the points with class, certainty and the mean error of each quantity."""
+        """A study with a reference: the points with class, certainty and the mean error of each quantity."""
         if "points" not in self.numbers:
             raise AttributeError("an ensemble has no points; use .verdicts or .table")
+        if self.numbers.get("changes"):
+            raise AttributeError("a study without a reference has no errors; use .effects, .changes or .table")
         names = [quantity["name"] for quantity in self.numbers["quantities"]]
         return pd.DataFrame([{"family": point["family"], "settings": "; ".join(point["settings"]), "class": point["class"],
                               "certain": point["certain"],
                               **{name: one["error"]["value"] for name, one in zip(names, point["quantities"])}}
                              for point in self.numbers["points"]])
+
+    def summary(self) -> pd.DataFrame:
+        """An ensemble: the rows and columns of Results.summary(), with means over the samples and their 95 % intervals."""
+        if "summary" not in self.numbers:
+            raise AttributeError("a study has no summary; use .points or .table")
+        table = pd.json_normalize(self.numbers["summary"], sep="_").rename(columns=lambda name: name.removesuffix("_value"))
+        numbers = [of + end for of in ("grains", "continuum", "difference") for end in ("", "_low", "_high")]
+        return table.set_index("quantity")[["unit", *numbers, "verdict"]].astype(dict.fromkeys(numbers, float))
+
+    @property
+    def effects(self) -> pd.DataFrame:
+        """A study without a reference, effects.csv: a row per point, quantity and panel. The values of the parameters come first,
+        then quantity, panel, unit, n, mean, low and high (95 % interval), deviation (standard deviation of one sample)."""
+        path = os.path.join(self.folder, "effects.csv")
+        if not self.numbers.get("changes"):
+            raise AttributeError("no effects of parameters here; a study has them if it has no reference")
+        return pd.read_csv(path, float_precision="round_trip")
+
+    @property
+    def changes(self) -> pd.DataFrame:
+        """The same study: a row per parameter, quantity and panel with change.value, change.low, change.high, verdict and
+        samples_needed."""
+        return pd.json_normalize(self.numbers.get("changes", []))
 
     @property
     def verdicts(self) -> pd.DataFrame:
@@ -129,15 +154,15 @@ class PlanResult(CampaignResult):
 
 
 @contextmanager
-def _file_of(command: str, contents: Mapping[str, Any] | PathLike, output: str) -> Iterator[str]:
+def _file_of(command: str, holds_scene: bool, contents: Mapping[str, Any] | PathLike, output: str) -> Iterator[str]:
     """A path as it is. A dict is a file during the call, called like the output folder, in the working directory: its paths
     begin there."""
     if not isinstance(contents, Mapping):
         yield os.fspath(contents)
         return
     name, record = os.path.basename(os.path.normpath(output)), {}
-    if command in ("study", "calibrate"):
-        record = {"title": name, **contents}
+    if not holds_scene:
+        record = {"title": name, **contents} if command == "calibrate" or "reference" in contents else contents
     else:
         for section, key, text in changes(contents):
             record.setdefault(section, {})[key] = text
@@ -179,10 +204,13 @@ def _result(kind: type[Result], command: str, contents: Mapping[str, Any] | Path
     words = ["--output", output, "--quiet"]
     for key, value in options.pop("set", {}).items():
         words += ["--set", f"{key}={text_of(value)}"]
+    for key, values in options.get("vary", {}).items():
+        words += ["--vary", f"{key}={text_of(values)}"]
+    holds_scene = bool(options.pop("vary", None)) or command not in ("study", "calibrate")
     for name, value in options.items():
         if value is not False:
             words += ["--" + name] if value is True else ["--" + name, str(value)]
-    with _file_of(command, contents, output) as file:
+    with _file_of(command, holds_scene, contents, output) as file:
         code, text, stopped = _run([command, file, *words])
     if stopped:
         text = text.partition("; to go on")[0] or "stopped on request"
@@ -201,6 +229,8 @@ def study(contents: Mapping[str, Any] | PathLike, output: PathLike, **options: A
               Seeds are a text such as "1-8", a list or a range
     output    folder of the results
     options   those of `diptych study`: jobs=2, threads=1, resume=True, overwrite=True, set={"section/key": value}
+              With vary={"discrete/friction": [0.2, 0.3]} the contents are a scene: a path, or a dict as in diptych.scene().
+              seeds=range(1, 4) are then the samples of each point, panels="discrete" runs one panel
 
     A dict is a file of the working directory during the call, OUTPUT.json; messages name it with its lines. They also name
     the options of the command line: for --resume add resume=True to the same call.
@@ -210,6 +240,8 @@ def study(contents: Mapping[str, Any] | PathLike, output: PathLike, **options: A
     """
     if isinstance(contents, Mapping) and "seeds" in contents:
         contents = {**contents, "seeds": _seeds(contents["seeds"])}
+    if "seeds" in options:
+        options["seeds"] = _seeds(options["seeds"])
     return _result(Campaign, "study", contents, output, options)
 
 

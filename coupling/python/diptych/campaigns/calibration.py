@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import json
 import re
 from collections import Counter
 from collections.abc import Callable, Sequence
@@ -157,7 +158,7 @@ class Calibrator:
                 "chi2": self._chi2(fit.residual) if np.isfinite(fit.chi2) else np.nan}
 
     def _report(self, fine: Fit, coarse: Fit) -> tuple[Knowledge, Array]:
-        """A misfit beyond noise and model tolerance counts as noise, too."""
+        """A misfit beyond noise and model tolerance also counts as noise."""
         data, record = self.data, self.record
         jacobian = data.unweighted(fine.jacobian[:len(data.mean)])
         record["misfit"] = np.sqrt(record["chi2"] / expected_chi2(jacobian, data.weights, data.of_means(True)))
@@ -330,12 +331,13 @@ def run_calibration(line: argparse.Namespace, options: Options) -> int:
     """The command `diptych calibrate FILE`, or SCENE with --seeds. line: target, seeds, set, set_file and output. Returns its
     exit code; 3: stopped, or no convergence, with the best point so far in the folder."""
     contents = _standard(line)
+    text = json.dumps(contents, indent=1) + "\n" if contents else ""
     calibration = read_calibration(line.target, contents)
     coordinates = _checked(calibration)
     directory = line.output or f"results/{calibration.name}_calibration"
     record = empty_record(calibration.title, "grains" if calibration.of_grains else "continuum")
     with Folder(directory) as folder:
-        folder.open_runs("calibration", line.target, options, lambda: _inputs(calibration), contents)
+        folder.open_runs("calibration", line.target, options, lambda: _inputs(calibration), text)
         if contents:
             say(options, f"standard parameters: {directory}/calibration_input.json")
         runs = (GrainRuns if calibration.of_grains else CalibrationRuns)(calibration, directory, options)

@@ -155,7 +155,7 @@ def _target(part: Part) -> Target:
         target.scene = target.results[0] + "/scene.prm"
     else:
         if part.has("curve") and not part.has("scene"):
-            part.refuse(" needs 'scene': the continuum is loaded as this scene says and compared with the curve", "curve")
+            part.refuse(" needs 'scene': this scene loads the continuum, which is compared with the curve", "curve")
         target.scene = part.existing_file("scene")
         if not part.has("curve"):
             part.at("seeds")

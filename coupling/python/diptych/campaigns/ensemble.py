@@ -17,6 +17,7 @@ import pandas as pd
 
 from .. import _diptych
 from ..errors import SceneError
+from . import ensemble_summary
 from .engine import DONE, NOT_CONVERGED, Options, Run, complain, execute, panels, run_program, say
 from .folders import Folder, draw, read_json, write_arrays, write_json, write_text
 from .histories import panel_table, resampled, running_mean
@@ -80,15 +81,6 @@ def _verdicts(bands: Sequence[dict[str, Any]], margins: dict[str, float], member
     return verdicts
 
 
-def _text_of(verdict: dict[str, Any]) -> str:
-    """ "window 0-0.01 band angle_deg: cannot tell: continuum - grains -1.1 [-3.8, 1.6] degrees, margin 3, 8 pairs" """
-    scale = 100 if verdict["relative"] else 1
-    unit = " % of the grains' mean" if verdict["relative"] else "" if verdict["unit"] == "-" else f" {verdict['unit']}"
-    e = verdict["difference"]
-    return (f"{verdict['quantity']}: {verdict['verdict']}: continuum - grains {scale * e.value:.3g} [{scale * e.low:.3g}, "
-            f"{scale * e.high:.3g}]{unit}, margin {scale * verdict['margin']:.3g}, {verdict['n']} pairs")
-
-
 def with_means(members: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """(mean, low, high) of curves (member, point), with the 95 % Student interval; NaN where a member has no value."""
     n = len(members)
@@ -129,9 +121,12 @@ def _record(scene: Any, seeds: Sequence[int], failed: Sequence[dict[str, Any]], 
             _diptych.check_part(folder, part)
         _demand_member(scene, seed)
         members.append(member_of(os.path.join(folder, "comparison.json"), folded))
+    found = evaluate(members, margins)
+    first = read_json(os.path.join(member_folder(scene.directory, done[0]), "comparison.json"))["summary"] if done else []
     return {"format": 1, "scene": scene.name, "seeds": list(seeds), "done": done, "failed": list(failed),
             "interrupted": list(interrupted), "margins": margins, "walk": scene.loading_variable(), "folded": folded,
-            "student_t_95": student_quantile(0.975, n - 1) if n > 1 else math.nan, **evaluate(members, margins)}
+            "student_t_95": student_quantile(0.975, n - 1) if n > 1 else math.nan,
+            "summary": ensemble_summary.summary(first, found), **found}
 
 
 def _write(scene: Any, record: dict[str, Any], options: Options, phase: tuple[str, os.times_result]) -> None:
@@ -151,9 +146,8 @@ def _write(scene: Any, record: dict[str, Any], options: Options, phase: tuple[st
             resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
     _diptych.record_phase(directory, (scene.name, record["seeds"], shlex.join(["diptych", *options.words])), cost)
     _diptych.record_files(directory, "ensemble")
-    for verdict in record["verdicts"]:
-        if verdict["n"]:
-            say(options, _text_of(verdict))
+    if record["summary"]:
+        say(options, ensemble_summary.text_of(record["summary"]))
 
 
 def _member_scene(scene: Any, seed: int) -> Any:

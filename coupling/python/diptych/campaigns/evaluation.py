@@ -10,14 +10,19 @@ from typing import Any
 
 import numpy as np
 
+from .effects import mean_of
 from .points import Point, RunResult
 from .statistics import Interval, jackknife_convergence, known, line_statistics, paired, statistics
 from .study_file import Study
 from .engine import WRONG_INPUT
 
 CLASSES = ("right", "wrong, warned", "silently wrong", "struggled", "stopped", "refused", "unjudged", "not run")
-UNFINISHED = ("not run", "refused", "stopped")
 Results = Sequence[Sequence[RunResult]]  # [point][sample]
+
+
+def is_finished(runs: Sequence[RunResult]) -> bool:
+    """True if every sample of a point ended with exit code 0."""
+    return all(run.known and run.exit_code == 0 for run in runs)
 
 
 def _verdict(limit: float, error: Interval, alone: bool) -> str:
@@ -63,18 +68,22 @@ def _classify(study: Study, runs: Sequence[RunResult], point: dict[str, Any]) ->
 
 
 def evaluate(study: Study, points: Sequence[Point], results: Results) -> list[dict[str, Any]]:
-    """The points as study.json has them: errors are point minus reference, sample by sample."""
+    """The points as study.json has them: errors are point minus reference, sample by sample. Without a reference: means."""
     records = []
     for point, runs in zip(points, results):
-        reference = results[point.reference]
+        values = [[run.values[q] for run in runs] for q in range(len(study.quantities))]
         record = {
-            "family": "reference" if point.family < 0 else study.families[point.family].name, "reference": point.reference,
+            "family": "reference" if point.family < 0 else study.families[point.family].name,
             "labels": point.labels, "settings": point.settings, "folders": [f"runs/{run.name}" for run in point.runs],
             "words": next((run.words for run in runs if run.words), ""), "warned": sum(run.warned for run in runs),
-            "halved_steps": max(run.halved_steps for run in runs), "cut_backs": max(run.cut_backs for run in runs),
-            "quantities": [_quantity_at(quantity, *([run.values[q] for run in on] for on in (reference, runs)), not study.seeds)
-                           for q, quantity in enumerate(study.quantities)]}
-        record["class"], record["certain"] = _classify(study, runs, record)
+            "halved_steps": max(run.halved_steps for run in runs), "cut_backs": max(run.cut_backs for run in runs)}
+        if study.reference is None:
+            record["quantities"] = [mean_of(*one) for one in zip(study.quantities, values)]
+        else:
+            of_reference = [[run.values[q] for run in results[point.reference]] for q in range(len(study.quantities))]
+            record["reference"] = point.reference
+            record["quantities"] = [_quantity_at(*one, not study.seeds) for one in zip(study.quantities, of_reference, values)]
+            record["class"], record["certain"] = _classify(study, runs, record)
         records.append(record)
     return records
 
@@ -152,7 +161,7 @@ def cost_of(study: Study, points: Sequence[Point], results: Results, records: Se
     pairs = [(run.name, result) for point, row in zip(points, results) for run, result in zip(point.runs, row)]
     ended = list({name: result for name, result in reversed(pairs)}.values())  # points may share runs
     everything = [phase for result in ended for phase in result.phases]
-    costs = [_mean_cost(counts, results[k], k) for k, record in enumerate(records) if record["class"] not in UNFINISHED]
+    costs = [_mean_cost(counts, results[k], k) for k in range(len(points)) if is_finished(results[k])]
     cheapest = []
     for reference in range(len(points)):
         # A point that is its own reference has no error and must not compete.

@@ -52,13 +52,14 @@ class Folder:
         KEPT_OPEN.add(self._lock.descriptor)
 
     def open_runs(self, noun: str, input_file: str, options: Options, inputs: Callable[[], list[tuple[str, str]]],
-                  contents: Mapping[str, Any] | None = None) -> None:
-        """Prepares the folder for runs; copies the input file there as NOUN_input.json, or writes the contents that a command
-        line stands for. Raises SceneError for other results."""
-        copy = os.path.join(self.directory, noun + "_input" + (".json" if contents else os.path.splitext(input_file)[1]))
+                  text: str = "") -> None:
+        """Prepares the folder for runs; writes text, or a copy of the input file, there as NOUN_input.json (with text) or with the
+        ending of the file. Raises SceneError for other results."""
+        copy = os.path.join(self.directory, noun + "_input" + (".json" if text else os.path.splitext(input_file)[1]))
         _diptych.require_usable(self.directory, options.resume, options.overwrite)
-        with open(input_file, encoding="utf-8") as file:
-            text = json.dumps(contents, indent=1) + "\n" if contents else file.read()
+        if not text:
+            with open(input_file, encoding="utf-8") as file:
+                text = file.read()
         if options.overwrite and not _diptych.is_empty_folder(self.directory):
             self.set_aside(inputs())
         if not _diptych.is_empty_folder(self.directory) and not os.path.exists(copy):
@@ -147,7 +148,7 @@ def draw(options: Options, page: str, directory: str) -> None:
 
 @dataclass
 class SceneRun:
-    """One scene that a command runs. Without a scene its settings contradict each other, and `refusal` says how."""
+    """One scene that a command runs. Without a scene its settings contradict each other, and `refusal` is the message."""
 
     command: str
     name: str

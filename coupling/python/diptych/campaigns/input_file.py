@@ -113,12 +113,15 @@ class Part:
         pointer = self.pointer if key is None else f"{self.pointer}/{key.replace('/', '~1', 1)}"
         while pointer and pointer not in self.lines:
             pointer = pointer.rpartition("/")[0]
-        return self.lines.get(pointer, 1)
+        return self.lines.get(pointer, 1) if self.lines else 0  # words of a command line have no lines
+
+    def _place(self, line: int) -> str:
+        return f"{self.file}, line {line}" if line else self.file
 
     def refuse(self, why: str, key: str | None = None) -> NoReturn:
         """Raises SceneError at the line of this part, or of its member `key`."""
         line = self._line(key)
-        error = SceneError(f"{self.file}, line {line}: {key or ''}{why}", key)
+        error = SceneError(f"{self._place(line)}: {key or ''}{why}", key)
         error.file, error.line = self.file, line
         raise error
 
@@ -131,11 +134,11 @@ class Part:
                 nearest = _diptych.nearest_name(key, list(keys))
                 self.refuse(f": unknown key; the nearest is '{nearest}'; allowed are {', '.join(keys)}", key)
 
-    def demand_distinct(self, key: str, names: Sequence[str]) -> None:
-        """Refuses a name that the entries of a list have twice."""
+    def demand_distinct(self, key: str, names: Sequence[str], of: str = "") -> None:
+        """Refuses a name that the entries of a list have twice. of: the key whose values they are."""
         for name, count in Counter(names).items():
             if count > 1:
-                self.refuse(f": two have the name '{name}'; give them different names", key)
+                self.refuse(f"{f' of {of}' if of else ''}: '{name}' stands there twice", key)
 
     def has(self, key: str) -> bool:
         return isinstance(self.value, dict) and key in self.value
@@ -211,5 +214,7 @@ class Part:
         section, slash, rest = name.partition("/")
         line = self._line(key)
         if not slash:
-            raise SceneError(f"{self.file}, line {line}: {name} is not a key of a scene; write section/key", name)
+            here = [one for one in _diptych.described_keys() if one.endswith("/" + name)]
+            raise SceneError(f"{self._place(line)}: {name} is not a key of a scene; write section/key"
+                             + (f", such as {here[0]}" if here else ""), name)
         return Setting(section, rest, value_text(value), self.file, line, os.path.dirname(self.file)).check()

@@ -17,6 +17,7 @@ from .engine import WRONG_INPUT
 from .folders import Runs, SceneRun, read_json, run_name
 from .histories import panel_table, reduced
 from .input_file import Setting
+from .key_numbers import key_values
 from .members import member_of
 from .study_file import COMMANDS, Study
 
@@ -25,7 +26,8 @@ MOST_RUNS = 100000
 
 @dataclass
 class Point:
-    """One point. family -1: a reference. `reference` is the index of its reference point; a reference has its own index."""
+    """One point. family -1: a reference. `reference` is the index of its reference point; a reference has its own index, and a
+    point of a study without references has -1."""
 
     family: int = -1
     reference: int = 0
@@ -63,7 +65,7 @@ def _point(study: Study, settings: list[Setting], **place: Any) -> Point:
 
 def points_of(study: Study) -> list[Point]:
     """References first: that of the study, then one for every point of axes with their own references. Then all families, the
-    last axis fastest. Raises SceneError if a reference is refused or if there are more than 100000 runs."""
+    last axis fastest. Raises SceneError if a reference or every point is refused, or if there are more than 100000 runs."""
     n = 1 + sum(math.prod(len(axis.points) for axis in family.axes) if family.grid else len(family.axes[0].points)
                 for family in study.families)
     n_samples = len(study.seeds) or 1
@@ -77,6 +79,10 @@ def points_of(study: Study) -> list[Point]:
             chosen = [axis.points[k] for axis, k in zip(family.axes, places)]
             settings = sum((one.settings for one in chosen), family.settings)
             point = _point(study, settings, family=index, places=places, labels=[one.label for one in chosen])
+            points.append(point)
+            if study.reference is None:
+                point.reference = -1
+                continue
             shared = [(axis.name, one) for axis, one in zip(family.axes, chosen) if axis.own_reference]
             labels = tuple(f"{name} {one.label}" for name, one in shared)
             if labels not in references:
@@ -86,7 +92,9 @@ def points_of(study: Study) -> list[Point]:
                     if run.scene is None:
                         raise SceneError(f"{study.file}: the reference is refused: {run.refusal}")
             point.reference = references[labels].reference
-            points.append(point)
+    every = [run for point in points for run in point.runs]
+    if study.reference is None and all(run.scene is None for run in every):
+        raise SceneError(f"every point is refused: {every[0].refusal}")
     return [*references.values(), *points]
 
 
@@ -147,6 +155,8 @@ def result_of(runs: Runs, run: SceneRun, quantities: Sequence[dict[str, Any]]) -
         numbers: dict[str, tuple[Any, ...]] = {}
         if any(q["source"] == "comparison" for q in quantities):
             numbers = member_of(os.path.join(folder, "comparison.json"), run.scene.is_mirror_symmetric()).numbers
+        keys = key_values(folder, run.scene, result.tables) if any(q["reduction"] == "key number" for q in quantities) else {}
         result.values = [numbers.get(q["column"], (math.nan,))[0] if q["source"] == "comparison"
+                         else keys.get((q["source"], q["name"]), math.nan) if q["reduction"] == "key number"
                          else reduced(result.tables.get(q["source"]), q) for q in quantities]
     return result

@@ -12,6 +12,7 @@ from typing import Any
 
 from .. import _diptych
 from .histories import SOURCES
+from .key_numbers import OF_BOTH_PANELS, OF_ONE_PANEL
 from .input_file import Part, Setting, is_number, name_of, value_text
 
 COMMANDS = {"discrete": ("discrete",), "continuum": ("continuum",), "run": ("discrete", "continuum"),
@@ -67,7 +68,7 @@ class Study:
     command: str = "run"
     settings: list[Setting] = field(default_factory=list)  # of all points
     seeds: list[int] = field(default_factory=list)  # empty: the one sample of the scene
-    reference: list[Setting] = field(default_factory=list)
+    reference: list[Setting] | None = None  # None: values are reported, nothing is judged
     families: list[Family] = field(default_factory=list)
     quantities: list[dict[str, Any]] = field(default_factory=list)
     cost: list[str] = field(default_factory=list)  # phases that count; empty: all except the report
@@ -89,7 +90,7 @@ def _axis(part: Part) -> Axis:
     if not points:
         part.refuse("this axis has no points; give values or points")
     axis = Axis(part.word("name", key.partition("/")[2] or key), points, part.flag("converges"), part.flag("own_reference"))
-    part.demand_distinct("values" if part.has("key") else "points", [point.label for point in points])
+    part.demand_distinct("values" if part.has("key") else "points", [point.label for point in points], key)
     for point in points if axis.converges else []:
         if not point.value > 0:
             part.refuse(f" needs values above 0, which '{point.label}' is not", "converges")
@@ -180,6 +181,30 @@ def _quantity(part: Part, command: str) -> dict[str, Any]:
     return q
 
 
+def _key_quantities(command: str) -> list[dict[str, Any]]:
+    """The key numbers of each panel that runs, and of their difference."""
+    panels = (*COMMANDS[command], "difference") if command == "run" else COMMANDS[command]
+    return [quantity(name, unit=unit, line=line, source=panel, reduction="key number", relative=False)
+            for name, unit, line in (OF_BOTH_PANELS if command == "run" else OF_ONE_PANEL) for panel in panels]
+
+
+def _quantities(root: Part, study: Study) -> list[dict[str, Any]]:
+    """Those of the file. Without a reference it may name none, and it may set no limit."""
+    quantities = [_quantity(part, study.command) for part in root.list("quantities")]
+    if study.reference is None:
+        for part in root.list("quantities"):
+            if part.has("limit"):
+                part.refuse(" is an error against a reference, and 'reference' is missing", "limit")
+        if any(axis.own_reference for family in study.families for axis in family.axes):
+            root.refuse("own_reference needs a reference, and 'reference' is missing")
+        if not root.has("quantities") and study.command != "material-point":
+            quantities = _key_quantities(study.command)
+    if not quantities:
+        root.refuse(" is missing or empty; name at least one quantity", "quantities")
+    root.demand_distinct("quantities", [q["name"] + q["source"] * (q["reduction"] == "key number") for q in quantities])
+    return quantities
+
+
 def _border(part: Part, families: Sequence[Family]) -> dict[str, Any]:
     part.allow("label", "family", "x", "y", "coefficient", "exponent")
     border = {key: part.word(key) for key in ("label", "family", "x", "y")}
@@ -196,7 +221,7 @@ def _border(part: Part, families: Sequence[Family]) -> dict[str, Any]:
 def _demand_one_seed(root: Part, study: Study) -> None:
     """Every point is run with every seed, which would replace a fixed one."""
     points = [point for family in study.families for axis in family.axes for point in axis.points]
-    everything = [study.settings, study.reference, *(one.settings for one in (*study.families, *points))]
+    everything = [study.settings, study.reference or [], *(one.settings for one in (*study.families, *points))]
     for setting in sum(everything, []):
         if study.seeds and (setting.section, setting.key) == ("sample", "seed"):
             place = f"{setting.file}, line {setting.line}" if setting.line else setting.file
@@ -209,22 +234,24 @@ def read_study(file: str, overrides: Sequence[Setting] = ()) -> Study:
     Paths are relative to the folder of the study; those of overrides to the working directory. Keys and values are checked one
     by one; the combinations are checked with the points. Raises SceneError with file, line, key, value and the allowed values.
     """
-    root = Part.read(file, "scene, reference, axes and quantities")
+    return study_of(Part.read(file, "scene and axes"), name_of(file, "study"), overrides)
+
+
+def study_of(root: Part, name: str, overrides: Sequence[Setting]) -> Study:
+    """The study of an input file or of the words of a command line."""
     root.allow("title", "scene", "command", "set", "seeds", "reference", "families", "axes", "combine", "quantities", "cost",
                "borders")
-    name = name_of(file, "study")
-    study = Study(name, file, root.word("title", name), os.path.abspath(root.existing_file("scene")))
+    study = Study(name, root.file, scene=os.path.abspath(root.existing_file("scene")))
     study.command = root.choice("command", tuple(COMMANDS), "run")
     study.settings = [*root.settings("set"), *(setting.check() for setting in overrides)]
     study.seeds = root.seeds("seeds")
-    root.at("reference")
-    study.reference = root.settings("reference")
+    study.reference = root.settings("reference") if root.has("reference") else None
     study.families = _families(root)
     root.demand_distinct("families", [family.name for family in study.families])
-    study.quantities = [_quantity(part, study.command) for part in root.list("quantities")]
-    if not study.quantities:
-        root.refuse(" is missing or empty; name at least one quantity", "quantities")
-    root.demand_distinct("quantities", [q["name"] for q in study.quantities])
+    varied = dict.fromkeys(axis.name for family in study.families for axis in family.axes)
+    effect = f"{name_of(study.scene, 'scene')}: effect of {', '.join(varied)}"
+    study.title = root.word("title", effect if study.reference is None else name)
+    study.quantities = _quantities(root, study)
     study.cost = [value_text(part.value) for part in root.list("cost")]
     for name in set(study.cost) - set(PHASES):  # a wrong name would count as a cost of zero
         root.refuse(f": '{name}' is not a phase; the nearest is '{_diptych.nearest_name(name, list(PHASES))}'", "cost")

@@ -23,12 +23,8 @@ def _vector(text: str) -> tuple[float, float]:
     return x, y
 
 
-def _parser() -> argparse.ArgumentParser:
-    """The program has checked the words; here they get their types."""
-    parser = argparse.ArgumentParser(prog="diptych import", allow_abbrev=False)
-    parser.add_argument("format")
-    parser.add_argument("files", nargs="+")
-    parser.add_argument("--output", required=True, metavar="DIR")
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Adds the options of an import."""
     parser.add_argument("--columns", action="append", default=[], metavar="KIND=NAMES")
     for name in ("thickness", "timestep", "density", "pressure", "mean-diameter"):
         parser.add_argument("--" + name, type=float, metavar="NUMBER")
@@ -36,7 +32,36 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--frames", default="", metavar="LIST")
     for name in ("walls-touch", "overwrite", "quiet"):
         parser.add_argument("--" + name, action="store_true")
+
+
+def _parser() -> argparse.ArgumentParser:
+    """The program has checked the words; here they get their types."""
+    parser = argparse.ArgumentParser(prog="diptych import", allow_abbrev=False)
+    parser.add_argument("format")
+    parser.add_argument("files", nargs="+")
+    parser.add_argument("--output", required=True, metavar="DIR")
+    add_options(parser)
     return parser
+
+
+def with_joined_gravity(words: Sequence[str]) -> list[str]:
+    """The words with --gravity=GX,GY as one word, because argparse takes a negative number for an option."""
+    words = list(words)
+    for k in range(len(words) - 1, 0, -1):
+        if words[k - 1] == "--gravity":
+            words[k - 1:k + 1] = ["--gravity=" + words[k]]
+    return words
+
+
+def format_of(word: str) -> str:
+    """The name of a format: the word itself, or that of the reader that a Python file registers. Raises SceneError."""
+    if not word.endswith(".py"):
+        return word
+    runpy.run_path(word)
+    if not registered:
+        raise SceneError(f"{word} registers no reader; write @importers.register('NAME') above the function that "
+                         "takes the options and returns frames")
+    return next(reversed(registered))
 
 
 def _stop(*_: Any) -> None:
@@ -51,17 +76,8 @@ def main(words: Sequence[str] | None = None) -> int:
         for each in signals:
             signal.signal(each, _stop)
         signal.pthread_sigmask(signal.SIG_UNBLOCK, signals)
-        for k in range(len(words) - 1, 0, -1):  # argparse takes a negative number for an option
-            if words[k - 1] == "--gravity":
-                words[k - 1:k + 1] = ["--gravity=" + words[k]]
-        given = vars(_parser().parse_intermixed_args(words))
-        format = given.pop("format")
-        if format.endswith(".py"):
-            runpy.run_path(format)
-            if not registered:
-                raise SceneError(f"{format} registers no reader; write @importers.register('NAME') above the function that "
-                                 "takes the options and returns frames")
-            format = next(reversed(registered))
+        given = vars(_parser().parse_intermixed_args(with_joined_gravity(words)))
+        format = format_of(given.pop("format"))
         options = Options(command=" ".join(["diptych import", *words]), **given)
         frames = read_frames(format, options)
         sys.stdout.flush()

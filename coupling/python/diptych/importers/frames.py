@@ -44,7 +44,7 @@ class Wall:
     force: Any = (math.nan, math.nan)
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, repr=False)
 class Frame:
     """One instant. Arrays have one row per grain (n) or contact (m).
 
@@ -73,6 +73,10 @@ class Frame:
     grain_file: str = ""
     contact_file: str = ""
     wall_file: str = ""
+
+    def __repr__(self) -> str:
+        contacts = "no" if self.contacts is None else len(self.contacts["first"])
+        return f"<Frame {self.name!r}: {len(self.grains['id'])} grains, {contacts} contacts, {len(self.walls)} walls>"
 
 
 @dataclass

@@ -1,6 +1,8 @@
 # diptych: charts of an ensemble: differences over margins, every seed, every curve
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
+import textwrap
+
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -17,9 +19,9 @@ def differences(rows):
     rows = [(label, v) for label, v in rows if v["difference"]["value"] is not None]
     if not rows:
         return None
-    figure = Figure(figsize=(7.6, 0.75 + 0.3 * len(rows)))
-    height = figure.get_size_inches()[1]
-    axes = figure.add_axes([0.44, 0.5 / height, 0.54, 1 - 0.6 / height])
+    height = 0.75 + 0.4 * len(rows)
+    figure = Figure(figsize=(5.4, height))
+    axes = figure.add_axes([0.38, 0.5 / height, 0.6, 1 - 0.6 / height])
     axes.axvspan(-1, 1, color="#e3eef5", linewidth=0)
     axes.axvline(0, color=FAINT, linewidth=0.8)
     for k, (_, verdict) in enumerate(rows):
@@ -31,7 +33,7 @@ def differences(rows):
         filled = verdict["verdict"] != "cannot tell"
         axes.plot(scale * verdict["difference"]["value"], k, VERDICT_MARKS[verdict["verdict"]], color=INK, markersize=6.5,
                   markerfacecolor=INK if filled else "white", markeredgewidth=1.2)
-    axes.set(yticks=range(len(rows)), yticklabels=[label for label, _ in rows], ylim=(len(rows) - 0.4, -0.6),
+    axes.set(yticks=range(len(rows)), yticklabels=[textwrap.fill(label, 28) for label, _ in rows], ylim=(len(rows) - 0.4, -0.6),
              xlabel="(continuum − grains) / margin")
     axes.set_xlim(*_limits(rows))
     axes.tick_params(axis="y", length=0)
@@ -55,7 +57,7 @@ def dots(verdict, quantities, label, scale=1.0):
     if not any(np.isfinite(v).any() for v in values.values()):
         return None
     figure = Figure(figsize=(3.4, 2.9))
-    axes = figure.add_axes([0.2, 0.11, 0.78, 0.84])
+    axes = figure.add_axes([0.25, 0.11, 0.73, 0.84])
     pairs = np.column_stack([values[panel] for panel in panels]) * scale
     axes.plot([0, 1], pairs.T, color=FAINT, linewidth=0.6, alpha=0.7, zorder=1)
     for k, panel in enumerate(panels):
@@ -69,7 +71,8 @@ def dots(verdict, quantities, label, scale=1.0):
         if mean["low"] is not None:
             axes.plot([k + side] * 2, [scale * mean["low"], scale * mean["high"]], color=colour, linewidth=2, zorder=3)
         axes.plot(k + side, scale * mean["mean"], "_", color=colour, markersize=13, markeredgewidth=2, zorder=3)
-    axes.set(xlim=(-0.5, 1.5), xticks=[0, 1], xticklabels=[PANEL_NAMES[panel] for panel in panels], ylabel=label)
+    axes.set(xlim=(-0.5, 1.5), xticks=[0, 1], xticklabels=[PANEL_NAMES[panel] for panel in panels],
+             ylabel=textwrap.fill(label, 32))
     ruled(axes)
     axes.grid(False, axis="x")
     return svg(figure, f"{label}: every seed in both panels, pairs joined, with the mean and its 95 % interval.")

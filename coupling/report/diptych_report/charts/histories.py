@@ -5,12 +5,11 @@
 
 import numpy as np
 
-from diptych_report.charts.style import (INK, PANEL_COLOURS, PANEL_LINES, PANEL_MARKS, chart, decades, svg, thin,
-                                         with_intervals)
+from diptych_report.charts.style import (INK, PANEL_COLOURS, PANEL_LINES, PANEL_MARKS, ROUND_OFF, chart, decades, svg,
+                                         thin, with_intervals)
 from diptych_report.data.numbers import scaled
 from diptych_report.data.panels import PANEL_NAMES
 
-ROUND_OFF = 1e-3  # %, smallest range of the axis for a sample with constant volume
 RAW_WIDTH = {"discrete": 0.5, "continuum": 0.9}
 
 

@@ -9,22 +9,18 @@ from diptych_report.data.numbers import plain
 LOOKS = ((GRAINS, "o", "-"), (INK, "s", (0, (5, 1.5))), (THIRD, "^", (0, (2, 1.2))))
 
 
-def figures(result):
-    """List of (Picture, caption): values at points and scatter over cells, against the width of the kernel and the size of the cells."""
-    study = result.part("resolution_study")
+def figures(study, stress="mean stress s (P)"):
+    """List of (Picture, caption): values at points and scatter over cells, against the width of the kernel and the size of the cells.
+    stress: label of s."""
     shaded = " Shaded: the plateau." if study.get("plateau_d") else ""
     found = []
     for rows, key, words in ((study.get("kernel") or [], "width_d", "standard deviation of the kernel (d)"),
                              (study.get("cells") or [], "size_d", "size of the cells (d)")):
         rows = [row for row in rows if plain(row.get(key))]
-        found.append((_points(rows, key, words, study), f"Stress of the grains at points, against the {words[:-4]}.{shaded}"))
+        found.append((_points(rows, key, words, study, stress), f"Stress of the grains at points, against the {words[:-4]}.{shaded}"))
         found.append((_scatter(rows, key, words, study),
                       f"Scatter of s and t over the sample, relative to the mean, against the {words[:-4]}.{shaded}"))
     return [(picture, caption) for picture, caption in found if picture]
-
-
-def verdict(result):
-    return result.part("resolution_study").get("verdict") or ""
 
 
 def _frame(figure, box, study):
@@ -40,12 +36,12 @@ def _ticks(axes, widths):
     axes.minorticks_off()
 
 
-def _points(rows, key, words, study):
+def _points(rows, key, words, study, stress):
     names = list(dict.fromkeys(p.get("name", "") for row in rows for p in row.get("points") or []))
     if not names:
         return None
     figure = Figure(figsize=(4.5, 3.9))
-    for k, (quantity, label) in enumerate((("s", "mean stress s (P)"), ("t_over_s", "stress ratio t/s"))):
+    for k, (quantity, label) in enumerate((("s", stress), ("t_over_s", "stress ratio t/s"))):
         axes = _frame(figure, [0.15, 0.57 - 0.44 * k, 0.825, 0.385], study)
         _ticks(axes, [row[key] for row in rows])
         axes.set_ylabel(label)

@@ -26,6 +26,7 @@ PANEL_COLOURS = {"discrete": GRAINS, "continuum": CONTINUUM}
 PANEL_LINES = {"discrete": "-", "continuum": (0, (5, 1.5))}
 PANEL_MARKS = {"discrete": "o", "continuum": "s"}
 POINTS = 1500       # per curve
+ROUND_OFF = 1e-3    # %, smallest range of the axis for a sample with constant volume
 
 
 @dataclass(frozen=True)

@@ -27,20 +27,20 @@ def _points(axes, result, numbers):
         x = [result.loading_variable.factor * s.end * (1 + 0.004 * (2 * k - 1)) for s in result.stages]
         drawn |= with_intervals(axes, x, [numbers(s, panel) for s in result.stages], fmt=PANEL_MARKS[panel], markersize=4.5,
                                 color=PANEL_COLOURS[panel], label=PANEL_NAMES[panel])
-    axes.set_xlim(left=0)
+    axes.set_xlim(0, 1.04 * result.loading_variable.factor * max((s.end for s in result.stages), default=1.0))
     return drawn
 
 
 def _inclination(result):
     caption = ("Angle between the first band and the minor principal stress in it, and theory lines for the parameters of the continuum "
-               "(φ friction, ψ dilatancy). Bars: 95 % intervals, if known.")
+               f"(φ friction, ψ dilatancy): {', '.join(THEORY.values())}. Bars: 95 % intervals, if known.")
     figure, axes = chart(result, "band to minor stress (degrees)")
     if not _points(axes, result, lambda stage, panel: strongest_band(stage, panel).get("to_minor_stress_deg")):
         return None, caption
     for key, label in THEORY.items():
         angle = plain(result.part("theory").get(key))
         if angle is not None:
-            axes.axhline(angle, color=INK, linewidth=1, linestyle=DASHES[key], label=f"{label} = {angle:.1f}°")
+            axes.axhline(angle, color=INK, linewidth=1, linestyle=DASHES[key], label=f"{label.split()[0]} {angle:.1f}°")
     low, high = axes.get_ylim()
     axes.set_ylim(low - 1, high + 0.45 * (high - low) + 2)
     axes.legend(loc="upper right", ncol=2, fontsize=8)
@@ -52,8 +52,8 @@ def _width(result):
     figure, axes = chart(result, "10–90 % width of the band (d)")
     if not _points(axes, result, lambda stage, panel: strongest_band(stage, panel).get("width_10_90_d")):
         return None, caption
-    axes.set_ylim(bottom=0)
-    axes.legend(loc="best")
+    axes.set_ylim(0, 1.25 * axes.get_ylim()[1])
+    axes.legend(loc="upper right", ncol=2)
     return svg(figure, "10–90 % width of the first band against the loading, both panels."), caption
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from diptych_report.data.files import open_arrays, read_json
 
 FORMAT = 1
+PANELS = ("discrete", "continuum", "material_point")
 CURVES = ("stress_ratio", "volumetric_strain")
 # class: (colour, text colour, letter) in maps and tables
 CLASSES = {"right": ("#b7e1cd", "#222222", "R"), "struggled": ("#e3f0b5", "#222222", "S"), "wrong, warned": ("#f6c99b", "#222222", "W"),
@@ -38,8 +39,13 @@ class Study:
         """[(index, point)] of a family, without references."""
         return [(k, point) for k, point in enumerate(self.points) if point["family"] == name and not self.is_reference(k)]
 
+    @property
+    def has_reference(self):
+        """False: the study reports values and judges none."""
+        return "reference" in self.points[0]
+
     def is_reference(self, place):
-        return self.points[place]["reference"] == place
+        return self.points[place].get("reference") == place
 
     @property
     def references(self):
@@ -66,4 +72,5 @@ def _curves(path):
     if not os.path.isfile(path):
         return {}
     with open_arrays(path) as file:
-        return {panel: (group["progress"][()], {name: group[name][()] for name in CURVES}) for panel, group in file.items()}
+        panels = [panel for panel in PANELS if panel in file]
+        return {panel: (file[panel]["progress"][()], {name: file[panel][name][()] for name in CURVES}) for panel in panels}

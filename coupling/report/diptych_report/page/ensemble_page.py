@@ -6,6 +6,7 @@ from diptych_report.charts import style
 from diptych_report.data.ensemble import load
 from diptych_report.page.writing import template, write
 from diptych_report.tables import ensemble as tables
+from diptych_report.tables import summary
 from diptych_report.tables.wording import origin
 
 
@@ -26,6 +27,7 @@ def page(results):
               (figures.curves(results, "volumetric_strain", "volumetric strain (%)", 100),
                "Volumetric strain 1 − V/V₀; dilation is negative." + lines)]
     return template("ensemble.html").render(
-        record=results.record, verdicts=rows, differences=figures.differences(labelled), dots=dots, curves=curves,
+        record=results.record, first=summary.first(results.record), verdicts=rows,
+        differences=figures.differences(labelled), dots=dots, curves=curves,
         bands=tables.band_table(results), members=tables.members(results), quantities=tables.quantity_table(results),
         provenance=tables.provenance(results), fitted=origin(results.parameters_from))

@@ -70,13 +70,14 @@ def draw(folder, next_folder=None):
 
 
 def page(result):
+    study = result.part("resolution_study")
     return template("result.html").render(
         comparison=result.comparison, imported=result.imported, parts=parts(result), maps=viewer.data(result),
         curves=histories.figures(result) + ledgers.figures(result),
         solver=ledgers.solver(result), trends=trends.figures(result),
-        resolution=resolution.figures(result), resolution_verdict=paragraph(resolution.verdict(result)),
+        resolution=resolution.figures(study), resolution_verdict=paragraph(study.get("verdict") or ""),
         stages=bands.stages(result), mapping=stage.mapping(result), accuracy=accuracy.table(result),
-        first=summary.first(result), discrete_summary=summary.table(result, "discrete_summary"),
+        first=summary.first(result.comparison), discrete_summary=summary.table(result, "discrete_summary"),
         continuum_summary=summary.table(result, "continuum_summary"),
         coarse=result.part("continuum_coarse"), cost=accounts.cost(result), provenance=accounts.provenance(result),
         law=accounts.law_parameters(result), law_name=result.part("continuum_summary").get("law") or "",

@@ -6,6 +6,7 @@ import numpy as np
 from diptych_report.charts import study as figures
 from diptych_report.charts import style
 from diptych_report.data.study import CLASSES, load
+from diptych_report.page import effects_page
 from diptych_report.page.writing import template, write
 from diptych_report.tables import study as tables
 
@@ -17,20 +18,20 @@ def draw(folder):
     """Raises InputError if a file is missing, broken or has another format."""
     study = load(folder)
     style.set_up()
-    write(folder, page(study))
+    names = [f"{PANEL_WORDS[panel]}, {words}" for panel in study.curves for words in CURVE_NAMES.values()]
+    write(folder, page(study, names) if study.has_reference else effects_page.page(study, curves(study), names))
 
 
-def page(study):
+def page(study, curve_names):
     charts = [(figures.error_against_cost(study, k, reference), ", ".join([q["name"], *study.points[reference]["labels"]]))
               for reference in study.references for k, q in enumerate(study.quantities)]
-    maps = [(family["name"], figures.class_maps(study, family)) for family in study.record["families"]]
+    judged = any(q["limit"] for q in study.quantities)  # else no point is right or wrong
+    maps = [(family["name"], figures.class_maps(study, family)) for family in study.record["families"]] if judged else []
     return template("study.html").render(
-        record=study.record, n_points=len(study.points) - len(study.references), counts=tables.counts(study), cheapest=tables.cheapest(study), disturbed=tables.disturbed(study),
+        record=study.record, judged=judged, n_points=len(study.points) - len(study.references), counts=tables.counts(study), cheapest=tables.cheapest(study), disturbed=tables.disturbed(study),
         charts=[chart for chart in charts if chart[0]], missing=[name for picture, name in charts if not picture],
         maps=[one for one in maps if one[1]], classes=CLASSES, orders=tables.orders(study), points=tables.points(study),
-        curves=curves(study), curve_names=[f"{PANEL_WORDS[panel]}, {words}" for panel in study.curves
-                                                       for words in CURVE_NAMES.values()],
-        provenance=tables.provenance(study))
+        curves=curves(study), curve_names=curve_names, provenance=tables.provenance(study))
 
 
 def curves(study):

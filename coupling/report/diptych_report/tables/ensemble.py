@@ -25,7 +25,8 @@ def described_at(verdict):
 def own_text(results, verdict):
     """("inclination of the band", unit of wording.rounded)."""
     at = described_at(verdict)
-    return results.numbers.meaning(at) + (" of the band" if place_of(verdict)[0] else ""), shown_unit(results.numbers, at)
+    words = results.numbers.meaning(at).split(",")[0] + (" of the band" if place_of(verdict)[0] else "")
+    return words, shown_unit(results.numbers, at)
 
 
 def text_of(results, verdict):
@@ -90,7 +91,7 @@ def captions(results):
         caption = text_of(results, verdict)
         if place:
             caption += ". Bands found, grains: " + "; continuum: ".join(found.get(f"{place} {p}", "–") for p in PANEL_NAMES)
-        rows.append((verdict, text.split(",")[0] + AXIS_UNITS.get(unit, ""), 100 if unit == "%" else 1, caption + "."))
+        rows.append((verdict, text + AXIS_UNITS.get(unit, ""), 100 if unit == "%" else 1, caption + "."))
     return rows
 
 

@@ -65,9 +65,11 @@ def points(study):
             messages.append(f"{point['halved_steps']} steps halved")
         if point["cut_backs"]:
             messages.append(f"{point['cut_backs']:g} load steps halved")
-        rows.append({"place": k, "name": study.name(k), "kind": point["class"], "sure": point["certain"],
-                     "colour": CLASSES[point["class"]][0], "ink": CLASSES[point["class"]][1],
-                     "errors": [with_ends(q["error"], of["relative"]) for q, of in zip(point["quantities"], study.quantities)],
+        judged = {"kind": point["class"], "sure": point["certain"],
+                  "colour": CLASSES[point["class"]][0], "ink": CLASSES[point["class"]][1],
+                  "errors": [with_ends(q["error"], of["relative"]) for q, of in zip(point["quantities"], study.quantities)]} \
+            if study.has_reference else {}
+        rows.append({"place": k, "name": study.name(k), **judged,
                      "cost": seconds(cost["cpu_s"] if cost else None), "messages": "; ".join(messages),
                      "log": point["folders"][0] + ".log" if os.path.isfile(os.path.join(study.folder, point["folders"][0] + ".log"))
                      else ""})
@@ -113,7 +115,7 @@ def provenance(study):
     return {"head": ["", ""], "rows": [
         ["scene", record["scene"]], ["command", "diptych " + record["command"]],
         ["settings of all points", "; ".join(record["settings"]) or "those of the scene"],
-        ["reference", "; ".join(study.points[0]["settings"]) or "the unchanged scene"],
+        *([["reference", "; ".join(study.points[0]["settings"]) or "the unchanged scene"]] if study.has_reference else []),
         ["samples", f"{len(record['seeds'])}: seeds {', '.join(map(str, record['seeds']))}" if record["seeds"] else "the sample of the scene"],
         ["program", record["revision"]], ["phases counted", ", ".join(bill["phases"])],
         ["all runs", f"{bill['runs']} runs, {number(bill['total_cpu_s'])} CPU seconds"]]}

@@ -7,11 +7,11 @@ from diptych_report.tables.wording import EXPECTED, NULLS, ORDER, number, shown_
 LEFT_OUT = ("law", "parameters_from")  # shown elsewhere on the page
 
 
-def first(result):
-    """The numbers that a user asks for first."""
-    rows = [[typeset(row["quantity"])] + ["–" if plain(row[of]) is None else number(row[of], suffix(row["unit"]))
+def first(record):
+    """The numbers that a user asks for first, from comparison.json or ensemble.json."""
+    rows = [[typeset(row["quantity"])] + ["–" if plain(row[of]) is None else number(row[of], suffix(row["unit"]), 3)
                                           for of in ("grains", "continuum", "difference")] + [row["verdict"]]
-            for row in result.comparison.get("summary", [])]
+            for row in record.get("summary", [])]
     return {"head": ["", "grains", "continuum", "difference [95 %]", "verdict"], "rows": rows}
 
 

@@ -157,8 +157,22 @@ function drawBands(view, increment, panel, onColour) {
 }
 
 // One colour bar for a pair of maps. An arrow at an end marks values beyond it.
+/* Lines of a text no wider than width, in FONT, broken at spaces. */
+function wrapped(canvas, text, width) {
+  const c = canvas.getContext("2d"), lines = [];
+  c.setTransform(1, 0, 0, 1, 0, 0);
+  c.font = FONT;
+  for (const word of text.split(" ")) {
+    const longer = lines.length ? lines[lines.length - 1] + " " + word : word;
+    if (lines.length && c.measureText(longer).width <= width) lines[lines.length - 1] = longer;
+    else lines.push(word);
+  }
+  return lines;
+}
+
 function drawBar(canvas, width, pixels, quantity, limits, beyond) {
-  const inset = Math.max(24, 0.12 * width), c = cleared(canvas, width, 46, pixels);
+  const lines = wrapped(canvas, quantity.label, width);
+  const inset = Math.max(24, 0.12 * width), c = cleared(canvas, width, 32 + 14 * lines.length, pixels);
   const long = width - 2 * inset, table = data.maps[quantity.map];
   // Each colour is painted to the end and the next one over it, so there are no seams.
   table.forEach((colour, k) => { c.fillStyle = colour; c.fillRect(inset + long * k / 256, 2, long * (1 - k / 256), 10); });
@@ -181,5 +195,5 @@ function drawBar(canvas, width, pixels, quantity, limits, beyond) {
     c.fillRect(x - 0.4, 12, 0.8, 3);
     c.fillText(numeral(mark, marks.digits), x, 17);
   }
-  c.fillText(quantity.label, width / 2, 32);
+  lines.forEach((line, k) => { c.fillText(line, width / 2, 32 + 14 * k); });
 }

@@ -1,14 +1,16 @@
-// diptych: cells with fields as a VTK unstructured grid, which ParaView opens
+// diptych: grids with fields as VTK files, which ParaView and meshio open
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "coupling/store/vtu_file.h"
+#include "discrete/files/vtu_file.h"
 
+#include <filesystem>
 #include <sstream>
 #include <stdexcept>
 
 #include "discrete/files/csv_file.h"
+#include "discrete/files/staged_file.h"
 #include "discrete/files/text_file.h"
 
-namespace diptych::coupling
+namespace diptych::discrete
 {
   namespace
   {
@@ -16,7 +18,17 @@ namespace diptych::coupling
 
     unsigned int nodes_per_cell(const VtkCell type)
     {
-      return type == VtkCell::quadrilateral ? 4 : 9;
+      switch (type)
+        {
+        case VtkCell::vertex:
+          return 1;
+        case VtkCell::line:
+          return 2;
+        case VtkCell::quadrilateral:
+          return 4;
+        default:
+          return 9;
+        }
     }
 
     std::string base64(const std::string &bytes)
@@ -37,7 +49,7 @@ namespace diptych::coupling
     }
 
     // clang-format off
-    const char *type_of(const double *) { return "Float64"; }
+    const char *type_of(const float *) { return "Float32"; }
     const char *type_of(const std::int32_t *) { return "Int32"; }
     const char *type_of(const std::uint8_t *) { return "UInt8"; }
     // clang-format on
@@ -75,7 +87,7 @@ namespace diptych::coupling
             if (field.values.size() != n * field.n_components)
               throw std::invalid_argument("field " + field.name + ": " + std::to_string(field.values.size()) + " numbers for " +
                                           std::to_string(n) + (of_nodes ? " nodes" : " cells"));
-            add_array(out, field.name, field.n_components, field.values);
+            add_array(out, field.name, field.n_components, std::vector<float>(field.values.begin(), field.values.end()));
           }
       out << (of_nodes ? "</PointData>\n" : "</CellData>\n");
     }
@@ -83,10 +95,10 @@ namespace diptych::coupling
 
   void write_vtu(const std::string &path, const VtuGrid &grid)
   {
-    const std::size_t   n_cells = grid.cells.size() / nodes_per_cell(grid.type);
-    std::vector<double> points;
+    const std::size_t  n_cells = grid.cells.size() / nodes_per_cell(grid.type);
+    std::vector<float> points;
     for (const Eigen::Vector2d &x : grid.points)
-      points.insert(points.end(), {x.x(), x.y(), 0.});
+      points.insert(points.end(), {float(x.x()), float(x.y()), 0.f});
     std::ostringstream out;
     out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
            "header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\""
@@ -97,15 +109,33 @@ namespace diptych::coupling
     add_fields(out, grid, true, grid.points.size());
     add_fields(out, grid, false, n_cells);
     out << "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
-    discrete::write_text(path, out.str());
+    write_text(path, out.str());
   }
 
-  void write_pvd(const std::string &path, const std::vector<PvdEntry> &entries)
+  VtuSeries::VtuSeries(std::string path_without_ending, std::vector<double> kept, const std::size_t first)
+      : path(std::move(path_without_ending)),
+        times(std::move(kept)),
+        first(first)
   {
-    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
-                       "<Collection>\n";
-    for (const PvdEntry &entry : entries)
-      text += "<DataSet timestep=\"" + discrete::exact_text(entry.time) + "\" part=\"0\" file=\"" + entry.file + "\"/>\n";
-    discrete::write_text(path, text + "</Collection>\n</VTKFile>\n");
+    for (std::size_t k = times.size(); std::filesystem::remove(path + file(k)); ++k)
+      {}
   }
-} // namespace diptych::coupling
+
+  std::string VtuSeries::file(const std::size_t k) const
+  {
+    return "/" + stage_name(first + k) + ".vtu";
+  }
+
+  void VtuSeries::add(const double time, const VtuGrid &grid)
+  {
+    std::filesystem::create_directories(path);
+    write_vtu(path + file(times.size()), grid);
+    times.push_back(time);
+    const std::string folder = std::filesystem::path(path).filename();
+    std::string list = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+                       "<Collection>\n";
+    for (std::size_t k = 0; k < times.size(); ++k)
+      list += "<DataSet timestep=\"" + exact_text(times[k]) + "\" part=\"0\" file=\"" + folder + file(k) + "\"/>\n";
+    write_text(path + ".pvd", list + "</Collection>\n</VTKFile>\n");
+  }
+} // namespace diptych::discrete

@@ -1,0 +1,82 @@
+# diptych: dependence of the local stress of grains on the averaging width
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Smooths the stress of grains with kernels of several widths and looks for a plateau."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from scipy.ndimage import gaussian_filter
+
+from .operators import map_stress
+from .sheets import Sheet, outline_of
+
+WIDEST = 0.25  # of the smaller side of the sample: wider kernels give its mean everywhere
+WIDTHS = (0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0)  # of the kernel: standard deviations in mean diameters
+PLACES = {"middle": (0.5, 0.5), "upper left": (0.25, 0.75), "lower right": (0.75, 0.25)}  # shares of width and height
+PLATEAU, LEAST_RATIO, LEAST_T_OVER_S = 0.05, 2.0, 0.1  # as in coupling/fields/resolution_study.h
+
+
+def _plateau(rows: Sequence[dict[str, Any]]) -> list[float] | None:
+    """The widest range of widths, by ratio, in which s and t/s of every place stay within 5 % of their mean over the range."""
+    value = np.array([[[point["s"], point["t_over_s"]] for point in row["points"]] for row in rows])
+    width = np.array([row["width_d"] for row in rows])
+    found = []
+    for first in range(len(rows)):
+        for last in range(first, len(rows)):
+            part = value[first:last + 1]
+            mean = part.mean(0)
+            size = np.maximum(np.abs(mean), [0, LEAST_T_OVER_S])
+            if width[last] >= LEAST_RATIO * width[first] and np.all(np.abs(part - mean) <= PLATEAU * size):
+                found.append((width[last] / width[first], -width[first], [width[first], width[last]]))
+    return max(found)[2] if found else None
+
+
+def _verdict(rows: Sequence[dict[str, Any]], plateau: list[float] | None) -> str:
+    first, last = rows[0], rows[-1]
+    scatter = [f"{100 * row['scatter_s']:.0f}" for row in (first, last)]
+    text = (f"From w = {first['width_d']:g} to {last['width_d']:g} d the scatter of s over the sample goes from {scatter[0]} to "
+            f"{scatter[1]} % of its mean: narrow kernels show single force chains, wide ones only the mean of the sample.")
+    if plateau:
+        return text + (f" From w = {plateau[0]:g} to {plateau[1]:g} d, s and t/s at {len(PLACES)} places stay within "
+                       f"{100 * PLATEAU:g} % of their means (plateau): a local stress hardly depends on a width in this range.")
+    return text + (f" There is no plateau: no range of w of a factor of {LEAST_RATIO:g} keeps s and t/s at {len(PLACES)} places "
+                   f"within {100 * PLATEAU:g} %. A local stress depends on w; state w with it. Means over the sample do not depend on w.")
+
+
+def width_scan(snapshot: Any) -> dict[str, Any]:
+    """Local stress at three places, and its scatter over the sample, for kernels of several widths (Gauss, standard deviation w).
+
+    The moments are cut by cells of d/4 (method `segments`), smoothed and divided by the smoothed area of the outline. The variance of a
+    cell is taken from that of the kernel. Keys as `resolution_study` in comparison.json; {} for a sample narrower than 3 d."""
+    d, outline = snapshot.mean_diameter, outline_of(snapshot, 1, 64)
+    low, high = snapshot.position.min(0) - 0.6 * d, snapshot.position.max(0) + 0.6 * d
+    if snapshot.cell_width:
+        low[0], high[0] = outline.left[0], outline.right[0]
+    n_x, n_y = (max(2, round(4 * length / d)) for length in high - low)
+    size = (high - low) / (n_x, n_y)
+    fine = Sheet(np.full(n_y + 1, low[0]), np.full(n_y + 1, high[0]), np.linspace(low[1], high[1], n_y + 1), n_x)
+    stress = map_stress(snapshot, mesh=fine.mesh).symmetric.reshape(n_y, n_x, 2, 2)
+    centre, across = fine.mesh.centres, outline.share_across(fine.mesh.centres)
+    up = (centre[:, 1] - outline.height[0]) / (outline.height[-1] - outline.height[0])
+    inside = ((across > 0) & (across < 1) & (up > 0) & (up < 1)).reshape(n_y, n_x)
+    places = {name: fine.cell_of(outline.at(*share)[None])[0] for name, share in PLACES.items()}
+    rows = []
+    for width in WIDTHS:
+        if width * d > WIDEST * min(high - low):
+            continue
+        sigma = np.sqrt((width * d)**2 - size[::-1]**2 / 12) / size[::-1]
+        mode = ("constant", "wrap" if snapshot.cell_width else "constant")
+        area = gaussian_filter(inside.astype(float), sigma, mode=mode)
+        xx, yy, xy = (gaussian_filter(stress[:, :, a, b], sigma, mode=mode) / np.maximum(area, 1e-9)
+                      for a, b in ((0, 0), (1, 1), (0, 1)))
+        s, t = 0.5 * (xx + yy), np.hypot(0.5 * (xx - yy), xy)
+        points = [{"name": name, "s": s.flat[k], "t_over_s": t.flat[k] / s.flat[k]} for name, k in places.items()]
+        scatter = {"scatter_" + name: field[inside].std() / field[inside].mean() for name, field in (("s", s), ("t", t))}
+        rows.append({"width_d": width, **scatter, "points": points})
+    if len(rows) < 2:
+        return {}
+    plateau = _plateau(rows)
+    return {"kernel": rows, "plateau_d": plateau, "verdict": _verdict(rows, plateau)}
