@@ -22,7 +22,7 @@ def draw(calibration, to):
     axes = figure.subplots(2, len(calibration.paths), squeeze=False)
     for k, path in enumerate(calibration.paths):
         for row, kind in enumerate(charts.CURVES):
-            charts.draw_curve(style.ruled(axes[row][k]), path, kind)
+            charts.draw_curve(style.ruled(axes[row][k]), path, kind, calibration.model)
         axes[0][k].set_title(f"{path['name']}, {'fitted' if path['use'] == 'fit' else 'predicted'}")
     axes[0][0].legend(loc="lower right", fontsize=7)
     FigureCanvasAgg(figure).print_figure(to, dpi=110)

@@ -76,7 +76,7 @@ class Results(Calibrate):
         result = diptych("continuum", QUICK, *words, *mesh, "--set-file", fragment, "--set", "continuum/internal_length=2.5", "--output",
                          again, "--quiet")
         self.assertEqual(result.returncode, 0, result.stderr)
-        for text in (f"= {friction['value']!r}", "= 2.5"):
+        for text in (f"= {friction['value']!r}", "= 2.5", "= calibrated on fitted, seeds 1-2"):
             self.assertIn(text, content(os.path.join(again, "scene.prm")).decode())
         page = content(self.path("report.html")).decode()
         for text in ("friction_angle_peak", "cannot tell", "not identified", "<img"):
@@ -120,6 +120,37 @@ class Results(Calibrate):
         result = self.calibrate(calibration(targets=[{"name": "read", "results": folders}]), code=2, folder=os.path.join(self.work, "b"))
         for text in ("target 'read'", "grains_2", "before the end of its loading"):
             self.assertIn(text, result.stderr)
+
+
+    def test_a_scene_with_seeds_stands_for_a_file(self):
+        scene = write(os.path.join(self.work, "mine.prm"), content(QUICK).decode())
+        words = [word for key, value in {**TINY, "continuum/law": "linear_elastic"}.items() for word in ("--set", f"{key}={value}")]
+        result = diptych("calibrate", scene, "--seeds", "1-2", *words, "--output", self.folder, "--quiet")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        asked = read_json(self.folder, "calibration_input.json")
+        self.assertEqual([p["key"] for p in asked["parameters"]], ["youngs_modulus"])  # all that this law reads
+        self.assertEqual(asked["quantities"], ["stress_ratio", "volumetric_strain"])
+        found = content(self.path("calibrated.prm"))
+        self.assertIn("parameters_from = calibrated on mine, seeds 1-2", found.decode())
+        self.calibrate(asked, "--resume")  # the file beside the scene finds the same from the same runs
+        self.assertEqual(content(self.path("calibrated.prm")), found)
+
+    def test_friction_of_grains_is_fitted_to_a_curve(self):
+        words = [word for key, value in TINY.items() for word in ("--set", f"{key}={value}")]
+        lab = os.path.join(self.work, "lab")
+        result = diptych("discrete", QUICK, *words, "--set", "discrete/friction=0.5", "--output", lab, "--quiet")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        friction = {"key": "discrete/friction", "start": 0.3, "low": 0.1, "high": 0.9}
+        target = {"name": "test", "scene": QUICK, "set": TINY, "curve": "lab/discrete.csv", "seeds": "1-4"}
+        asked = calibration(targets=[target], parameters=[friction])
+        self.calibrate(asked)
+        record = self.record()
+        self.assertTrue(record["parameters"][0]["number_low"] < 0.5 < record["parameters"][0]["number_high"], record["parameters"])
+        self.assertLess(record["chi2"], record["chi2_before"])
+        fragment = content(self.path("calibrated.prm")).decode()
+        self.assertIn("subsection discrete\n  set friction = ", fragment)
+        self.assertIn("calibrated on test, discrete.csv, seeds 1-4", fragment)
+        self.assertTrue("<h2>Measured curve and grains</h2>" in content(self.path("report.html")).decode())
 
 
 class Interruption(Calibrate):
@@ -179,14 +210,18 @@ class Refused(Calibrate):
                 ({"set": {"discrete/friction": 0.5}}, ["discrete/friction"]),
                 ({"set": {"continuum/friction_angle_peak": 20}}, ["friction_angle_peak", "parameters"]),
                 ({"set": {"continuum/element_size": 3}}, ["continuum/element_size", "coarse_element_size"]),
+                ({"parameters": [{**parameter, "key": "discrete/friction"}]}, ["needs scene, curve and seeds"]),
+                ({"parameters": [parameter, {**parameter, "key": "discrete/friction"}]}, ["parameters", "two files"]),
                 ({"starts": 0}, ["starts"])]:
             with self.subTest(changes=changes):
                 result = self.calibrate(calibration(**changes), code=2)
                 for text in [*words, "one.json"]:
                     self.assertIn(text, result.stderr)
                 self.assertFalse(os.path.exists(self.folder), "something was made")
-        result = diptych("calibrate", QUICK, "--output", self.folder)
-        self.assertEqual(result.returncode, 2, result.stderr)
+        for words, text in [((QUICK,), "--seeds 1-4"), ((self.file(calibration()), "--seeds", "1-2"), "--seeds, --set")]:
+            result = diptych("calibrate", *words, "--output", self.folder)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn(text, result.stderr)
 
     def test_a_fragment_is_checked(self):
         fragment = write(os.path.join(self.work, "f.prm"), "subsection continuum\n  set friction_angle_pek = 20\nend\n")

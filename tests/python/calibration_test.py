@@ -16,9 +16,11 @@ from diptych.campaigns.calibration import Calibrator, empty_record
 from diptych.campaigns.calibration_coordinates import Coordinates, Parameter
 from diptych.campaigns.calibration_file import Calibration, Target, read_calibration, read_curve
 from diptych.campaigns.calibration_findings import predictions
+from diptych.campaigns.calibration_grains import mean_of
 from diptych.campaigns.calibration_noise import Data, Noise, Observable
 from diptych.campaigns.calibration_runs import Observation, Path, observe_curve
 from diptych.campaigns.calibration_search import identify, least_squares
+from diptych.campaigns.calibration_standard import standard_calibration
 from diptych.campaigns.histories import mean_over
 from diptych.campaigns.input_file import Setting
 
@@ -294,3 +296,50 @@ def test_a_file_with_a_curve_is_read(tmp_path, capfd):
     (tmp_path / "c.json").write_text(text % (QUICK, ', "seeds": "1"'))
     with pytest.raises(diptych.SceneError, match="instead of grains"):
         read_calibration(str(tmp_path / "c.json"))
+
+
+def test_a_scene_with_seeds_has_standard_parameters():
+    contents = standard_calibration(QUICK, "1-4", [])
+    c = read_calibration(QUICK, contents)
+    assert [p.key for p in c.parameters] == ["friction_angle_peak", "friction_angle_residual", "friction_angle_start",
+                                             "mobilisation_strain", "dilatancy_angle_peak", "internal_length", "youngs_modulus"]
+    assert c.kinds == ["stress_ratio", "volumetric_strain", "ln_width"] and c.targets[0].seeds == [1, 2, 3, 4]
+    assert c.bins[0] == pytest.approx(0.025 * 0.03) and c.bins[-1] == 0.03  # the loading ends at 3 %
+    assert c.load_step == pytest.approx(0.03 / 40) and c.coarse_element_size == 4
+    plain = standard_calibration(QUICK, "1,3", [Setting("continuum", "law", "mohr_coulomb", "")])
+    assert plain["quantities"] == ["stress_ratio", "volumetric_strain"]
+    assert "internal_length" not in [p["key"] for p in plain["parameters"]]
+    with pytest.raises(diptych.SceneError, match="two seeds"):
+        standard_calibration(QUICK, "1", [])
+
+
+def test_friction_of_noisy_grains_is_found_within_its_interval():
+    """Curves of a laboratory against eight noisy samples, the same at every point. A run depends on friction through its mean
+    and through a part of its noise, as chaotic grains do."""
+    c = calibration([Parameter("discrete/friction", "logarithm", 0.3, 0.1, 0.9)])
+    c.noise, c.targets[0].curve = Noise(stress_discrepancy=0, early_stress_discrepancy=0, volume_discrepancy=0), "lab.csv"
+    observables = c.observables_of(SCENE)
+    stress, x = np.array([one.kind == "stress_ratio" for one in observables]), np.array([one.high for one in observables])
+
+    def mean(friction):
+        return np.where(stress, 0.36 + 0.1 * np.log(friction / 0.4), -x * (0.6 + 0.4 * np.log(friction / 0.4)))
+
+    found = []
+    for seed in range(20):
+        lab = drawn(USUAL, observables, mean(0.4), 16, 1000 + seed).mean
+        common = drawn(USUAL, observables, 0 * x, 8, seed).values
+
+        def samples(point):
+            friction = float(point[0].value) if point else 0.3
+            own = drawn(USUAL, observables, 0 * x, 8, int(1e6 * friction)).values
+            return [Observation(mean(friction) + 0.95 * a + 0.3 * b) for a, b in zip(common, own)]
+
+        given = np.sqrt(np.diag(noise.covariance(USUAL, Data(observables, 0 * x))) / 16)
+        path = path_of(c.targets[0], Data(observables, lab, given, 8))
+        path.scatter, record = Data(observables, [one.values for one in samples([])]), empty_record("c", "grains")
+        Calibrator(c, Coordinates(c.parameters, {}), [path],
+                   lambda on, points, fine, step: [[mean_of(samples(point[0]), 0.005)] for point in points], record).calibrate()
+        found.append(record["parameters"][0])
+    assert sum(p["number_low"] < 0.4 < p["number_high"] for p in found) >= 17
+    assert np.sqrt(np.mean([(p["value"] - 0.4) ** 2 for p in found])) < 0.04
+    assert max(p["number_high"] - p["number_low"] for p in found) < 0.25

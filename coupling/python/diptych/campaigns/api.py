@@ -255,7 +255,11 @@ def ensemble(scene: SceneLike, seeds: str | Iterable[int], output: PathLike, **o
 
 
 def calibrate(contents: Mapping[str, Any] | PathLike, output: PathLike, **options: Any) -> CalibrationResult:
-    """Runs a calibration file, or its contents as a dict, and returns its results. Options and errors are as in study()."""
+    """Runs a calibration file, or its contents as a dict, and returns its results. Options and errors are as in study().
+
+    A scene file (.prm) with seeds=range(1, 5) takes the standard parameters."""
+    if "seeds" in options:
+        options["seeds"] = _seeds(options["seeds"])
     return _result(CalibrationResult, "calibrate", contents, output, options)
 
 

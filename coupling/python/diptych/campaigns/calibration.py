@@ -1,13 +1,14 @@
-# diptych: the command calibrate: parameters of the continuum from the curves of the grains
+# diptych: the command calibrate: parameters of a continuum from grains or curves, or of grains from curves
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Searches from several starts on coarse meshes, then continues on the samples' own meshes with the coarse Jacobian. Afterwards
 it computes deviations of the parameters, the effect of load steps half as long, and predictions on paths that were not
-fitted."""
+fitted. Grains in the place of the continuum have one mesh only."""
 
 from __future__ import annotations
 
 import argparse
 import importlib
+import json
 import re
 from collections import Counter
 from collections.abc import Callable, Sequence
@@ -22,13 +23,15 @@ from ..errors import NotConverged, SceneError, Stopped
 from .calibration_coordinates import Coordinates
 from .calibration_file import Calibration, Target, read_calibration
 from .calibration_findings import parameter_records, parameter_words, path_record, summary, write_calibration
+from .calibration_grains import GrainRuns
 from .calibration_noise import Data, FittedData, noise_of
 from .calibration_runs import CalibrationRuns, Observation, Path, observe_curve, read_target
-from .calibration_search import (PRIOR, Fit, Knowledge, difference_jacobian, expected_chi2, identify, least_squares,
-                                 spread_point)
+from .calibration_search import (DIFFERENCE, GRAINS_DIFFERENCE, PRIOR, Fit, Knowledge, difference_jacobian, expected_chi2,
+                                 identify, least_squares, spread_point)
+from .calibration_standard import standard_calibration
 from .engine import DONE, NOT_CONVERGED, Options, complain, say, tell
 from .folders import Folder, draw
-from .input_file import Setting
+from .input_file import Setting, settings_of
 
 SAME_MINIMUM = 0.05  # in every coordinate; they run over [0, 1]
 HARDLY_WORSE = 4  # in chi^2: two deviations
@@ -39,9 +42,9 @@ KEYS_OF_NOISE = ("stress_level", "stress_shape", "volume_start", "volume_growth"
 RunModel = Callable[[Sequence[Path], Sequence[Sequence[Sequence[Setting]]], bool, float], "list[list[Observation]]"]
 
 
-def empty_record(title: str) -> dict[str, Any]:
-    """calibration.json before the search."""
-    return {"format": 1, "title": title, "status": "started", "settings": [], "own": [], "chi2_before": np.nan,
+def empty_record(title: str, model: str = "continuum") -> dict[str, Any]:
+    """calibration.json before the search. model: "grains" if their keys are fitted."""
+    return {"format": 1, "title": title, "model": model, "status": "started", "settings": [], "own": [], "chi2_before": np.nan,
             "chi2_coarse": np.nan, "chi2": np.nan, "misfit": np.nan, "n_observables": 0, "coarse_runs": 0, "fine_runs": 0,
             "failed_runs": 0, "other_runs": 0, "noise": {}, "words": [], "parameters": [], "correlation": [], "minima": [],
             "paths": []}
@@ -55,12 +58,13 @@ class Calibrator:
         self.calibration, self.coordinates, self.paths, self.run, self.record = calibration, coordinates, paths, run, record
         self.fitted = [path for path in paths if path.target.is_fitted]
         alone = len(self.fitted) == 1 and len(self.fitted[0].samples) == 1
-        self.noise = noise_of([path.data for path in (paths if alone else self.fitted)], calibration.noise)
+        self.noise = noise_of([path.of_noise for path in (paths if alone else self.fitted)], calibration.noise)
         record["noise"] = {key: value for key, value in asdict(self.noise).items() if key in KEYS_OF_NOISE}
         self.data = FittedData(self.noise, [path.data for path in self.fitted], [path.left_out for path in self.fitted])
         record["n_observables"] = int((self.data.weights > 0).sum())
         if record["n_observables"] == 0:
             raise NotConverged("no observable is left to fit; check targets, quantities and bins")
+        self.difference = GRAINS_DIFFERENCE if calibration.of_grains else DIFFERENCE
         self.best = (np.inf, False)  # chi^2 with the prior, on the samples' own mesh
         self.failures: list[str] = []  # of coarse and fine runs
 
@@ -111,7 +115,9 @@ class Calibrator:
 
     def calibrate(self) -> None:
         coarse = self._fit_coarse()
-        fine = least_squares(self._residuals(True), coarse.point, self.calibration.fine_jacobians, coarse.jacobian)
+        fine = coarse
+        if not self.calibration.of_grains:
+            fine = least_squares(self._residuals(True), coarse.point, self.calibration.fine_jacobians, coarse.jacobian)
         if not np.isfinite(fine.chi2):
             raise NotConverged("; ".join(["the continuum did not finish on the samples' own mesh", *self._failure_words()]))
         self.record["chi2"] = self._chi2(fine.residual)
@@ -126,7 +132,7 @@ class Calibrator:
         c, residuals, fits = self.calibration, self._residuals(False), []
         starts = [self.coordinates.start, *(spread_point(c.seed + k, len(self.coordinates)) for k in range(1, c.starts))]
         for k, start in enumerate(starts):
-            fit = least_squares(residuals, start, c.start_jacobians if k else c.jacobians)
+            fit = least_squares(residuals, start, c.start_jacobians if k else c.jacobians, difference=self.difference)
             fits.append(fit)
             self.record["minima"].append({"start": self.coordinates.numbers(start), "runs": fit.evaluations, "is_best": False,
                                           "words": fit.note, **self._minimum(fit)})
@@ -136,7 +142,7 @@ class Calibrator:
                                      *self._failure_words()]))
         best = fits[found]
         if found > 0:  # so far with few Jacobians
-            best = least_squares(residuals, best.point, c.jacobians)
+            best = least_squares(residuals, best.point, c.jacobians, difference=self.difference)
         self.record["minima"][found] |= {"is_best": True, **self._minimum(best)}
         for k, fit in enumerate(fits):
             if k != found and np.isfinite(fit.chi2) and np.abs(fit.point - best.point).max() > SAME_MINIMUM:
@@ -163,13 +169,16 @@ class Calibrator:
                              self.noise.degrees_of_freedom)
         if record["misfit"] > 1:
             record["words"].append(f"chi^2 is {record['chi2']:.3g}, {record['misfit'] ** 2:.3g} times the expected value: this "
-                                   "law cannot reproduce the data within noise and model tolerance; deviations of the "
-                                   f"parameters are multiplied by {record['misfit']:.3g}")
+                                   f"{'law' if record['model'] == 'continuum' else 'kind of grains'} cannot reproduce the "
+                                   "data within noise and model tolerance; deviations of the parameters are multiplied by "
+                                   f"{record['misfit']:.3g}")
         record["parameters"] = parameter_records(self.coordinates, knowledge, fine.point)
         record["correlation"] = knowledge.correlation
         record["words"] += parameter_words(record["parameters"])
-        record["words"] += [f"on {mesh} mesh {fit.note}; allow more Jacobians by `{key}`" for mesh, fit, key in (
-            ("the samples' own", fine, "fine_jacobians"), ("the coarse", coarse, "jacobians")) if fit.note]
+        searches = [("on the samples' own mesh ", fine, "fine_jacobians"), ("on the coarse mesh ", coarse, "jacobians")]
+        if fine is coarse:
+            searches = [("", fine, "jacobians")]
+        record["words"] += [f"{mesh}{fit.note}; allow more Jacobians by `{key}`" for mesh, fit, key in searches if fit.note]
         return knowledge, jacobian
 
     def _profile(self, coarse: Fit, knowledge: Knowledge) -> None:
@@ -223,7 +232,7 @@ class Calibrator:
         measured, result = np.isfinite(here), np.full((n, len(best)), np.nan)
         if measured.any():
             result[measured] = difference_jacobian(lambda points: [one[measured] for one in values(points)], best,
-                                                   here[measured])
+                                                   here[measured], self.difference)
         return result
 
 
@@ -234,8 +243,9 @@ def _check_target(calibration: Calibration, coordinates: Coordinates, target: Ta
         scene = read_target(target, [*calibration.fixed, *coordinates.settings(coordinates.start, target.name)])
     except SceneError as error:
         raise SceneError(f"{calibration.file}: with every parameter at its start: {error}; change start or set") from error
-    importlib.import_module("diptych._continuum").require_continuum(scene)
-    if scene.dict()["continuum"]["initial_stress"] == "mapped":
+    if not calibration.of_grains:
+        importlib.import_module("diptych._continuum").require_continuum(scene)
+    if not calibration.of_grains and scene.dict()["continuum"]["initial_stress"] == "mapped":
         raise SceneError(f"{target.scene}: continuum/initial_stress = mapped has no place in a calibration: one mesh serves "
                          "all samples")
     place = f"{calibration.file}: target '{target.name}': "
@@ -252,14 +262,14 @@ def _check_target(calibration: Calibration, coordinates: Coordinates, target: Ta
                              f"continuum/{unused[p.key]}")
     if target.curve:
         sample, deviations = observe_curve(scene, observables, target.curve)
-        return Data(observables, sample.values, deviations)
+        if not target.seeds:
+            return Data(observables, sample.values, deviations)
     return Data(observables, np.zeros((len(target.seeds), len(observables))))
 
 
-def _checked(file: str) -> tuple[Calibration, Coordinates]:
-    """Reads a calibration and checks it before anything is changed. Shares and drops refer to fixed keys, else to those of the
+def _checked(calibration: Calibration) -> Coordinates:
+    """Checks a calibration before anything is changed. Shares and drops refer to fixed keys, else to those of the
     first fitted scene. Whether the scatter can be estimated follows from the number of samples alone."""
-    calibration = read_calibration(file)
     first = next(target for target in calibration.targets if target.is_fitted)
     values = {**read_target(first).dict()["continuum"], **{one.key: one.value for one in calibration.fixed}}
     try:
@@ -268,19 +278,20 @@ def _checked(file: str) -> tuple[Calibration, Coordinates]:
     except SceneError:
         raise
     except ValueError as error:
-        raise SceneError(f"{file}: {error}") from error
-    return calibration, coordinates
+        raise SceneError(f"{calibration.file}: {error}") from error
+    return coordinates
 
 
 def _check_data(calibration: Calibration, paths: Sequence[Path], runs: CalibrationRuns, record: dict[str, Any]) -> None:
     """With coarser steps of the grains the fit would describe the step and not the material."""
-    noise = noise_of([path.data for path in paths], calibration.noise)
+    noise = noise_of([path.of_noise for path in paths], calibration.noise)
     for path in paths:
         target = path.target
         if not target.is_fitted:
             continue
         if target.curve:
-            record["words"].append(f"target '{target.name}' is a measured curve: nothing was run again")
+            if not target.seeds:
+                record["words"].append(f"target '{target.name}' is a measured curve: nothing was run again")
         elif path.scene.dict()["discrete"]["method"] == "imported":
             stages = path.scene.stages()  # between frames nothing is known of the grains
             path.left_out = ["" if one.kind == "ln_width" or any(one.low <= at <= one.high for at in stages)
@@ -304,26 +315,43 @@ def _inputs(calibration: Calibration) -> list[tuple[str, str]]:
     return inputs
 
 
+def _standard(line: argparse.Namespace) -> dict[str, Any] | None:
+    """Contents of the standard calibration of a scene; None for a calibration file."""
+    is_file = line.target.endswith(".json")
+    if is_file and (line.seeds or line.set or line.set_file):
+        raise SceneError(f"--seeds, --set and --set-file belong to a scene; {line.target} is a calibration file, whose targets "
+                         "have seeds and set")
+    if not is_file and not line.seeds:
+        raise SceneError(f"{line.target}: a scene needs the samples of the fit, for example --seeds 1-4; it then takes the "
+                         "standard parameters. Other parameters need a calibration file, .json")
+    return None if is_file else standard_calibration(line.target, line.seeds, settings_of(line.set, line.set_file))
+
+
 def run_calibration(line: argparse.Namespace, options: Options) -> int:
-    """The command `diptych calibrate FILE`. line: target and output. Returns its exit code; 3: stopped, or no convergence, with
-    the best point so far in the folder."""
-    calibration, coordinates = _checked(line.target)
+    """The command `diptych calibrate FILE`, or SCENE with --seeds. line: target, seeds, set, set_file and output. Returns its
+    exit code; 3: stopped, or no convergence, with the best point so far in the folder."""
+    contents = _standard(line)
+    text = json.dumps(contents, indent=1) + "\n" if contents else ""
+    calibration = read_calibration(line.target, contents)
+    coordinates = _checked(calibration)
     directory = line.output or f"results/{calibration.name}_calibration"
-    record = empty_record(calibration.title)
+    record = empty_record(calibration.title, "grains" if calibration.of_grains else "continuum")
     with Folder(directory) as folder:
-        folder.open_runs("calibration", line.target, options, lambda: _inputs(calibration))
-        runs = CalibrationRuns(calibration, directory, options)
+        folder.open_runs("calibration", line.target, options, lambda: _inputs(calibration), text)
+        if contents:
+            say(options, f"standard parameters: {directory}/calibration_input.json")
+        runs = (GrainRuns if calibration.of_grains else CalibrationRuns)(calibration, directory, options)
         try:
             paths = runs.paths()
             _check_data(calibration, paths, runs, record)
-            Calibrator(calibration, coordinates, paths, runs.continuum, record).calibrate()
+            Calibrator(calibration, coordinates, paths, runs.evaluate, record).calibrate()
         except (Stopped, NotConverged) as error:
             record["status"] = str(error)
         write_calibration(directory, record, runs.cpu_s)
         if record["status"] != "finished":
             complain(f"diptych: {record['status']}; what was found is kept in {directory}; to go on: {options.again}")
             return NOT_CONVERGED
-        tell(summary(record, runs.cpu_s["continuum"]))
+        tell(summary(record, runs.cpu_s["discrete" if calibration.of_grains else "continuum"]))
         draw(options, "calibration", directory)
         say(options, f"{directory}/calibrated.prm, calibration.json, calibration.csv")
     return DONE

@@ -1,4 +1,4 @@
-# diptych: values of continuum keys as points of the unit cube, in which the search of a calibration works
+# diptych: values of keys as points of the unit cube, in which the search of a calibration works
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Strengths, stiffnesses and lengths are varied in their logarithm. A residual angle is varied by its drop, and a dilatancy
 angle by its share of a friction angle, so that no combination contradicts itself."""
@@ -20,8 +20,8 @@ USUAL = {"friction_angle_residual": "drop_from", "dilatancy_angle_peak": "share_
 
 @dataclass(frozen=True)
 class Parameter:
-    """A key of the section continuum. start, low and high are numbers of the coordinate: the value itself (also for a
-    logarithm), a share or a drop. targets: names of the targets that it belongs to; empty: one value for all."""
+    """A key of the section continuum, or discrete/KEY. start, low, high: numbers of the coordinate, the value itself (also of
+    a logarithm), a share or a drop. targets: names of the targets that it belongs to; empty: one value for all."""
 
     key: str
     coordinate: str
@@ -30,6 +30,12 @@ class Parameter:
     high: float
     other: str = ""
     targets: tuple[str, ...] = ()
+
+    @property
+    def setting(self) -> tuple[str, str]:
+        """Section and key."""
+        section, _, key = self.key.rpartition("/")
+        return section or "continuum", key
 
     def is_of(self, target: str) -> bool:
         """An empty name means: common to all targets."""
@@ -57,9 +63,9 @@ class Coordinates:
         return len(self.parameters)
 
     def numbers(self, point: Array) -> list[float]:
-        """Value, share or drop of every parameter."""
+        """Value, share or drop of every parameter, in 12 digits, so that the start is the number of the file."""
         here = self.low + point * self.span
-        return [float(np.exp(x)) if p.coordinate == "logarithm" else float(x) for p, x in zip(self.parameters, here)]
+        return [float(f"{np.exp(x) if p.coordinate == 'logarithm' else x:.12g}") for p, x in zip(self.parameters, here)]
 
     def _value(self, key: str, target: str, numbers: Sequence[float], depth: int) -> float:
         if depth > len(self):
@@ -82,6 +88,6 @@ class Coordinates:
     def settings(self, point: Array, target: str) -> list[Setting]:
         """Settings of one target. An empty name gives those that all targets share."""
         numbers = self.numbers(point)
-        return [Setting("continuum", p.key, repr(self._value(p.key, target, numbers, 0)),
+        return [Setting(*p.setting, repr(self._value(p.key, target, numbers, 0)),
                         f"{p.key} = {number:.4g}" + (f" ({p.coordinate} {p.other})" if p.other else ""))
                 for p, number in zip(self.parameters, numbers) if p.is_of(target)]

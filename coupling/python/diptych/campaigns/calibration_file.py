@@ -1,13 +1,15 @@
 # diptych: reads and checks calibration files
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A calibration file names targets, quantities and parameters. Paths in it are relative to its folder."""
+"""A calibration file names targets, quantities and parameters. Paths in it are relative to its folder. A scene with seeds
+stands for a file with standard contents."""
 
 from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -28,7 +30,8 @@ CURVE_COLUMNS = {"stress_ratio": "stress_ratio_deviation", "volumetric_strain": 
 
 @dataclass
 class Target:
-    """A loading path: one scene on several samples, on finished result folders, or with a measured curve instead of grains."""
+    """A loading path: one scene on several samples, on finished result folders, or with a measured curve instead of grains. A
+    curve and seeds: parameters of the grains are fitted to the curve."""
 
     name: str
     scene: str
@@ -66,6 +69,11 @@ class Calibration:
     coarse_element_size: float = 4.0
     check_samples: int = 2
     seed: int = 1
+
+    @property
+    def of_grains(self) -> bool:
+        """True if keys of the grains are fitted, not of the continuum."""
+        return self.parameters[0].setting[0] == "discrete"
 
     def observables_of(self, scene: _diptych.Scene, is_curve: bool = False) -> list[Observable]:
         """Bins up to the end of the scene's loading, and windows of its comparison; a measured curve has no windows."""
@@ -153,15 +161,18 @@ def _target(part: Part) -> Target:
             part.at("seeds")
         target.seeds = part.seeds("seeds")
     if part.has("curve"):
-        if part.has("results") or part.has("seeds"):
-            part.refuse(" stands instead of grains; leave out seeds and results", "curve")
+        if part.has("results"):
+            part.refuse(" stands instead of grains; leave out results", "curve")
         target.curve = part.existing_file("curve")
     if part.has("before"):
         fragment = part.existing_file("before")
-        target.before = [Setting(*entry) for entry in _diptych.read_fragment(fragment)]
+        section = "discrete" if target.curve and target.seeds else "continuum"
+        entries = [Setting(*entry) for entry in _diptych.read_fragment(fragment)]
+        target.before = [entry for entry in entries if entry.key != "parameters_from"]
         for entry in target.before:
-            if entry.section != "continuum":
-                part.refuse(f" = '{fragment}' sets {entry.section}/{entry.key}, which is not a key of the continuum", "before")
+            if entry.section != section:
+                part.refuse(f" = '{fragment}' sets {entry.section}/{entry.key}, which is not a key of the section {section}",
+                            "before")
     return target
 
 
@@ -173,11 +184,15 @@ def _parameter(part: Part, targets: Sequence[Target]) -> Parameter:
     names = [value_text(one.value) for one in part.list("targets")]
     if part.has("targets") and not (set(names) <= set(fitted) and any(fitted[name] for name in names)):
         part.refuse(f" = '{', '.join(names)}' is not allowed; name some of {', '.join(fitted)}, one of them fitted", "targets")
-    coordinate = part.choice("coordinate", COORDINATES, USUAL.get(key, "logarithm"))
+    section = key.rpartition("/")[0] or "continuum"
+    if section not in ("continuum", "discrete"):
+        part.refuse(f" = {key} is not allowed; name a key of the section continuum, or of the grains as discrete/KEY", "key")
+    path = key if "/" in key else "continuum/" + key
+    coordinate = part.choice("coordinate", COORDINATES[:4 if section == "continuum" else 2], USUAL.get(key, "logarithm"))
     is_ratio = coordinate in ("share_of", "drop_from")
     if not is_ratio and part.has("of"):
         part.refuse(" is only allowed with coordinate = share_of or drop_from", "of")
-    part.setting("key", "continuum/" + key, 0.3)  # checks that the key exists
+    part.setting("key", path, 0.3)  # checks that the key exists
     if key in KEYS_OF_THE_SEARCH:
         part.refuse(f" = {key} is set by the calibration itself and cannot be a parameter", "key")
     p = Parameter(key, coordinate, *(part.number(name, -FAR, FAR) for name in ("start", "low", "high")),
@@ -191,7 +206,7 @@ def _parameter(part: Part, targets: Sequence[Target]) -> Parameter:
     if coordinate == "logarithm" and not p.low > 0:
         part.refuse(f" = {p.low:g}: a logarithm needs bounds above 0", "low")
     for name in () if is_ratio else ("low", "high"):  # both must lie in the range of the key
-        part.setting(name, "continuum/" + key, part.value[name])
+        part.setting(name, path, part.value[name])
     return p
 
 
@@ -209,9 +224,22 @@ def _fixed(root: Part, parameters: Sequence[Parameter]) -> list[Setting]:
     return fixed
 
 
-def read_calibration(file: str) -> Calibration:
-    """Reads a .json file. Raises SceneError naming file, line, key, value and the allowed values."""
-    root = Part.read(file, "targets, quantities, bins and parameters")
+def _check_curves(root: Part, targets: Sequence[Target], parameters: Sequence[Parameter]) -> None:
+    """Grains are fitted to curves, a continuum to grains or curves."""
+    sections = {p.setting[0] for p in parameters}
+    if len(sections) > 1:
+        root.refuse(": a file has either keys of the continuum or discrete/ keys of the grains; use two files", "parameters")
+    for part, target in zip(root.list("targets"), targets):
+        if sections == {"discrete"} and not (target.curve and target.seeds):
+            part.refuse(": parameters of the grains are fitted to a measured curve; a target needs scene, curve and seeds")
+        if sections == {"continuum"} and target.curve and target.seeds:
+            part.refuse(" stands instead of grains; leave out seeds, or name parameters of the grains as discrete/KEY", "curve")
+
+
+def read_calibration(file: str, contents: Mapping[str, Any] | None = None) -> Calibration:
+    """Reads a .json file, or its contents, whose paths begin at the folder of `file`. Raises SceneError naming file, line, key,
+    value and the allowed values."""
+    root = Part(file, {}, contents) if contents else Part.read(file, "targets, quantities, bins and parameters")
     root.allow("title", "targets", "quantities", "bins", "set", "parameters", "noise", "starts", "jacobians", "fine_jacobians",
                "start_jacobians", "load_step", "coarse_element_size", "check_samples", "seed")
     name = name_of(file, "calibration")
@@ -233,6 +261,7 @@ def read_calibration(file: str) -> Calibration:
     parameters = [_parameter(part, targets) for part in root.list("parameters")]
     if not 0 < len(parameters) <= MOST_PARAMETERS:
         root.refuse(f" is missing or empty; name 1 to {MOST_PARAMETERS} keys to be fitted", "parameters")
+    _check_curves(root, targets, parameters)
     for target in targets:  # each target uses a key once
         root.demand_distinct("parameters", [p.key for p in parameters if p.is_of(target.name)])
     c = Calibration(name, file, root.word("title", name), targets, kinds, [float(edge) for edge in bins], parameters,

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from typing import Any
 
@@ -13,10 +14,11 @@ import pandas as pd
 from .. import _diptych
 from ..arrays import Array, Interval
 from .calibration_coordinates import Coordinates
-from .calibration_noise import Noise, covariance
+from .calibration_noise import Noise, covariance, covariance_of_mean
 from .calibration_runs import Observation, Path
 from .calibration_search import LARGEST_SHARE, NORMAL, Knowledge
 from .folders import write_json, write_text
+from .input_file import seeds_text
 from .statistics import Difference, line_statistics, paired, statistics
 
 NORMAL_95 = 1.6448536269514722  # 95 % quantile
@@ -79,7 +81,8 @@ def measured(mean: float, deviation: float, now: float, kind: str) -> Difference
 def predictions(path: Path, runs: Sequence[Observation], deviations: Array, quantile: float) -> list[dict[str, Any]]:
     """Single numbers of a path with verdicts: two one-sided tests against the margins of the scene.
 
-    If the path was not fitted, the deviation of the parameters widens the intervals. That of the angle is unknown, because the
+    deviations: (observables), of `after`: from the parameters if the path was not fitted, and from runs of grains; they widen
+    the intervals. That of the angle is unknown, because the
     fit has no derivative of it. Near a flat peak the largest running mean moves as the largest mean over a bin does. The given
     deviation of a measured curve replaces the scatter of samples; that of its peak is the one of its largest bin.
     """
@@ -93,7 +96,7 @@ def predictions(path: Path, runs: Sequence[Observation], deviations: Array, quan
         earlier, now, *grains = values
         mean, deviation = (line_statistics if kind == "line" else statistics)(grains).mean, np.nan
         test = measured(mean, given, now, kind) if np.isfinite(given) else paired(grains, [now] * len(grains), kind)
-        if k is not None and not path.target.is_fitted and np.isfinite(deviations[k]):
+        if k is not None and deviations[k] > 0:
             deviation = deviations[k] * {"peak_stress_ratio": 1 / mean, "width_10_90": now / mean}.get(quantity, 1)
             test = widened(test, deviation, quantile)
         found.append({"quantity": quantity, "data": mean, "before": earlier, "after": now, "difference": test.difference,
@@ -120,31 +123,42 @@ def predictions(path: Path, runs: Sequence[Observation], deviations: Array, quan
 
 def path_record(path: Path, noise: Noise, runs: Sequence[Observation], deviations: Array, quantile: float) -> dict[str, Any]:
     """runs: before, calibrated, and calibrated with half the load step. deviations: (observables), from the parameters, with
-    their 97.5 % quantile. Curves: mean of the samples, plus and minus two deviations of one sample, and of the continuum."""
+    their 97.5 % quantile. Curves: mean of the samples, plus and minus two deviations of one sample, and of the model."""
     before, after, halved = runs
-    data, deviation = path.data, np.sqrt(np.diag(covariance(noise, path.data)))
+    data = path.data
+    deviation, of_mean = (np.sqrt(np.diag(of(noise, data))) for of in (covariance, covariance_of_mean))
+    own = np.hypot(np.zeros_like(deviations) if path.target.is_fitted else deviations,  # of `after`
+                   np.sqrt(np.diag(covariance(noise, path.of_noise)) / data.runs) if data.runs else 0)
     observables = [
         {"kind": one.kind, "from": one.low, "to": one.high, "count": int(data.count[k]), "mean": data.mean[k],
-         "deviation": deviation[k], "deviation_of_mean": deviation[k] / np.sqrt(max(1, data.count[k])),
+         "deviation": deviation[k], "deviation_of_mean": of_mean[k],
          "before": before.values[k], "after": after.values[k], "parameter_deviation": deviations[k],
          "half_step": halved.values[k] - after.values[k], "counts": False, "left_out": path.left_out[k]}
         for k, one in enumerate(data.observables)]
     record = {"name": path.target.name, "use": "fit" if path.target.is_fitted else "predict", "seeds": path.target.seeds,
+              "curve": os.path.basename(path.target.curve),
               "failed": after.failure, "observables": observables, "progress": path.samples[0].progress,
-              "predictions": predictions(path, (before, after), deviations, quantile)}
+              "predictions": predictions(path, (before, after), own, quantile)}
     for name, key in (("stress_ratio", "stress_ratio"), ("volumetric_strain", "volume")):
-        curves = np.array([getattr(s, name) for s in path.samples])
-        spread = 2 * curves.std(0, ddof=1) if len(curves) > 1 else np.full(curves.shape[1], np.nan)
-        record |= {key: curves.mean(0), key + "_low": curves.mean(0) - spread, key + "_high": curves.mean(0) + spread}
+        record |= with_scatter(key, np.array([getattr(s, name) for s in path.samples]))
         record |= {key + end: [] if o.failure else getattr(o, name) for end, o in (("_before", before), ("_after", after))}
+        if after.samples:
+            record |= with_scatter(key + "_after", np.array([getattr(s, name) for s in after.samples]))
     return record
+
+
+def with_scatter(key: str, curves: Array) -> dict[str, Array]:
+    """Mean of curves (sample, point), plus and minus two deviations of one sample; NaN for a single one."""
+    spread = 2 * curves.std(0, ddof=1) if len(curves) > 1 else np.full(curves.shape[1], np.nan)
+    return {key: curves.mean(0), key + "_low": curves.mean(0) - spread, key + "_high": curves.mean(0) + spread}
 
 
 def summary(record: dict[str, Any], cpu_s: float) -> str:
     """The result for the terminal."""
+    runs = (f"{record['coarse_runs']} coarse and {record['fine_runs']} fine runs, " if record["model"] == "continuum"
+            else f"{record['coarse_runs']} runs of all seeds, ")
     lines = [f"{record['title']}: chi^2 of {record['n_observables']} observables {record['chi2_before']:.4g} -> "
-             f"{record['chi2']:.4g}; {record['coarse_runs']} coarse and {record['fine_runs']} fine runs, "
-             f"{record['other_runs']} of predictions, {cpu_s:.4g} CPU s"]
+             f"{record['chi2']:.4g}; {runs}{record['other_runs']} of predictions, {cpu_s:.4g} CPU s"]
     for p in record["parameters"]:
         share = f"{p['coordinate']} {p['of']} {p['number']:.3g} " if p["of"] else ""
         lines.append(f"  {p['key']} = {p['value']:.4g} {share}[{p['number_low']:.4g}, {p['number_high']:.4g}]"
@@ -155,13 +169,27 @@ def summary(record: dict[str, Any], cpu_s: float) -> str:
     return "\n".join(lines + ["  " + words for words in record["words"]])
 
 
+def _origin(record: dict[str, Any]) -> str:
+    """Paths, curves and seeds of the fit, in one line without the sign of a comment: a value in a scene file."""
+    fitted = [path for path in record["paths"] if path["use"] == "fit"]
+    paths = [", ".join(filter(None, [path["name"], path["curve"], path["seeds"] and f"seeds {seeds_text(path['seeds'])}"]))
+             for path in fitted]
+    status = "" if record["status"] == "finished" else f" ({record['status']})"
+    return " ".join(f"calibrated on {'; '.join(paths) or record['title']}{status}".replace("#", "").split())
+
+
 def _fragment(record: dict[str, Any]) -> str:
-    status = "" if record["status"] == "finished" else ": " + record["status"]
-    lines = [f"# {record['title']}, by diptych {_diptych.git_revision}{status}"]
-    lines += [f"# fitted on {path['name']}" + (f", seeds {' '.join(map(str, path['seeds']))}" if path["seeds"] else "")
-              for path in record["paths"] if path["use"] == "fit"]
-    lines += ["subsection continuum", *("  set " + one.removeprefix("continuum/") for one in record["settings"])]
-    lines += [f"  # {own['target']}: set {own['key']} = {_diptych.text_of_number(own['value'])}" for own in record["own"]]
+    """calibrated.prm. A run that takes a continuum from it shows its origin."""
+    origin, section = _origin(record), "continuum" if record["model"] == "continuum" else "discrete"
+    lines = [f"# {origin}, by diptych {_diptych.git_revision}"]
+    if record["status"] == "finished":
+        lines += [f"# chi^2 of {record['n_observables']} observables: {record['chi2_before']:.4g} before, {record['chi2']:.4g} "
+                  "now; calibration.json holds intervals"]
+    lines += [f"subsection {section}", *("  set " + one.removeprefix(section + "/") for one in record["settings"])]
+    lines += [f"  # {own['target']}: set {own['key'].removeprefix(section + '/')} = {_diptych.text_of_number(own['value'])}"
+              for own in record["own"]]
+    if section == "continuum":
+        lines += ["end", "", "subsection comparison", f"  set parameters_from = {origin}"]
     return "\n".join(lines + ["end", ""])
 
 

@@ -52,11 +52,13 @@ class Noise:
 @dataclass
 class Data:
     """The samples of one path. values: (samples, observables), NaN if a sample has none. given: (observables) deviations that a
-    measured curve brings, NaN where it brings none."""
+    measured curve brings, NaN where it brings none. runs: number of samples of grains that are compared with the data in their
+    mean; 0: a continuum without scatter."""
 
     observables: Sequence[Observable]
     values: Array
     given: Array | None = None
+    runs: int = 0
     mean: Array = field(init=False)  # over the samples that have it; NaN if less than half do
     count: Array = field(init=False)
 
@@ -66,7 +68,7 @@ class Data:
             self.given = np.full(len(self.observables), np.nan)
         finite = np.isfinite(self.values)
         self.count = finite.sum(0)
-        enough = (self.count > 0) & (2 * self.count >= len(self.values))
+        enough = (self.count >= min(2, len(self.values))) & (2 * self.count >= len(self.values))
         self.mean = np.where(enough, np.where(finite, self.values, 0).sum(0) / np.maximum(1, self.count), np.nan)
 
     def of(self, kind: str) -> Array:
@@ -120,8 +122,8 @@ def noise_of(paths: Sequence[Data], given: Noise) -> Noise:
     and cannot be estimated."""
     squares = dict(zip(("stress_level", "stress_shape"), _stress_squares(paths)))
     squares.update(zip(("volume_start", "volume_growth"), _volume_squares(paths)), ln_width=_width_square(paths))
-    needed = [key for kind, keys in ESTIMATED.items() for key in keys  # else all deviations of this kind are measured
-              if any((path.of(kind) & np.isnan(path.given)).any() for path in paths)]
+    needed = [key for kind, keys in ESTIMATED.items() for key in keys  # else this kind is measured with deviations, or missing
+              if any((path.of(kind) & np.isnan(path.given) & np.isfinite(path.mean)).any() for path in paths)]
     estimated = [key for key in needed if getattr(given, key) is None]
     missing = [key for key in estimated if np.isnan(squares[key])]
     if missing:
@@ -146,6 +148,13 @@ def covariance(noise: Noise, data: Data) -> Array:
     return result
 
 
+def covariance_of_mean(noise: Noise, data: Data) -> Array:
+    """(observables, observables): of the mean of the data, plus that of the runs they are compared with."""
+    n = np.maximum(1, data.count)
+    result = covariance(noise, data) / np.sqrt(np.outer(n, n))
+    return result + covariance(noise, replace(data, given=None)) / data.runs if data.runs else result
+
+
 def discrepancy(noise: Noise, data: Data) -> Array:
     """(observables): variance of the model tolerance."""
     early = noise.early_stress_discrepancy * np.exp(-data.middles / noise.early_strain)
@@ -157,8 +166,7 @@ def discrepancy(noise: Noise, data: Data) -> Array:
 def working_weights(noise: Noise, data: Data) -> Array:
     """(observables): 1 / (scatter of the mean + model tolerance), or 0 if the mean is NaN. The scatter common to all bins is
     left out of the weights: a fit with it can lie below every data point (Peelle's puzzle)."""
-    own = np.diag(covariance(replace(noise, stress_level=0.0), data))
-    variance = discrepancy(noise, data) + own / np.maximum(1, data.count)
+    variance = discrepancy(noise, data) + np.diag(covariance_of_mean(replace(noise, stress_level=0.0), data))
     return np.where(np.isfinite(data.mean) & (variance > 0), 1 / np.where(variance > 0, variance, 1), 0.0)
 
 
@@ -187,7 +195,6 @@ class FittedData:
             noise = replace(noise, **{key: 0.0 for keys in ESTIMATED.values() for key in keys if key not in noise.estimated})
         for path in self.paths:
             known = path.given if with_tolerance else np.where(np.isfinite(path.given), 0.0, np.nan)  # measured, not estimated
-            n = np.maximum(1, path.count)
-            block = covariance(noise, replace(path, given=known)) / np.sqrt(np.outer(n, n))
+            block = covariance_of_mean(noise, replace(path, given=known))
             blocks.append(block + (np.diag(discrepancy(noise, path)) if with_tolerance else 0))
         return scipy.linalg.block_diag(*blocks)

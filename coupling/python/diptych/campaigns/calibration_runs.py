@@ -43,6 +43,7 @@ class Observation:
     stress_ratio: Array = field(default_factory=NO_CURVE.copy)
     volumetric_strain: Array = field(default_factory=NO_CURVE.copy)
     failure: str = ""  # reason if the run did not finish
+    samples: list[Observation] = field(default_factory=list)  # of a mean over seeds
 
 
 @dataclass
@@ -58,13 +59,19 @@ class Outline:
 
 @dataclass
 class Path:
-    """A target with what its samples show. left_out: a reason per observable; empty: it counts."""
+    """A target with what its samples or its curve show. left_out: a reason per observable; empty: it counts. scatter: the
+    samples that give the noise, if others than the data."""
 
     target: Target
     scene: _diptych.Scene
     data: Data
     samples: list[Observation]
     left_out: list[str]
+    scatter: Data | None = None
+
+    @property
+    def of_noise(self) -> Data:
+        return self.scatter or self.data
 
 
 def observe_history(scene: _diptych.Scene, observables: Sequence[Observable], table: pd.DataFrame | None) -> Observation:
@@ -126,6 +133,13 @@ def observe_curve(scene: _diptych.Scene, observables: Sequence[Observable], file
         if CURVE_COLUMNS[one.kind] in table and np.isfinite(o.values[k]):
             deviations[k] = mean_over(x, table[CURVE_COLUMNS[one.kind]].to_numpy(), one.low, one.high)
     return o, deviations
+
+
+def half_step(scene: _diptych.Scene) -> list[Setting]:
+    """Halves the step of the grains, or the accuracy that chooses it."""
+    keys = scene.dict()["discrete"]
+    key = "accuracy" if keys["step"] == "auto" else "step"
+    return [Setting("discrete", key, repr(0.5 * keys[key]), "the calibration")]
 
 
 class CalibrationRuns:
@@ -218,11 +232,9 @@ class CalibrationRuns:
     def unsteady(self, path: Path, noise: Noise) -> list[str]:
         """Runs the first samples with half the step. Why an observable is left out: it moves by more than samples scatter, and
         by more than two runs of a sample differ by chance."""
-        keys, seeds = path.scene.dict()["discrete"], path.target.seeds[:self.calibration.check_samples]
-        key = "accuracy" if keys["step"] == "auto" else "step"
-        half = [Setting("discrete", key, repr(0.5 * keys[key]), "the calibration")]
+        seeds = path.target.seeds[:self.calibration.check_samples]
         finer = [self._observed(path.target, path.scene, path.data.observables, folder).values
-                 for folder in self._grains(path.target, seeds, half, ", with half the grains' step")]
+                 for folder in self._grains(path.target, seeds, half_step(path.scene), ", with half the grains' step")]
         moved = np.mean([a - b.values for a, b in zip(finer, path.samples)], axis=0)
         scatter = np.sqrt(np.diag(covariance(noise, path.data)))
         allowed = max(1.0, NORMAL * np.sqrt(2 / len(seeds)))
@@ -258,7 +270,7 @@ class CalibrationRuns:
         return add_bands(o, path.scene, observables, _diptych.read_nodes(folder).snapshots,
                          self.outlines[path.target.name].frames, False)
 
-    def continuum(self, paths: Sequence[Path], points: Sequence[Sequence[Sequence[Setting]]], fine: bool,
+    def evaluate(self, paths: Sequence[Path], points: Sequence[Sequence[Sequence[Setting]]], fine: bool,
                   load_step: float) -> list[list[Observation]]:
         """Runs the continuum with points[point][path]; returns [point][path]."""
         runs = [scene_run(path.target.scene, "continuum", self._settings(path, settings, fine, load_step))
@@ -272,7 +284,7 @@ def read_target(target: Target, more: Sequence[Setting] = ()) -> _diptych.Scene:
     """The scene of a target with its settings and more. Raises SceneError."""
     scene = _diptych.read_changed_scene(target.scene, [*target.settings, *more], not target.curve)
     mesh, mode = scene.dict()["continuum"]["mesh"], scene.dict()["loading"]["mode"]
-    if target.curve and mesh != "rectangle":
+    if target.curve and not target.seeds and mesh != "rectangle":
         raise SceneError(f"{target.scene}: continuum/mesh = {mesh}: a measured curve has no grains with an outline; set "
                          "mesh = rectangle, rectangle_width and rectangle_height")
     if target.curve and scene.loading_variable() != "axial_strain":

@@ -17,6 +17,8 @@ from ..arrays import Array
 
 Residuals = Callable[[Sequence[Array]], "list[Array]"]  # of several points at once; NaN: the run failed
 DIFFERENCE = 0.005  # step of the forward differences; backward at the upper bound
+GRAINS_DIFFERENCE = 0.12  # the same where runs scatter; 0.1 of a friction of 0.4 between 0.1 and 0.9
+SMALLEST_STEP = 0.02  # of the search, in differences; the runs do not resolve a smaller one
 LEAST_GAIN, LEAST_DECREASE = 0.05, 1e-3  # of chi^2, absolute and relative: below either, a search has converged
 RADIUS_OF_FRESH, RADIUS_OF_GIVEN = 0.25, 0.1  # of the first trust region, with a Jacobian computed here or given
 EXACT = 1e-6  # mean square of the residuals below which the fit is exact
@@ -26,14 +28,14 @@ LARGEST_SHARE = 2 / 3  # of the prior deviation that an identified parameter kee
 NORMAL = float(scipy.stats.norm.ppf(0.975))
 
 
-def difference_jacobian(residuals: Residuals, point: Array, residual: Array) -> Array:
+def difference_jacobian(residuals: Residuals, point: Array, residual: Array, difference: float = DIFFERENCE) -> Array:
     """(residuals, parameters): differences around a point. If a run fails, the column uses the other side; it is zero if both
     fail."""
     def columns(numbers: Sequence[int], steps: Array) -> Array:
         return np.array([(value - residual) / steps[k] for k, value in
                          zip(numbers, residuals([point + steps[k] * np.eye(len(point))[k] for k in numbers]))])
 
-    steps = np.where(point + DIFFERENCE <= 1, DIFFERENCE, -DIFFERENCE)
+    steps = np.where(point + difference <= 1, difference, -difference)
     jacobian = columns(range(len(point)), steps)
     failed = [k for k in range(len(point)) if not np.isfinite(jacobian[k]).all() and 0 <= point[k] - steps[k] <= 1]
     if failed:
@@ -68,10 +70,12 @@ class Fit:
 
 
 class _Search:
-    """Steps with one Jacobian, fresh or old, and its updates."""
+    """Steps with one Jacobian, fresh or old, and its updates. Steps below `shortest` do not update it: they show the scatter of
+    the runs and not their slope."""
 
-    def __init__(self, residuals: Residuals, fit: Fit) -> None:
+    def __init__(self, residuals: Residuals, fit: Fit, shortest: float) -> None:
         self.residuals, self.fit, self.trial, self.failed, self.fresh = residuals, fit, (fit.point, fit.residual), False, False
+        self.shortest = shortest
 
     def value(self, x: Array) -> Array:
         if np.array_equal(x, self.fit.point):
@@ -80,6 +84,8 @@ class _Search:
             self.failed = True
             if not self.fresh:
                 raise _Ended
+        if np.linalg.norm(x - self.fit.point) < SMALLEST_STEP * self.shortest:
+            raise _Ended
         self.trial = (x.copy(), self.residuals([x])[0])
         self.fit.evaluations += 1
         return self.trial[1]
@@ -90,7 +96,8 @@ class _Search:
         if not np.array_equal(x, fit.point):
             step, change = self.trial[0] - fit.point, self.trial[1] - fit.residual
             gain, before = fit.chi2 - self.trial[1] @ self.trial[1], fit.chi2
-            fit.jacobian = fit.jacobian + np.outer(change - fit.jacobian @ step, step) / (step @ step)
+            if step @ step >= self.shortest**2:
+                fit.jacobian = fit.jacobian + np.outer(change - fit.jacobian @ step, step) / (step @ step)
             fit.point, fit.residual = self.trial
             self.fresh = False
             if gain < max(LEAST_GAIN, LEAST_DECREASE * before) or fit.is_exact:
@@ -119,7 +126,8 @@ class _Search:
         return settled and not self.failed
 
 
-def least_squares(residuals: Residuals, start: Array, most_jacobians: int = 4, jacobian: Array | None = None) -> Fit:
+def least_squares(residuals: Residuals, start: Array, most_jacobians: int = 4, jacobian: Array | None = None,
+                  difference: float = DIFFERENCE) -> Fit:
     """Minimises the sum of squares within [0, 1]^n. A given Jacobian is used until a step fails or the steps run out; then a
     new one is computed. A point without a run counts as a failed step. If `start` has no run, `note` says so. Exceptions of
     `residuals` pass through."""
@@ -135,10 +143,10 @@ def least_squares(residuals: Residuals, start: Array, most_jacobians: int = 4, j
             if fit.jacobians >= most_jacobians:
                 fit.note = f"the last of {fit.jacobians} Jacobians still lowered chi^2; the search has not converged"
                 return fit
-            fit.jacobian = difference_jacobian(residuals, fit.point, fit.residual)
+            fit.jacobian = difference_jacobian(residuals, fit.point, fit.residual, difference)
             fit.evaluations, fit.jacobians = fit.evaluations + len(fit.point), fit.jacobians + 1
         before = fit.chi2
-        went_well = fit.is_exact or _Search(residuals, fit).run(fresh)
+        went_well = fit.is_exact or _Search(residuals, fit, difference).run(fresh)
         if (fresh and before - fit.chi2 < max(LEAST_GAIN, LEAST_DECREASE * before)) or (not fresh and went_well):
             return fit
         if not fresh:

@@ -66,6 +66,17 @@ def read_seeds(text: str) -> list[int]:
     return seeds
 
 
+def seeds_text(seeds: Sequence[int]) -> str:
+    """The list as on the command line, "1-4,7"."""
+    runs: list[list[int]] = []
+    for seed in seeds:
+        if runs and seed == runs[-1][-1] + 1:
+            runs[-1].append(seed)
+        else:
+            runs.append([seed])
+    return ",".join(f"{run[0]}-{run[-1]}" if len(run) > 1 else str(run[0]) for run in runs)
+
+
 def name_of(file: str, usual: str) -> str:
     """The name of an input file, without its ending. A file with the usual name is called like its folder."""
     folder, name = os.path.split(os.path.abspath(file))

@@ -12,27 +12,34 @@ KINDS = {"stress_ratio": "t/s", "volumetric_strain": "volume", "ln_width": "ln w
 MARKS = {"stress_ratio": "o", "volumetric_strain": "s", "ln_width": "D"}
 
 
-def curve(path, kind):
-    """Mean of the grains with two standard deviations of one sample, and the continuum before and after."""
+def curve(path, kind, model):
+    """Data, as mean of the grains or measured, and the model before and after, each with two deviations of one sample."""
     figure = Figure(figsize=(4.5, 3.1))
     axes = ruled(figure.add_axes([0.15, 0.16, 0.825, 0.8]))
-    label = draw_curve(axes, path, kind)
+    label = draw_curve(axes, path, kind, model)
     axes.legend(loc="lower right" if kind == "stress_ratio" else "best")
-    return svg(figure, f"{label} of {path['name']}: grains with their scatter, continuum before and after calibration.")
+    return svg(figure, f"{label} of {path['name']}: data with their scatter, {model} before and after calibration.")
 
 
-def draw_curve(axes, path, kind):
+def draw_curve(axes, path, kind, model):
     """Draws a curve without a legend. Returns the label of its axis."""
     name, label, scale = CURVES[kind]
     x = 100 * numbers(path["progress"])
     low, high = scale * numbers(path[name + "_low"]), scale * numbers(path[name + "_high"])
     if np.isfinite(low).any():
         axes.fill_between(x, low, high, color=GRAINS, alpha=0.18, linewidth=0, label="grains, ± 2 deviations of a sample")
-    axes.plot(x, scale * numbers(path[name]), color=GRAINS, label=f"grains, mean of {len(path['seeds'])}")
+    measured = [o for o in path["observables"] if path["curve"] and o["kind"] == kind and o["mean"] is not None]
+    if measured:
+        middle, mean, deviation = (numbers(column) for column in zip(*[(50 * (o["from"] + o["to"]), o["mean"], o["deviation"]) for o in measured]))
+        axes.errorbar(middle, scale * mean, 2 * scale * deviation, fmt="none", ecolor=GRAINS, label="measured, ± 2 deviations")
+    axes.plot(x, scale * numbers(path[name]), color=GRAINS, label="measured" if path["curve"] else f"grains, mean of {len(path['seeds'])}")
+    if f"{name}_after_low" in path:
+        axes.fill_between(x, *(scale * numbers(path[f"{name}_after_{end}"]) for end in ("low", "high")), color=CONTINUUM, alpha=0.15, linewidth=0,
+                          label="calibrated, ± 2 deviations of a sample")
     for when, look in (("before", dict(color=FAINT, linestyle=(0, (2, 1.5)))), ("after", dict(color=CONTINUUM, linestyle=(0, (5, 1.5))))):
         y = scale * numbers(path[f"{name}_{when}"])
         if len(y) == len(x):
-            axes.plot(x, y, label="continuum, before" if when == "before" else "continuum, calibrated", **look)
+            axes.plot(x, y, label=f"{model}, before" if when == "before" else f"{model}, calibrated", **look)
     axes.set(xlabel="axial strain, %", ylabel=label, xlim=(0, x[-1]))
     if kind == "stress_ratio":
         axes.set_ylim(0, 1.3 * np.nanmax(scale * numbers(path[name])))
@@ -40,7 +47,7 @@ def draw_curve(axes, path, kind):
 
 
 def residuals(path):
-    """(continuum - grains) / standard deviation of the mean of the samples."""
+    """(model - data) / standard deviation of the means."""
     entries = [o for o in path["observables"] if o["after"] is not None and o["mean"] is not None and o["deviation_of_mean"]]
     if not entries:
         return None
@@ -57,7 +64,7 @@ def residuals(path):
                           label=KINDS[kind] + ("" if counts else ", not fitted"))
     axes.set(xlabel="axial strain, %", ylabel="difference / deviation")
     axes.legend(loc="best")
-    return svg(figure, f"Residuals of {path['name']} for each bin, over the standard deviation of the mean of the samples.")
+    return svg(figure, f"Residuals of {path['name']} for each bin, over the standard deviation of the means.")
 
 
 def correlation(calibration):

@@ -16,6 +16,8 @@ class Calibration:
     def __init__(self, record, cost):
         self.record, self.cost = record, cost
         self.paths, self.parameters = record["paths"], record["parameters"]
+        self.model = record["model"]  # "continuum" or "grains"
+        self.data = "measured" if all(path["curve"] for path in self.paths) else "grains"
 
     def names(self):
         return [label(p) for p in self.parameters]

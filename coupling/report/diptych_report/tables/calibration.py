@@ -24,7 +24,7 @@ def parameters(calibration):
         rows.append([label(p), text(p["value"]), f"{ratio}{p['of']}: {number}" if ratio else "", f"{text(p['number_low'], 3)} … {text(p['number_high'], 3)}",
                      f"{text(p['low'], 3)} … {text(p['high'], 3)}", f"{100 * p['share_known']:.0f} %",
                      ("yes" if p["is_identified"] else "not identified") + (", at its bound" if p["at_bound"] else "")])
-    return {"head": ["continuum/", "value", "fitted as", "95 %", "bounds", "deviation left", "identified"], "rows": rows}
+    return {"head": ["continuum/" if calibration.model == "continuum" else "", "value", "fitted as", "95 %", "bounds", "deviation left", "identified"], "rows": rows}
 
 
 def predictions(calibration):
@@ -35,7 +35,7 @@ def predictions(calibration):
             ends = "–" if difference["low"] is None else f"{text(difference['value'], 2)} [{text(difference['low'], 2)}, {text(difference['high'], 2)}]"
             rows.append([f"{path['name']} ({'fitted' if path['use'] == 'fit' else 'predicted'})", QUANTITIES[one["quantity"]], text(one["data"]),
                          text(one["before"]), text(one["after"]), ends, text(one["margin"], 2), one["verdict"]])
-    return {"head": ["path", "", "grains", "before", "calibrated", "difference [95 %]", "margin", "verdict"], "rows": rows}
+    return {"head": ["path", "", calibration.data, "before", "calibrated", "difference [95 %]", "margin", "verdict"], "rows": rows}
 
 
 def misfits(calibration):
@@ -50,7 +50,7 @@ def misfits(calibration):
                 steps = numbers([o["half_step"] for o in entries])
                 rows.append([path["name"], label, *rms, text(np.sqrt(np.nanmean(numbers([o["deviation_of_mean"] for o in entries]) ** 2)), 2),
                              text(np.sqrt(np.nanmean(deviation ** 2)), 2), text(np.sqrt(np.nanmean(steps ** 2)), 2)])
-    return {"head": ["path", "", "before", "calibrated", "deviation of the mean of the samples", "from the deviation of the parameters", "change with half the load step"],
+    return {"head": ["path", "", "before", "calibrated", "deviation of the means", "from the deviation of the parameters", "change with half the step"],
             "rows": rows}
 
 
@@ -63,6 +63,8 @@ def minima(calibration):
 
 def cost(calibration):
     r = calibration.record
-    return {"head": ["", ""], "rows": [["runs on the coarse mesh (search and profiles)", str(r["coarse_runs"])], ["runs on the fine mesh", str(r["fine_runs"])],
-                                       ["runs for predictions", str(r["other_runs"])], ["CPU time of the continuum, s", text(calibration.cost["continuum_cpu_s"], 3)],
-                                       ["CPU time of the grains, s", text(calibration.cost["grains_cpu_s"], 3)]]}
+    rows = [["runs on the coarse mesh (search and profiles)", str(r["coarse_runs"])], ["runs on the fine mesh", str(r["fine_runs"])],
+            ["runs for predictions", str(r["other_runs"])], ["CPU time of the continuum, s", text(calibration.cost["continuum_cpu_s"], 3)]]
+    if calibration.model == "grains":
+        rows = [["points of search and profiles, each with all seeds", str(r["coarse_runs"])], ["points of the comparison", str(r["other_runs"])]]
+    return {"head": ["", ""], "rows": [*rows, ["CPU time of the grains, s", text(calibration.cost["grains_cpu_s"], 3)]]}
