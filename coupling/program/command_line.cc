@@ -154,10 +154,8 @@ namespace diptych::coupling
 
       void add_calibrate()
       {
-        CLI::App *calibrate = add(
-          Command::calibrate,
-          "fit a continuum to grains or a measured curve, or grains to a measured curve; report parameters that the data cannot "
-          "determine, and predict other loading paths");
+        CLI::App *calibrate = add(Command::calibrate, "fit a continuum, or the friction of grains, to curves of grains or tests; "
+                                                      "report parameters that the data cannot determine");
         calibrate
           ->add_option("SCENE", line.target,
                        "scene file with --seeds, which takes the standard parameters, or calibration file, .json")
