@@ -108,6 +108,7 @@ namespace diptych::coupling
     v({"strain_at_peak", "strain or time", "progress at the peak of the stress ratio"}, s.peak.progress);
     v({"early_strength", "-", "strength T/S up to 0.3 % strain: mean of t over mean of s"}, s.strength.early);
     v({"strength", "-", "strength T/S from 0.3 % strain to the end"}, s.strength.later);
+    v({"platen_force_pd", "P d", "mean vertical force of the platens from 0.3 % strain to the end"}, s.platen_force);
     v({"final_volumetric_strain", "-", "volumetric strain at the end, positive in compression"}, s.final_volumetric_strain);
     v({"spin_term_share", "-", "largest ratio of spin term to mean stress"}, s.spin_term_share);
     v({"kinetic_energy_ratio_median", "-", "median of kinetic energy / (M|V|²/4)"}, s.kinetic_energy_ratio_median);
@@ -133,6 +134,7 @@ namespace diptych::coupling
     v({"strain_at_peak", "strain or time", "progress at the peak of the stress ratio"}, s.peak.progress);
     v({"early_strength", "-", "strength T/S up to 0.3 % strain: mean of t over mean of s"}, s.strength.early);
     v({"strength", "-", "strength T/S from 0.3 % strain to the end"}, s.strength.later);
+    v({"platen_force_pd", "P d", "mean vertical force of the platens from 0.3 % strain to the end"}, s.platen_force);
     v({"final_volumetric_strain", "-", "volumetric strain at the end, positive in compression"}, s.final_volumetric_strain);
     v({"share_zz_not_intermediate", "-", "largest share of the area in which σ_zz is not the intermediate principal stress"},
       s.share_zz_not_intermediate);

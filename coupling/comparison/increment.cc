@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "coupling/averaging/periodic.h"
+#include "discrete/files/csv_file.h"
 #include "coupling/statistics/block_bootstrap.h"
 
 namespace diptych::coupling
@@ -79,8 +80,8 @@ namespace diptych::coupling
   {
     const double radius = strain_radius(pair.grains_to.mean_diameter);
     Increment    result;
-    result.from              = pair.grains_from.progress;
-    result.to                = pair.grains_to.progress;
+    result.from              = discrete::tidy(pair.grains_from.progress); // sums of steps
+    result.to                = discrete::tidy(pair.grains_to.progress);
     result.duration          = pair.grains_to.time - pair.grains_from.time;
     result.frame             = sample_frame(pair.grains_from, pair.grains_to);
     result.mesh              = quad_mesh(pair.nodes_to);

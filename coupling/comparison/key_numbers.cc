@@ -31,9 +31,9 @@ namespace diptych::coupling
       return {quantity, unit, grains, continuum, difference, verdict_of(difference)};
     }
 
-    KeyNumber of_values(const std::string &quantity, const double grains, const double continuum)
+    KeyNumber of_values(const std::string &quantity, const double grains, const double continuum, const char *unit = "-")
     {
-      return key_number(quantity, "-", Interval{grains}, Interval{continuum}, Interval{continuum - grains});
+      return key_number(quantity, unit, Interval{grains}, Interval{continuum}, Interval{continuum - grains});
     }
 
     void add_band(const Increment &window, std::vector<KeyNumber> &numbers)
@@ -69,6 +69,7 @@ namespace diptych::coupling
     std::vector<KeyNumber> numbers = {
       of_values("peak t/s", c.discrete.peak.value, c.continuum.peak.value),
       of_values("strength T/S from 0.3 % strain", c.discrete.strength.later, c.continuum.strength.later),
+      of_values("platen force from 0.3 % strain", c.discrete.platen_force, c.continuum.platen_force, "P d"),
       of_values("volumetric strain at the end", c.discrete.final_volumetric_strain, c.continuum.final_volumetric_strain)};
     if (!c.windows.empty())
       add_band(c.windows.back(), numbers);

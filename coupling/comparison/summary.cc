@@ -32,9 +32,20 @@ namespace diptych::coupling
       return {values.begin() + (column(history, "progress").front() == 0 ? 1 : 0), values.end()};
     }
 
+    constexpr double early_strain = 0.003;
+
+    // Mean of both platens, in pressure x mean diameter, over the range of the later strength.
+    double platen_force(const Scene &scene, const HistoryTable &h)
+    {
+      const double end = column(h, "progress").back();
+      if (scene.loading.mode == discrete::LoadingMode::time || !is_beyond(end, early_strain))
+        return NAN;
+      const auto mean = [&](const char *name) { return mean_over_progress(h, name, early_strain, end); };
+      return (mean("lower_fy") - mean("upper_fy")) / 2 / (scene.loading.pressure * scene.sample.mean_diameter);
+    }
+
     Strength strength_of(const discrete::LoadingMode mode, const HistoryTable &history)
     {
-      constexpr double early_strain = 0.003;
       if (mode == discrete::LoadingMode::time)
         return {};
       return {ratio_of_means(history, 0, early_strain),
@@ -66,6 +77,7 @@ namespace diptych::coupling
     s.residual                     = largest(column(h, "residual"));
     s.peak                         = peak_of_running_mean(h, "stress_ratio", averaging_width(scene));
     s.strength                     = strength_of(scene.loading.mode, h);
+    s.platen_force                 = platen_force(scene, h);
     s.final_volumetric_strain      = column(h, "volumetric_strain").back();
     s.spin_term_share              = largest(column(h, "spin_term_share"));
     s.kinetic_energy_ratio_median  = median(column(h, "kinetic_energy_ratio"));
@@ -91,6 +103,7 @@ namespace diptych::coupling
     s.cut_backs                     = column(h, "cut_backs").back();
     s.peak                          = peak_of_running_mean(h, "stress_ratio", averaging_width(scene));
     s.strength                      = strength_of(scene.loading.mode, h);
+    s.platen_force                  = platen_force(scene, h);
     s.final_volumetric_strain       = column(h, "volumetric_strain").back();
     s.share_zz_not_intermediate     = largest(loaded(h, "share_zz_not_intermediate"));
     s.unstable_share                = largest(column(h, "unstable_share"));

@@ -31,6 +31,7 @@ namespace diptych::coupling
     double        grain_stress_error = NAN; // error / residual x residual; NaN if it was not measured
     Peak          peak;                     // of the running mean of t/s
     Strength      strength;
+    double        platen_force            = NAN; // [P d], vertical, mean from 0.3 % strain on
     double        final_volumetric_strain = NAN, spin_term_share = NAN;
     double        kinetic_energy_ratio_median = NAN, kinetic_energy_ratio_largest = NAN;
     double        contacts = NAN, coordination_number = NAN, rattlers = NAN; // at the end
@@ -44,6 +45,7 @@ namespace diptych::coupling
     double      newton_iterations = NAN, cut_backs = NAN;
     Peak        peak;
     Strength    strength;
+    double      platen_force            = NAN;
     double      final_volumetric_strain = NAN, share_zz_not_intermediate = NAN, viscous_share = NAN, unstable_share = NAN;
     double      max_equivalent_plastic_strain = NAN;
     double      platen_unbalance              = NAN; // sum of the vertical forces at the end, relative to their mean size

@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <vector>
+
+#include "discrete/files/csv_file.h"
 
 namespace diptych::coupling
 {
@@ -34,14 +35,7 @@ namespace diptych::coupling
                                                           {0.6, 31.6, 0.81, 0.52, 0.645, 20000},
                                                           {0.8, 34.5, 0.77, 0.43, 0.68, 30000}}};
 
-    // Without the round-off of a product: 0.3 for 3 x 0.1.
-    double tidy(double value)
-    {
-      char       text[32];
-      const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 10).ptr;
-      std::from_chars(text, end, value);
-      return value;
-    }
+    using discrete::tidy;
 
     // Linear between two neighbours, constant beyond the ends.
     CalibratedLaw law_at(const double friction)
@@ -71,6 +65,12 @@ namespace diptych::coupling
       if (n_grains <= 4000)
         return tidy(1e-3 * std::pow(std::max(1., n_grains / 2000), std::log(0.4) / std::log(2.)));
       return tidy(4e-4 * std::sqrt(4000 / n_grains));
+    }
+
+    // Equal stages of about `usual` up to the end, at most 40.
+    double stage_length(const double end, const double usual)
+    {
+      return tidy(end / std::clamp(std::round(end / usual), 1., 40.));
     }
 
     // 0, a quarter, half and the whole of the loading, at stages.
@@ -137,6 +137,10 @@ namespace diptych::coupling
     const DerivedKey derived_keys[] = {
       {"loading/inertial_number", "1e-3 up to 2000 grains, 4e-4 for 4000, then lower with the square root of their number",
        [](Scene &s, const Given &) { s.loading.inertial_number = slow_enough(discrete::expected_grains(s.sample)); }},
+      {"loading/stage_strain", "about 0.005, so that the end is a stage; at most 40 stages",
+       [](Scene &s, const Given &) { s.loading.stage_strain = stage_length(s.loading.axial_strain, 0.005); }},
+      {"loading/stage_time", "about 1, so that the end is a stage; at most 40 stages",
+       [](Scene &s, const Given &) { s.loading.stage_time = stage_length(s.loading.duration, 1); }},
       {"continuum/hardening", "mobilisation",
        [](Scene &s, const Given &) { law(s).hardening = continuum::HardeningKind::mobilisation; }},
       {"continuum/youngs_modulus", by_friction,
@@ -157,13 +161,23 @@ namespace diptych::coupling
       {"continuum/internal_length", "2", [](Scene &s, const Given &) { law(s).internal_length = 2; }},
       {"continuum/element_size", "the internal length, at most 3; 2 without one",
        [](Scene &s, const Given &) { s.continuum.element_size = element_size(s.continuum); }},
+      {"continuum/min_step", "1e-5, at most the other steps that are given",
+       [](Scene &s, const Given &given) {
+         s.continuum.min_step = 1e-5;
+         for (const auto &[key, step] : {std::pair("continuum/initial_step", s.continuum.initial_step),
+                                         std::pair("continuum/max_step", s.continuum.max_step)})
+           if (given.count(key) > 0)
+             s.continuum.min_step = std::min(s.continuum.min_step, step);
+       }},
       {"continuum/max_step", "0.00125 of strain, at most an eighth of the loading (mode time: duration / 32)",
        [](Scene &s, const Given &given) {
          const double first   = given.count("continuum/initial_step") > 0 ? s.continuum.initial_step : 0;
          s.continuum.max_step = std::max({largest_step(s.loading), s.continuum.min_step, first});
        }},
-      {"continuum/initial_step", "0.001, at most max_step",
-       [](Scene &s, const Given &) { s.continuum.initial_step = std::min(1e-3, s.continuum.max_step); }},
+      {"continuum/initial_step", "0.001, at most max_step, at least min_step",
+       [](Scene &s, const Given &) {
+         s.continuum.initial_step = std::max(std::min(1e-3, s.continuum.max_step), s.continuum.min_step);
+       }},
       {"comparison/window_edges", "0, a quarter, half and the end of the loading, at stages",
        [](Scene &s, const Given &) { s.comparison.window_edges = window_edges(s.loading); }},
       {"comparison/coarse_element_size", "twice continuum/element_size",
@@ -189,6 +203,13 @@ namespace diptych::coupling
     return find(key)->rule;
   }
 
+  double inertial_number(const Scene &scene)
+  {
+    const LoadingOptions &o = scene.loading;
+    return o.strain_rate > 0 ? o.strain_rate * scene.sample.mean_diameter * std::sqrt(scene.sample.density / o.pressure)
+                             : o.inertial_number;
+  }
+
   void derive_keys(Scene &scene, const Given &given)
   {
     for (const DerivedKey &key : derived_keys)
@@ -199,11 +220,16 @@ namespace diptych::coupling
   bool default_law_suits(const Scene &scene)
   {
     const discrete::SampleOptions &o = scene.sample;
-    const double                   f = scene.discrete.law.friction;
-    return scene.discrete.method.method == discrete::Method::nscd && o.file.empty() && o.preparation_friction == 0 &&
-           o.target_solid_fraction == 0 && o.radius_distribution == discrete::RadiusKind::uniform_by_number &&
-           o.radius_min >= 0.25 && o.radius_min <= 0.35 && f >= calibrated.front().friction && f <= calibrated.back().friction &&
-           scene.discrete.law.platen_friction >= f && scene.loading.mode == discrete::LoadingMode::descent &&
-           scene.discrete.lateral.lateral == discrete::Lateral::end_grains;
+    const continuum::Options      &c = scene.continuum;
+    const double                   f = scene.discrete.law.friction, n = discrete::expected_grains(o);
+    const bool                     is_dense = o.file.empty() && o.preparation_friction == 0 && o.target_solid_fraction == 0 &&
+                          o.radius_distribution == discrete::RadiusKind::uniform_by_number && o.radius_min >= 0.25 &&
+                          o.radius_min <= 0.35 && n >= 1000 && n <= 2500;
+    const bool is_like = f >= calibrated.front().friction && f <= calibrated.back().friction &&
+                         scene.discrete.law.platen_friction >= f && scene.discrete.method.method == discrete::Method::nscd &&
+                         scene.discrete.lateral.lateral == discrete::Lateral::end_grains &&
+                         scene.loading.mode == discrete::LoadingMode::descent && inertial_number(scene) <= largest_quasi_static;
+    return is_dense && is_like && c.platens == continuum::Platens::rough && c.mesh.kind == continuum::MeshOption::Kind::outline &&
+           c.element_size <= 2 * c.material.internal_length;
   }
 } // namespace diptych::coupling

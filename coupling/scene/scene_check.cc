@@ -137,6 +137,16 @@ namespace diptych::coupling
       return std::nullopt;
     }
 
+    std::optional<std::string> doubtful_speed(const Scene &scene)
+    {
+      const double I = inertial_number(scene);
+      if (scene.loading.mode != LoadingMode::descent || scene.discrete.method.method == discrete::Method::imported ||
+          I <= largest_quasi_static)
+        return std::nullopt;
+      return "the inertial number " + text_of(I) + " is above " + text_of(largest_quasi_static) +
+             ": the loading is not quasi-static, and strength and dilation of the grains grow with the speed";
+    }
+
     // The last assignment of each key, in the order of the keys.
     std::vector<Entry> assignments_of(const std::vector<std::string> &keys, const std::vector<Entry> &entries)
     {
@@ -328,6 +338,8 @@ namespace diptych::coupling
         const auto set = last.find("continuum/" + name);
         warnings.push_back((set == last.end() ? "" : text_of(set->second.place) + ": ") + "continuum/" + name + text);
       }
+    if (const auto text = doubtful_speed(scene))
+      warnings.push_back(*text + places_of(assignments_of({"loading/inertial_number", "loading/strain_rate"}, entries)));
     if (!compares)
       return warnings;
     if (const auto text = doubtful_platens(scene))

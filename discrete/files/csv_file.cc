@@ -162,6 +162,14 @@ namespace diptych::discrete
     throw std::invalid_argument(cell_place(table, row, column) + " is out of range; allowed: " + allowed);
   }
 
+  double tidy(double value)
+  {
+    char       text[32];
+    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 10).ptr;
+    std::from_chars(text, end, value);
+    return value;
+  }
+
   std::string exact_text(const double value)
   {
     char text[32];

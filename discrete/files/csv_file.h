@@ -49,4 +49,7 @@ namespace diptych::discrete
 
   // The shortest text that reads back as the same double (at most 17 significant digits), with a point in every locale.
   std::string exact_text(double value);
+
+  // Ten digits of a number, without the round-off of sums and products: 0.3 for 3 x 0.1.
+  double tidy(double value);
 } // namespace diptych::discrete

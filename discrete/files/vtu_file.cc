@@ -135,7 +135,7 @@ namespace diptych::discrete
     std::string list = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
                        "<Collection>\n";
     for (std::size_t k = 0; k < times.size(); ++k)
-      list += "<DataSet timestep=\"" + exact_text(times[k]) + "\" part=\"0\" file=\"" + folder + file(k) + "\"/>\n";
+      list += "<DataSet timestep=\"" + exact_text(tidy(times[k])) + "\" part=\"0\" file=\"" + folder + file(k) + "\"/>\n";
     write_text(path + ".pvd", list + "</Collection>\n</VTKFile>\n");
   }
 } // namespace diptych::discrete

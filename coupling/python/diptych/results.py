@@ -88,6 +88,9 @@ class Comparison:
         return f"<Comparison: {len(self.numbers['stages'])} stages, {len(self.numbers['windows'])} windows>"
 
 
+_CAMPAIGNS = {"ensemble.json": "Campaign", "study.json": "Campaign", "calibration.json": "CalibrationResult", "plan.json": "PlanResult"}
+
+
 def _panel(folder: str, name: str) -> PanelResults | None:
     if not os.path.exists(os.path.join(folder, name + ".h5")):
         return None
@@ -107,7 +110,9 @@ def load(folder: str | os.PathLike[str]) -> Results:
     results = Results(folder, scenes.read(prm).dict() if os.path.exists(prm) else None, _panel(folder, "discrete"),
                       _panel(folder, "continuum"), _panel(os.path.join(folder, "coarse"), "continuum"))
     if results.discrete is None and results.continuum is None:
-        raise FileNotFoundError(f"{folder}: no discrete.h5 and no continuum.h5")
+        cures = [f"; diptych.{kind}.load({folder!r}) reads its {name}" for name, kind in _CAMPAIGNS.items()
+                 if os.path.exists(os.path.join(folder, name))]
+        raise FileNotFoundError(f"{folder}: no discrete.h5 and no continuum.h5{''.join(cures)}")
     _diptych.check_files(folder)
     return results
 

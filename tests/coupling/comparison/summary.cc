@@ -126,19 +126,21 @@ namespace
   {
     Comparison c;
     c.discrete.peak.value = 0.4, c.continuum.peak.value = 0.36;
+    c.discrete.platen_force = 60, c.continuum.platen_force = 66;
     c.windows.push_back(with_bands({-45, -46, -44}, {-49, -49, -49}));
     c.windows[0].frame.mean_diameter                         = 2;
     c.windows[0].discrete.band.bands[0].interval.width_10_90 = c.windows[0].continuum.band.bands[0].interval.width_10_90 = {4, 3,
                                                                                                                             5};
     const std::vector<KeyNumber> numbers = key_numbers(c);
-    ASSERT_EQ(numbers.size(), 5u);
+    ASSERT_EQ(numbers.size(), 6u);
     EXPECT_NEAR(numbers[0].difference.value, -0.04, 1e-15);
     EXPECT_EQ(numbers[0].verdict, "one sample");
     EXPECT_EQ(numbers[1].verdict, "not in both panels") << "no strength";
-    EXPECT_EQ(numbers[3].difference.value, -4);
-    EXPECT_EQ(numbers[3].verdict, "different");
-    EXPECT_EQ(numbers[4].grains.value, 2);
-    EXPECT_EQ(numbers[4].verdict, "cannot tell");
+    EXPECT_EQ(numbers[2].difference.value, 6);
+    EXPECT_EQ(numbers[4].difference.value, -4);
+    EXPECT_EQ(numbers[4].verdict, "different");
+    EXPECT_EQ(numbers[5].grains.value, 2);
+    EXPECT_EQ(numbers[5].verdict, "cannot tell");
     EXPECT_NE(csv_of(numbers).find("\npeak t/s,-,0.4,,,0.36,,,-0.04,,,one sample\n"), std::string::npos);
     EXPECT_NE(text_of(numbers).find("--seeds 1-8"), std::string::npos);
   }

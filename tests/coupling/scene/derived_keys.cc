@@ -53,6 +53,18 @@ namespace
     EXPECT_EQ(scene_with({"continuum/element_size=8"}).comparison.coarse_element_size, 16);
   }
 
+  TEST(DerivedKeys, StagesDivideTheLoading)
+  {
+    const auto strain = [](const char *end) {
+      return scene_with({std::string("loading/axial_strain=") + end}).loading.stage_strain;
+    };
+    EXPECT_EQ(strain("0.04"), 0.005);
+    EXPECT_EQ(strain("0.012"), 0.006);
+    EXPECT_EQ(strain("0.001"), 0.001);
+    EXPECT_EQ(strain("4"), 0.1);
+    EXPECT_EQ(scene_with({"loading/mode=time", "loading/duration=0.5"}).loading.stage_time, 0.5);
+  }
+
   TEST(DerivedKeys, LoadStepsFitTheLoadingAndEachOther)
   {
     const auto steps = [](const Words &overrides) {
@@ -63,6 +75,8 @@ namespace
     EXPECT_EQ(steps({"continuum/initial_step=0.002"}), (std::vector<double>{0.002, 0.002}));
     EXPECT_EQ(steps({"continuum/max_step=0.0005"}), (std::vector<double>{0.0005, 0.0005}));
     EXPECT_EQ(steps({"loading/axial_strain=1e-6", "loading/stage_strain=1e-6"}), (std::vector<double>{1e-5, 1e-5}));
+    EXPECT_EQ(steps({"continuum/min_step=0.01"}), (std::vector<double>{0.01, 0.01}));
+    EXPECT_EQ(steps({"continuum/max_step=1e-6"}), (std::vector<double>{1e-6, 1e-6}));
     EXPECT_EQ(steps({"loading/mode=time", "loading/duration=64"})[1], 2);
   }
 
@@ -83,12 +97,14 @@ namespace
   TEST(DerivedKeys, OnlyALawFittedToSuchGrainsNamesItsOrigin)
   {
     const auto origin = [](const Words &overrides) { return scene_with(overrides).comparison.parameters_from; };
-    EXPECT_NE(origin({}).find("calibrated"), std::string::npos);
-    EXPECT_NE(origin({"discrete/friction=0.3", "loading/horizontal_over_vertical=0"}), "");
+    EXPECT_EQ(origin({}), "") << "4000 grains";
+    EXPECT_NE(origin({"sample/grains=1500"}).find("calibrated"), std::string::npos);
+    EXPECT_NE(origin({"sample/grains=1500", "discrete/friction=0.3", "loading/horizontal_over_vertical=0"}), "");
     for (const char *change :
          {"discrete/friction=0.1", "sample/preparation_friction=0.3", "sample/radius_distribution=uniform_by_mass",
+          "sample/grains=600", "loading/inertial_number=0.01", "continuum/platens=smooth", "continuum/element_size=8",
           "continuum/friction_angle_peak=25", "continuum/law=mohr_coulomb", "discrete/method=penalty"})
-      EXPECT_EQ(origin({change}), "") << change;
+      EXPECT_EQ(origin({"sample/grains=1500", change}), "") << change;
     EXPECT_EQ(origin({"discrete/friction=0.1", "comparison/parameters_from=my fit"}), "my fit");
   }
 
@@ -102,6 +118,13 @@ namespace
     EXPECT_EQ(echo.continuum.material.friction_angle_peak, scene.continuum.material.friction_angle_peak);
     EXPECT_TRUE(echo.warnings.empty());
     EXPECT_NE(explain("continuum/youngs_modulus").find("auto"), std::string::npos);
+  }
+
+  TEST(DerivedKeys, FastLoadingIsAWarning)
+  {
+    EXPECT_TRUE(scene_with({"loading/inertial_number=0.003"}).warnings.empty());
+    EXPECT_EQ(scene_with({"loading/inertial_number=0.05"}).warnings.size(), 1u);
+    EXPECT_EQ(scene_with({"loading/strain_rate=0.05"}).warnings.size(), 1u);
   }
 
   TEST(DerivedKeys, PlatensRoughInOnePanelOnlyAreAWarning)

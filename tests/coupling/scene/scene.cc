@@ -209,7 +209,7 @@ namespace
 
   TEST(Scene, ContradictionsBetweenKeysAreNamed)
   {
-    expect_words(error_of("subsection loading\n  set axial_strain = 0.012\nend\n"),
+    expect_words(error_of("subsection loading\n  set axial_strain = 0.012\n  set stage_strain = 0.005\nend\n"),
                  {"loading/axial_strain", "loading/stage_strain"});
     expect_words(error_of("subsection comparison\n  set window_edges = 0, 0.013\nend\n"), {"window_edges", "0.013"});
     expect_words(error_of("subsection continuum\n  set friction_angle_residual = 50\nend\n"),

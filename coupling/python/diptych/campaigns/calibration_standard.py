@@ -33,11 +33,10 @@ SMALLEST_COARSE = 4  # mean diameters
 def standard_calibration(scene: str, seeds: str, settings: Sequence[Setting]) -> dict[str, Any]:
     """Contents of a calibration file beside the scene file. Parameters that its law does not read are left out, and without an
     internal length the width of the band, too. Raises SceneError."""
-    if len(read_seeds(seeds)) < 2:
-        raise SceneError(f"--seeds {seeds}: the scatter of samples needs at least two seeds, for example --seeds 1-4")
     fixed = [Setting("continuum", key, str(value), "the standard calibration") for key, value in SET.items()]
     read = _diptych.read_changed_scene(scene, [*settings, *fixed], True)
     keys, unused = read.dict(), read.unused_keys()
+    _check_seeds(seeds, keys["discrete"])
     end, law = keys["loading"]["axial_strain"], {key: keys["continuum"][key] for key in ("law", "geometry")}
     return {
         "title": f"{read.name}, seeds {seeds}",
@@ -49,3 +48,12 @@ def standard_calibration(scene: str, seeds: str, settings: Sequence[Setting]) ->
         "parameters": [p for p in PARAMETERS if p["key"] not in unused],
         "load_step": float(f"{end / LOAD_STEPS:.4g}"),
         "coarse_element_size": float(np.round(max(SMALLEST_COARSE, COARSE * keys["continuum"]["element_size"]), 2))}
+
+
+def _check_seeds(seeds: str, discrete: dict[str, Any]) -> None:
+    """Generated samples show their scatter; an imported one is a single sample."""
+    is_one = discrete["method"] == "imported" and "{seed}" not in discrete["file"]
+    if is_one and len(read_seeds(seeds)) > 1:
+        raise SceneError(f"--seeds {seeds}: discrete/file = '{discrete['file']}' is one sample; give --seeds 1")
+    if not is_one and len(read_seeds(seeds)) < 2:
+        raise SceneError(f"--seeds {seeds}: the scatter of samples needs at least two seeds, for example --seeds 1-4")

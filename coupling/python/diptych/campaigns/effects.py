@@ -165,7 +165,8 @@ def text_of_quantity(quantity: dict[str, Any]) -> str:
 def text_of_changes(study: Study, changes: Sequence[dict[str, Any]]) -> list[str]:
     """ "discrete/friction, not resolved: peak t/s (grains needs about 14 samples)"; one line per verdict and parameter."""
     if len(study.seeds) < 2:
-        return ["one sample has no scatter to compare a change with; at least two are needed, such as --seeds 1-4"]
+        return ["one sample has no scatter to compare a change with" +
+                ("" if study.command == "continuum" else "; at least two are needed, such as --seeds 1-4")]
     lines = []
     for family, parameter in dict.fromkeys((change["family"], change["parameter"]) for change in changes):
         mine = [change for change in changes if (change["family"], change["parameter"]) == (family, parameter)]

@@ -7,6 +7,7 @@ from __future__ import annotations
 import argparse
 import math
 import os
+import sys
 import resource
 import shlex
 from collections.abc import Sequence
@@ -63,7 +64,7 @@ def _verdicts(bands: Sequence[dict[str, Any]], margins: dict[str, float], member
     """Differences continuum minus grains with verdicts: of single numbers, and of the bands in every window."""
     asked = [(key, f"discrete_summary {key}", f"continuum_summary {key}", margin, kind) for key, margin, kind in (
         ("peak_stress_ratio", "margin_peak_stress_ratio", "relative"), ("strength", "margin_peak_stress_ratio", "relative"),
-        ("final_volumetric_strain", "margin_volumetric_strain", "absolute"))]
+        ("platen_force_pd", "margin_peak_stress_ratio", "relative"), ("final_volumetric_strain", "margin_volumetric_strain", "absolute"))]
     for window, _, panel in (count["name"].rpartition(" ") for count in bands):
         if panel == "discrete" and window.startswith("window "):
             asked += [(f"{window} band {key}", f"{window} discrete band {key}", f"{window} continuum band {key}", margin, kind)
@@ -148,6 +149,7 @@ def _write(scene: Any, record: dict[str, Any], options: Options, phase: tuple[st
     _diptych.record_files(directory, "ensemble")
     if record["summary"]:
         say(options, ensemble_summary.text_of(record["summary"]))
+        say(options, _origin(scene.dict()["comparison"]["parameters_from"]))
 
 
 def _member_scene(scene: Any, seed: int) -> Any:
@@ -205,6 +207,14 @@ def _holds_finished(scene: Any, seeds: Sequence[int]) -> bool:
             and all(_diptych.holds_finished_run(_member_scene(scene, seed)) for seed in seeds))
 
 
+def _origin(text: str) -> str:
+    """As a single run ends: bold on a terminal if nobody fitted the law."""
+    if text:
+        return f"parameters of the continuum: {text}"
+    plain = "The parameters of the continuum were not fitted to these grains. To fit them: diptych calibrate SCENE --seeds 1-4"
+    return f"\033[1m{plain}\033[0m" if sys.stdout.isatty() else plain
+
+
 def run_ensemble(line: argparse.Namespace, options: Options) -> int:
     """diptych run SCENE --seeds LIST. line: target, seeds, output, set, set_file. Returns the exit code."""
     scene_file, seeds = line.target, read_seeds(line.seeds)
@@ -215,6 +225,7 @@ def run_ensemble(line: argparse.Namespace, options: Options) -> int:
              for word in (option, value)]
     if not options.resume and not options.overwrite and _holds_finished(scene, seeds):
         say(options, f"{directory} holds the finished ensemble of this scene; --overwrite runs it again")
+        say(options, f"its table: diptych compare {directory}")
         return 0
     if os.path.isdir(directory):
         _diptych.require_usable(directory, options.resume, options.overwrite)

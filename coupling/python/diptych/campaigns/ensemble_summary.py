@@ -18,7 +18,7 @@ def summary(member: Sequence[dict[str, Any]], record: dict[str, Any]) -> list[di
 
     Differences are continuum - grains in the unit of the row; verdicts are those of the record, with their margins."""
     verdicts, quantities = record["verdicts"], {q["name"]: q for q in record["quantities"]}
-    asked = verdicts[:3] + (verdicts[-2:] if len(verdicts) > 3 else [])  # of the windows only the last
+    asked = verdicts[:4] + (verdicts[-2:] if len(verdicts) > 4 else [])  # of the windows only the last
     return [_row(name["quantity"], name["unit"], verdict, quantities) for name, verdict in zip(member, asked)]
 
 

@@ -209,8 +209,8 @@ def _add(question: Question, word: str, panels: set[str], scene: _diptych.Scene)
     named = {prefix} if prefix in PANELS and rest else set()
     name = rest if named else word
     if name in NAMES:
-        for panel in named - panels:
-            raise SceneError(f"--for '{word}': {question.scene} sets no key of {' or '.join(PANELS[panel])}")
+        if "discrete" in named - panels:
+            raise SceneError(f"--for '{word}': {question.scene} sets no key of sample or discrete")
         for panel in PANELS:
             if panel in (named or panels):
                 question.quantities[panel].append(_short(name, panel, scene))
@@ -276,6 +276,8 @@ def text_of(plan: Plan) -> str:
     lines = [f"{plan.scene}: plan for an accuracy of {100 * plan.accuracy:.4g} %"]
     for panel in plan.panels:
         lines += _panel_text(panel)
+    if [panel.panel for panel in plan.panels] == ["discrete"]:
+        lines += ["", "Only the grains were planned. `--for strength,continuum.strength` also plans the continuum."]
     if plan.shares_samples:
         lines += ["", "`diptych run` computes both panels on the same samples."]
     return "\n".join([*lines, "", f"CPU time of the plan {plan.total_cpu_s:.3g} s; the pilot took {plan.pilot_cpu_s:.3g} s"])

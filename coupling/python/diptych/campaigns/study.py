@@ -154,6 +154,9 @@ def run_study(line: argparse.Namespace, options: Options) -> int:
         say(options, f"{_conclude(study, points, record, options)}; tables: {directory}/study.json, study.csv"
             + (", effects.csv" if study.reference is None else ""))
         lost = sum(not all(run.known for run in of_point) for of_point in results)
+        if all(run.exit_code for run in read.values()):
+            complain(f"every run failed, the first with: {next(iter(read.values())).words}")
+            return NOT_CONVERGED
         if left or lost:
             why = f"stopped on request; {left} runs are left" if left else f"{lost} points have runs that the system ended"
             complain(f"{why}, the rest is kept in {directory}; to go on: {options.again}")

@@ -57,7 +57,19 @@ def study_of_words(line: argparse.Namespace) -> tuple[Study, str]:
     if not line.vary:
         raise SceneError(f"{file} is a scene; give --vary, such as --vary discrete/friction=0.2,0.3,0.5, or a study file (.json)")
     read_seeds(line.seeds or "1")
+    _check_panels(file, line, overrides)
     record = {"scene": os.path.abspath(file), "command": _COMMANDS[line.panels],
               "set": {} if line.panels in ("discrete", "continuum") else _WITHOUT_COARSE_MESH,
               "axes": [_axis(text) for text in line.vary], **({"seeds": line.seeds} if line.seeds else {})}
     return study_of(Part("--vary", {}, record), name_of(file, "scene"), overrides), json.dumps(record, indent=1) + "\n"
+
+
+def _check_panels(file: str, line: argparse.Namespace, overrides: list[Any]) -> None:
+    """A mesh without grains has one panel and no samples."""
+    mesh = _diptych.read_changed_scene(file, [one.check() for one in overrides], False).dict()["continuum"]["mesh"]
+    if mesh == "outline" or line.panels == "discrete" or any(text.startswith("continuum/mesh=") for text in line.vary):
+        return
+    if line.panels != "continuum":
+        raise SceneError(f"{file}: continuum/mesh = {mesh} has no grains; give --panels continuum, or mesh = outline")
+    if line.seeds:
+        raise SceneError(f"--seeds {line.seeds}: continuum/mesh = {mesh} has no grains, so all samples would be the same")

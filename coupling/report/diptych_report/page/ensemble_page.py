@@ -7,7 +7,6 @@ from diptych_report.data.ensemble import load
 from diptych_report.page.writing import template, write
 from diptych_report.tables import ensemble as tables
 from diptych_report.tables import summary
-from diptych_report.tables.wording import origin
 
 
 def draw(folder):
@@ -30,4 +29,4 @@ def page(results):
         record=results.record, first=summary.first(results.record), verdicts=rows,
         differences=figures.differences(labelled), dots=dots, curves=curves,
         bands=tables.band_table(results), members=tables.members(results), quantities=tables.quantity_table(results),
-        provenance=tables.provenance(results), fitted=origin(results.parameters_from))
+        provenance=tables.provenance(results), fitted=results.parameters_from)

@@ -82,7 +82,7 @@ def page(result):
         coarse=result.part("continuum_coarse"), cost=accounts.cost(result), provenance=accounts.provenance(result),
         law=accounts.law_parameters(result), law_name=result.part("continuum_summary").get("law") or "",
         scene_text=result.scene_text, number=wording.number,
-        fitted=wording.origin(result.part("continuum_summary").get("parameters_from")), absent=wording.ABSENT,
+        fitted=result.part("continuum_summary").get("parameters_from"), absent=wording.ABSENT,
         thickness_note=bands.thickness_note(result),
         thickness_reason=wording.MESH_SET_REASON if bands.internal_length(result) is None else wording.LENGTH_SET_REASON,
         loading_variable=result.loading_variable, averaging=result.averaging)

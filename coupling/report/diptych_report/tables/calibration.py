@@ -32,7 +32,9 @@ def predictions(calibration):
     for path in calibration.paths:
         for one in path["predictions"]:
             difference = one["difference"]
-            ends = "–" if difference["low"] is None else f"{text(difference['value'], 2)} [{text(difference['low'], 2)}, {text(difference['high'], 2)}]"
+            ends = "–" if difference["value"] is None else text(difference["value"], 2)
+            if difference["low"] is not None:
+                ends += f" [{text(difference['low'], 2)}, {text(difference['high'], 2)}]"
             rows.append([f"{path['name']} ({'fitted' if path['use'] == 'fit' else 'predicted'})", QUANTITIES[one["quantity"]], text(one["data"]),
                          text(one["before"]), text(one["after"]), ends, text(one["margin"], 2), one["verdict"]])
     return {"head": ["path", "", calibration.data, "before", "calibrated", "difference [95 %]", "margin", "verdict"], "rows": rows}

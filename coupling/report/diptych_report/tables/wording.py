@@ -24,7 +24,7 @@ PER_CENT = {"volumetric_strain", "final_volumetric_strain", "reached_axial_strai
 ORDER = ("grains", "cells", "unknowns", "element_size_d", "preparation_solid_fraction", "preparation_friction",
          "preparation_steps", "preparation_residual", "preparation_unbalanced_force", "initial_height", "platen_speed",
          "mean_inertial_number", "finished", "reached_progress", "reached_axial_strain", "reached_shear_strain",
-         "peak_stress_ratio", "strain_at_peak", "early_strength", "strength", "final_volumetric_strain", "max_equivalent_plastic_strain", "internal_length_d",
+         "peak_stress_ratio", "strain_at_peak", "early_strength", "strength", "platen_force_pd", "final_volumetric_strain", "max_equivalent_plastic_strain", "internal_length_d",
          "localisation_strain", "localisation_angle_deg", "unstable_share", "viscous_share", "platen_unbalance", "share_zz_not_intermediate",
          "processes", "steps", "step_length", "step", "step_bound", "halved_steps", "cut_backs", "newton_iterations", "sweeps",
          "residual", "solver_noise", "grain_stress_error", "max_penetration_d", "energy_residual", "momentum_residual",
@@ -84,11 +84,6 @@ def typeset(text):
     for plain, letter in LETTERS:
         text = text.replace(plain, letter)
     return re.sub(r"(?<![\w.])-(?=\d)", "−", text)
-
-
-def origin(text):
-    """Origin of the continuum parameters, from the key comparison/parameters_from of the scene."""
-    return text or "not fitted to these grains, or the scene does not say so (key comparison/parameters_from)"
 
 
 def ending(unit):
