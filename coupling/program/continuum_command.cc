@@ -16,6 +16,7 @@
 #include "coupling/program/resource_estimate.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
+#include "coupling/statistics/history_table.h"
 #include "coupling/store/file_names.h"
 #include "coupling/store/provenance.h"
 #include "coupling/store/result_folder.h"
@@ -102,16 +103,17 @@ namespace diptych::coupling
         return [member](const auto &a, const auto &b) { return a.*member < b.*member; };
       };
       const auto largest = [&](const auto member) { return *std::max_element(rows.begin(), rows.end(), larger_by(member)); };
-      const auto peak    = largest(&continuum::HistoryRow::stress_ratio);
+      const auto peak    = peak_of_running_mean(history_table(rows), "stress_ratio", averaging_width(scene));
       const auto at      = [](const continuum::HistoryRow &row) { return text_of(row.loading_variable, row.progress); };
       std::ostringstream text;
       text.precision(4);
-      text << part.title << ": largest t/s " << peak.stress_ratio << " at " << at(peak) << ", at the end "
-           << rows.back().stress_ratio << " at " << at(rows.back()) << "; " << report.n_cells << " elements, "
+      text << part.title << ": peak t/s " << peak.value << " at " << text_of(rows.back().loading_variable, peak.progress)
+           << ", at the end " << rows.back().stress_ratio << " at " << at(rows.back()) << "; " << report.n_cells << " elements, "
            << report.n_unknowns << " unknowns, " << report.steps << " steps, " << report.cut_backs << " cut-backs";
       if (report.localisation_progress)
-        text << "\n  localisation possible at one point from " << text_of(peak.loading_variable, *report.localisation_progress)
-             << " on (singular acoustic tensor), band at " << report.localisation_angle << " degrees";
+        text << "\n  from " << text_of(rows.back().loading_variable, *report.localisation_progress)
+             << " on at least one point of the mesh may localise (singular acoustic tensor), band at "
+             << report.localisation_angle << " degrees";
       if (const double share = largest(&continuum::HistoryRow::viscous_share).viscous_share; share > 0)
         text << "\n  viscosity carries up to " << 100 * share << " % of the shear strength where the sample yields";
       if (const double share = largest(&continuum::HistoryRow::unstable_share).unstable_share; share > 0)

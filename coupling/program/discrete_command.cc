@@ -134,13 +134,6 @@ namespace diptych::coupling
       return out.str();
     }
 
-    double inertial_number(const Scene &scene)
-    {
-      const double rate = discrete::strain_rate(discrete_loading(scene.loading), scene.sample.mean_diameter,
-                                                scene.sample.density);
-      return rate * scene.sample.mean_diameter * std::sqrt(scene.sample.density / scene.loading.pressure);
-    }
-
     void say_result(const CommandLine &line, const Scene &scene, const Rows &rows)
     {
       if (rows.empty())

@@ -203,13 +203,6 @@ namespace diptych::coupling
     return find(key)->rule;
   }
 
-  double inertial_number(const Scene &scene)
-  {
-    const LoadingOptions &o = scene.loading;
-    return o.strain_rate > 0 ? o.strain_rate * scene.sample.mean_diameter * std::sqrt(scene.sample.density / o.pressure)
-                             : o.inertial_number;
-  }
-
   void derive_keys(Scene &scene, const Given &given)
   {
     for (const DerivedKey &key : derived_keys)

@@ -41,6 +41,12 @@ namespace diptych::coupling
            scene.discrete.time.gravity_x == 0;
   }
 
+  double inertial_number(const Scene &scene)
+  {
+    const double rate = discrete::strain_rate(discrete_loading(scene.loading), scene.sample.mean_diameter, scene.sample.density);
+    return rate * scene.sample.mean_diameter * std::sqrt(scene.sample.density / scene.loading.pressure);
+  }
+
   double averaging_width(const Scene &scene)
   {
     return scene.loading.mode == discrete::LoadingMode::time ? scene.loading.stage_time : scene.comparison.averaging_strain;

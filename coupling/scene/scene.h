@@ -140,6 +140,9 @@ namespace diptych::coupling
   // True if only chance tells left from right: vertical descent, no horizontal gravity, no wall with its own drive.
   bool is_mirror_symmetric(const Scene &scene);
 
+  // I = strain rate d sqrt(rho/P), from loading/inertial_number or strain_rate.
+  double inertial_number(const Scene &scene);
+
   // The last part of a stage over which stress ratio and platen forces are averaged, in the unit of the stages.
   double averaging_width(const Scene &scene);
 } // namespace diptych::coupling

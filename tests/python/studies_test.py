@@ -244,7 +244,7 @@ def test_contradictory_settings_refuse_only_their_point(read):
     ({"quantities": []}, ["quantities", "missing or empty"]),
     ({"reference": None, "quantities": [{"strength": [0, 1], "limit": {"relative": 1}}]}, ["limit", "'reference' is missing"]),
     ({"quantities": [{"of": "continuum", "strength": [0.005, 0.02]}]}, ["discrete does not write", "continuum"]),
-    ({"reference": {"loading/axial_strain": 0.013}}, ["the reference is refused", "0.013"]),
+    ({"reference": {"loading/axial_strain": 0.013, "loading/stage_strain": 0.005}}, ["the reference is refused", "0.013"]),
     ({"command": "run", "quantities": [{"number": "window 0-0.01 discrete band width"}]}, ["'width'", "nearest"]),
     ({"command": "run", "quantities": [{"number": "band angle"}]}, ["'band angle'", "'angle_deg'", "ensemble.csv"]),
     ({"cost": ["discret"]}, ["'discret'", "'discrete'"])])
@@ -268,7 +268,7 @@ def test_ctrl_c_keeps_an_ensemble_of_a_dict_and_the_same_call_goes_on(tmp_path, 
         diptych.ensemble(SMALL, [1, 2, 3], "out", jobs=1)
     assert diptych.Campaign.load("out").numbers["interrupted"][-1] == 3  # on a busy machine the first may have ended
     found = diptych.ensemble(SMALL, range(1, 4), "out", resume=True)
-    assert found.numbers["done"] == [1, 2, 3] and found.numbers["scene"] == "out" and len(found.verdicts) == 5
+    assert found.numbers["done"] == [1, 2, 3] and found.numbers["scene"] == "out" and len(found.verdicts) == 6
     with pytest.raises(diptych.SceneError, match=r"range\(1, 4\) for 3 samples"):
         diptych.ensemble(SMALL, 3, "out")
     with pytest.raises(AttributeError, match="verdicts"):

@@ -147,7 +147,7 @@ class Calibrator:
         for k, fit in enumerate(fits):
             if k != found and np.isfinite(fit.chi2) and np.abs(fit.point - best.point).max() > SAME_MINIMUM:
                 why = ("the data hardly distinguish the two" if fit.chi2 < best.chi2 + HARDLY_WORSE
-                       else "a second minimum, or a valley that the search did not leave")
+                       else "a worse fit; other sets of parameters may fit as well")
                 self.record["words"].append(f"start {k + 1} ended at another point, with chi^2 (prior included) {fit.chi2:.3g} "
                                             f"instead of {best.chi2:.3g}: {why}")
         self.record["chi2_coarse"] = self._chi2(best.residual)
