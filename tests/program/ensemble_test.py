@@ -99,7 +99,7 @@ class Statistics(Ensemble):
         self.assertEqual(first[0]["grains"], {"value": peak["mean"], "low": peak["low"], "high": peak["high"]})
         self.assertAlmostEqual(first[0]["difference"]["value"], first[0]["continuum"]["value"] - peak["mean"], places=12)
         self.assertRegex(first[0]["verdict"], r"^(equivalent within|different by more than|cannot tell \(margin) 3 %")
-        self.assertRegex(self.process.stdout.splitlines()[-len(first)], r"^peak t/s +0\.\d+ \[.*3 %")
+        self.assertRegex(self.process.stdout.splitlines()[-len(first) - 1], r"^peak t/s +0\.\d+ \[.*3 %")
 
     def test_the_number_at_once_does_not_change_a_bit(self):
         self.run_seeds("3,1-2", "--jobs", "2")
@@ -290,7 +290,7 @@ class Page(Ensemble):
             self.assertTrue(os.path.getsize(self.path(f"seed_{seed}", "report.html")) > 0)
         links = re.findall(r'(?:href|src)="([^"]+)"', text)
         self.assertEqual([link for link in links if not link.startswith(("data:", "seed_"))], [])
-        self.assertEqual(len(re.findall(r'<td class="verdict', text)), 5)  # peak, strength, volume, angle and width of one window
+        self.assertEqual(len(re.findall(r'<td class="verdict', text)), 6)  # peak, strength, force, volume, angle and width of one window
         self.assertIn("two one-sided tests", text)
         self.assertTrue(read(self.folder)["folded"])  # left and right by chance
         images = re.findall(r'<img src="data:[^"]+" alt="([^"]{20,})"', text)
