@@ -23,8 +23,4 @@ namespace diptych::coupling
 
   // Largest inertial number of a loading that counts as quasi-static (benchmarks/studies/grains_inertia).
   constexpr double largest_quasi_static = 3e-3;
-
-  // True if the law that derive_keys() takes was calibrated on such grains: friction, grading, preparation, number (1000 to
-  // 2500), sides, speed, platens.
-  bool default_law_suits(const Scene &scene);
 } // namespace diptych::coupling

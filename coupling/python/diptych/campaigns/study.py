@@ -23,7 +23,6 @@ from .effects import changes_of, effects_table, text_of_changes, text_of_means, 
 from .evaluation import CLASSES, Results, cost_of, evaluate, orders_of
 from .folders import Folder, Runs, draw, write_arrays, write_json, write_text
 from .histories import resampled, running_mean
-from .input_file import settings_of
 from .points import Point, points_of, result_of
 from .statistics import line_turn, student_quantile
 from .study_file import COMMANDS, Study

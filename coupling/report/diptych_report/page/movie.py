@@ -11,7 +11,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from PIL import Image
 
-from diptych_report.charts.style import NO_VALUE, set_up
+from diptych_report.charts.style import set_up
 from diptych_report.data.panels import PANEL_NAMES
 from diptych_report.data.result import load
 from diptych_report.page.limits import box, limits
