@@ -19,7 +19,7 @@ from diptych.campaigns.calibration_findings import predictions
 from diptych.campaigns.calibration_grains import mean_of
 from diptych.campaigns.calibration_noise import Data, Noise, Observable
 from diptych.campaigns.calibration_runs import Observation, Path, observe_curve
-from diptych.campaigns.calibration_search import identify, least_squares
+from diptych.campaigns.calibration_search import least_squares
 from diptych.campaigns.calibration_standard import standard_calibration
 from diptych.campaigns.histories import mean_over
 from diptych.campaigns.input_file import Setting
@@ -58,6 +58,12 @@ def calibration(parameters=SIX, targets=("only",), fixed=(), **options):
     return Calibration("c", "c.json", "c", [Target(name, "", [], [1, 2]) for name in targets],
                        ["stress_ratio", "volumetric_strain"], BINS, list(parameters),
                        [Setting("continuum", *one, "") for one in fixed], own, starts=1)
+
+
+@pytest.fixture(autouse=True)
+def few_steps(monkeypatch):
+    monkeypatch.setattr("diptych.campaigns.calibration.STEPS", 500)
+    monkeypatch.setattr("diptych.campaigns.calibration.SHORT", 200)
 
 
 EXACT = {"stress_level": 1e-5, "stress_shape": 1e-5, "volume_start": 1e-6, "volume_growth": 1e-6}
@@ -160,14 +166,6 @@ def test_weights_leave_the_common_level_out():
     assert weights[12] ** -0.5 == pytest.approx(math.hypot(0.008, 0.0045 / 2), abs=1e-4)  # tolerance, shape on four samples
 
 
-def test_parameters_that_the_data_do_not_determine_are_reported():
-    jacobian = np.array([[1.0, 0, 0], [0, 1, 1], [0, 0, 0]])  # only the sum of the second and third is determined
-    known = identify(jacobian, np.full(3, 1e4), 1e-4 * np.eye(3))
-    assert list(known.share_known < 2 / 3) == [True, False, False]
-    assert known.deviation[0] == pytest.approx(0.01, abs=1e-4)
-    assert known.correlation[1, 2] == pytest.approx(-1, abs=0.01)
-
-
 def test_a_calibration_finds_the_parameters_of_its_own_data():
     c = calibration(**EXACT)
     truth = truth_of(c, "", TRUTHS)
@@ -192,23 +190,15 @@ def test_a_calibration_finds_values_of_single_targets():
     assert len(record["settings"]) == 5  # a value of one target is no setting of all
 
 
-@pytest.mark.parametrize("known", [True, False])
-def test_intervals_hold(known):
-    """Twenty data sets of four samples; the noise is known, or estimated from the four, where Student's quantile keeps the
-    coverage."""
-    names = ("stress_level", "stress_shape", "volume_start", "volume_growth")
-    c = calibration(**({name: getattr(USUAL, name) for name in names} if known else {}))
-    truth, z = truth_of(c, "", TRUTHS), []
-    for seed in range(20):
+def test_intervals_hold():
+    """Eight data sets of four samples, from which the scatter is estimated; benchmarks/calibration/coverage has eighty."""
+    c = calibration()
+    c.noise, truth, held, share = Noise(), truth_of(c, "", TRUTHS), [], []
+    for seed in range(8):
         record = calibrated(c, [path_of(c.targets[0], drawn(USUAL, c.observables_of(SCENE), truth, 4, seed))])
-        for p, number in zip(record["parameters"], TRUTHS):
-            if p["is_identified"] and not p["at_bound"]:
-                low, at, high, right = (math.log(x) if p["coordinate"] == "logarithm" else x
-                                        for x in (p["number_low"], p["number"], p["number_high"], number))
-                z.append((at - right) / ((high - low) / (2 * 1.96)))
-    assert len(z) >= 60
-    assert np.mean(np.abs(z) < 1.96) >= 0.88
-    assert (0.7 if known else 0.4) < np.sqrt(np.mean(np.square(z))) < 1.3
+        held += [p["number_low"] < number < p["number_high"] for p, number in zip(record["parameters"], TRUTHS)]
+        share += [p["share_known"] for p in record["parameters"]]
+    assert sum(held) >= 41 and np.mean(share) < 0.4  # of 48
 
 
 def test_refused_runs_of_a_search_are_told():
@@ -232,7 +222,7 @@ def test_given_deviations_of_a_curve_decide(peak, volume, verdicts):
     path = path_of(Target("lab", "", [], curve="lab.csv"), Data(observables, [0.4, -0.003], [0.004, 0.0005]))
     path.samples[0].peak_stress_ratio = 0.4
     now = Observation(np.array([peak, volume]), peak)
-    found = predictions(path, (now, now), np.zeros(2), 1.96)
+    found = predictions(path, (now, now), np.zeros(2))
     assert [one["verdict"] for one in found] == verdicts
     assert found[1]["difference"].high == pytest.approx(volume + 0.003 + 1.96 * 0.0005, rel=1e-4)
 
@@ -325,7 +315,7 @@ def test_friction_of_noisy_grains_is_found_within_its_interval():
         return np.where(stress, 0.36 + 0.1 * np.log(friction / 0.4), -x * (0.6 + 0.4 * np.log(friction / 0.4)))
 
     found = []
-    for seed in range(20):
+    for seed in range(8):
         lab = drawn(USUAL, observables, mean(0.4), 16, 1000 + seed).mean
         common = drawn(USUAL, observables, 0 * x, 8, seed).values
 
@@ -340,6 +330,6 @@ def test_friction_of_noisy_grains_is_found_within_its_interval():
         Calibrator(c, Coordinates(c.parameters, {}), [path],
                    lambda on, points, fine, step: [[mean_of(samples(point[0]), 0.005)] for point in points], record).calibrate()
         found.append(record["parameters"][0])
-    assert sum(p["number_low"] < 0.4 < p["number_high"] for p in found) >= 17
+    assert sum(p["number_low"] < 0.4 < p["number_high"] for p in found) >= 7
     assert np.sqrt(np.mean([(p["value"] - 0.4) ** 2 for p in found])) < 0.04
     assert max(p["number_high"] - p["number_low"] for p in found) < 0.25

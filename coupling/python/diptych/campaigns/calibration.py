@@ -1,8 +1,8 @@
 # diptych: the command calibrate: parameters of a continuum from grains or curves, or of grains from curves
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Searches from several starts on coarse meshes, then continues on the samples' own meshes with the coarse Jacobian. Afterwards
-it computes deviations of the parameters, the effect of load steps half as long, and predictions on paths that were not
-fitted. Grains in the place of the continuum have one mesh only."""
+it samples the posterior of the parameters, and computes the effect of load steps half as long and predictions on paths that
+were not fitted. Grains in the place of the continuum have one mesh only."""
 
 from __future__ import annotations
 
@@ -17,17 +17,20 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+import scipy.spatial
 
 from ..arrays import Array
 from ..errors import NotConverged, SceneError, Stopped
 from .calibration_coordinates import Coordinates
+from .calibration_emulator import Emulator
 from .calibration_file import Calibration, Target, read_calibration
-from .calibration_findings import parameter_records, parameter_words, path_record, summary, write_calibration
+from .calibration_findings import (discrepancy_record, discrepancy_words, parameter_records, parameter_words, path_record,
+                                   posterior_table, summary, write_calibration)
 from .calibration_grains import GrainRuns
 from .calibration_noise import Data, FittedData, noise_of
+from .calibration_posterior import Draws, Posterior
 from .calibration_runs import CalibrationRuns, Observation, Path, observe_curve, read_target
-from .calibration_search import (DIFFERENCE, GRAINS_DIFFERENCE, PRIOR, Fit, Knowledge, difference_jacobian, expected_chi2,
-                                 identify, least_squares, spread_point)
+from .calibration_search import DIFFERENCE, GRAINS_DIFFERENCE, PRIOR, Fit, difference_jacobian, least_squares, spread_point
 from .calibration_standard import standard_calibration
 from .engine import DONE, NOT_CONVERGED, Options, complain, say, tell
 from .folders import Folder, draw
@@ -35,7 +38,10 @@ from .input_file import Setting, settings_of
 
 SAME_MINIMUM = 0.05  # in every coordinate; they run over [0, 1]
 HARDLY_WORSE = 4  # in chi^2: two deviations
-REACH = 1.5  # deviations to either side in a profile
+MOST_FAILED_STARTS = 8  # replaced by further points
+STEPS = 1500  # of the sampling of the posterior
+MORE_RUNS, SHORT = 20, 500  # coarse runs at points of the posterior, after so many steps of a first sampling
+FAILED_SHARE = 0.02  # of the posterior nearest to runs that failed, from which the result mentions it
 KEYS_OF_NOISE = ("stress_level", "stress_shape", "volume_start", "volume_growth", "ln_width", "correlation_strain",
                  "degrees_of_freedom")  # in calibration.json
 
@@ -45,9 +51,9 @@ RunModel = Callable[[Sequence[Path], Sequence[Sequence[Sequence[Setting]]], bool
 def empty_record(title: str, model: str = "continuum") -> dict[str, Any]:
     """calibration.json before the search. model: "grains" if their keys are fitted."""
     return {"format": 1, "title": title, "model": model, "status": "started", "settings": [], "own": [], "chi2_before": np.nan,
-            "chi2_coarse": np.nan, "chi2": np.nan, "misfit": np.nan, "n_observables": 0, "coarse_runs": 0, "fine_runs": 0,
-            "failed_runs": 0, "other_runs": 0, "noise": {}, "words": [], "parameters": [], "correlation": [], "minima": [],
-            "paths": []}
+            "chi2_coarse": np.nan, "chi2": np.nan, "n_observables": 0, "coarse_runs": 0, "fine_runs": 0,
+            "failed_runs": 0, "other_runs": 0, "noise": {}, "words": [], "parameters": [], "correlation": [], "emulator": {},
+            "discrepancy": {}, "minima": [], "paths": []}
 
 
 class Calibrator:
@@ -66,7 +72,9 @@ class Calibrator:
             raise NotConverged("no observable is left to fit; check targets, quantities and bins")
         self.difference = GRAINS_DIFFERENCE if calibration.of_grains else DIFFERENCE
         self.best = (np.inf, False)  # chi^2 with the prior, on the samples' own mesh
+        self.posterior: pd.DataFrame | None = None
         self.failures: list[str] = []  # of coarse and fine runs
+        self.tried: list[tuple[Array, bool, Array]] = []  # the same runs: point, on the samples' own mesh, values
 
     def _settings(self, point: Array, target: str) -> list[Setting]:
         return [*self.calibration.fixed, *self.coordinates.settings(point, target)]
@@ -76,16 +84,26 @@ class Calibrator:
         settings = [[self._settings(point, path.target.name) for path in paths] for point in points]
         found = self.run(paths, settings, fine, self.calibration.load_step)
         if count != "other_runs":
+            self.tried += [(point, fine, np.concatenate([one.values for one in runs])) for point, runs in zip(points, found)]
             self.failures += [one.failure for runs in found for one in runs if one.failure]
             self.record["failed_runs"] = len(self.failures)
         return found
 
-    def _failure_words(self) -> list[str]:
+    def _failure_words(self, draws: Draws | None = None) -> list[str]:
         """Empty without failures. Reasons that differ in their numbers only count as one."""
+        share = self._share_failed(draws) if draws else 0
+        more = (f"; {100 * share:.0f} % of the posterior is nearest to them, where the emulator extrapolates"
+                if share > FAILED_SHARE else "")
         kinds = [re.sub(r"\d[\d.e+-]*", "", failure) for failure in self.failures]
         n = self.record["coarse_runs"] + self.record["fine_runs"]
         return [f"{len(kinds)} of {n} coarse and fine runs were refused or did not finish; most often ({count} times): "
-                f"{self.failures[kinds.index(kind)]}" for kind, count in Counter(kinds).most_common(1)]
+                f"{self.failures[kinds.index(kind)]}{more}" for kind, count in Counter(kinds).most_common(1)]
+
+    def _share_failed(self, draws: Draws) -> float:
+        """Share of the draws that are nearest to a run without a result, in deviations of the posterior."""
+        scale, points = draws.points.std(0), np.array([point for point, _, _ in self.tried])
+        failed = np.array([not np.isfinite(values[self.data.weights > 0]).all() for _, _, values in self.tried])
+        return float(failed[scipy.spatial.KDTree(points / scale).query(draws.points / scale)[1]].mean())
 
     def _keep(self, point: Array) -> None:
         """Records the settings that all targets share, and the values of single targets."""
@@ -119,19 +137,21 @@ class Calibrator:
         if not self.calibration.of_grains:
             fine = least_squares(self._residuals(True), coarse.point, self.calibration.fine_jacobians, coarse.jacobian)
         if not np.isfinite(fine.chi2):
-            raise NotConverged("; ".join(["the continuum did not finish on the samples' own mesh", *self._failure_words()]))
-        self.record["chi2"] = self._chi2(fine.residual)
-        self._keep(fine.point)
-        knowledge, jacobian = self._report(fine, coarse)
-        self._profile(coarse, knowledge)
-        self.record["words"] += self._failure_words()
-        self._predict(fine.point, knowledge, jacobian)
+            self.record["words"].append("the best point of the coarse mesh did not finish on the samples' own mesh; the result "
+                                        "rests on the coarse mesh")
+            fine = coarse
+        draws = self._sample(fine)
+        self.posterior = posterior_table(self.coordinates, draws.points)
+        self._report(fine, coarse, draws)
+        self._predict(np.median(draws.points, axis=0), fine.jacobian, draws)
         self.record["status"] = "finished"
 
     def _fit_coarse(self) -> Fit:
         c, residuals, fits = self.calibration, self._residuals(False), []
-        starts = [self.coordinates.start, *(spread_point(c.seed + k, len(self.coordinates)) for k in range(1, c.starts))]
-        for k, start in enumerate(starts):
+        for k in range(c.starts + MOST_FAILED_STARTS):
+            if sum(np.isfinite(fit.chi2) for fit in fits) == c.starts:
+                break
+            start = spread_point(c.seed + k, len(self.coordinates)) if k else self.coordinates.start
             fit = least_squares(residuals, start, c.start_jacobians if k else c.jacobians, difference=self.difference)
             fits.append(fit)
             self.record["minima"].append({"start": self.coordinates.numbers(start), "runs": fit.evaluations, "is_best": False,
@@ -157,63 +177,59 @@ class Calibrator:
         return {"numbers": self.coordinates.numbers(fit.point), "total": fit.chi2,
                 "chi2": self._chi2(fit.residual) if np.isfinite(fit.chi2) else np.nan}
 
-    def _report(self, fine: Fit, coarse: Fit) -> tuple[Knowledge, Array]:
-        """A misfit beyond noise and model tolerance also counts as noise."""
-        data, record = self.data, self.record
-        jacobian = data.unweighted(fine.jacobian[:len(data.mean)])
-        record["misfit"] = np.sqrt(record["chi2"] / expected_chi2(jacobian, data.weights, data.of_means(True)))
-        if record["n_observables"] <= len(self.coordinates):
-            record["misfit"] = np.nan  # nothing is left over to estimate it
-        wider = max(1.0, np.nan_to_num(record["misfit"])) ** 2
-        knowledge = identify(jacobian, data.weights, wider * data.of_means(True), wider * data.of_means(False),
-                             self.noise.degrees_of_freedom)
-        if record["misfit"] > 1:
-            record["words"].append(f"chi^2 is {record['chi2']:.3g}, {record['misfit'] ** 2:.3g} times the expected value: this "
-                                   f"{'law' if record['model'] == 'continuum' else 'kind of grains'} cannot reproduce the "
-                                   "data within noise and model tolerance; deviations of the parameters are multiplied by "
-                                   f"{record['misfit']:.3g}")
-        record["parameters"] = parameter_records(self.coordinates, knowledge, fine.point)
-        record["correlation"] = knowledge.correlation
-        record["words"] += parameter_words(record["parameters"])
+    def _report(self, fine: Fit, coarse: Fit, draws: Draws) -> None:
+        record = self.record
+        record["parameters"] = parameter_records(self.coordinates, draws.points)
+        record["correlation"] = np.corrcoef(draws.points, rowvar=False).reshape(2 * (len(self.coordinates),))
+        record["discrepancy"] = discrepancy_record(self.noise, draws, len(self.fitted))
+        record["words"] += parameter_words(record["parameters"]) + discrepancy_words(record["discrepancy"])
         searches = [("on the samples' own mesh ", fine, "fine_jacobians"), ("on the coarse mesh ", coarse, "jacobians")]
         if fine is coarse:
             searches = [("", fine, "jacobians")]
         record["words"] += [f"{mesh}{fit.note}; allow more Jacobians by `{key}`" for mesh, fit, key in searches if fit.note]
-        return knowledge, jacobian
+        record["words"] += self._failure_words(draws)
 
-    def _profile(self, coarse: Fit, knowledge: Knowledge) -> None:
-        """chi^2 on both sides of the minimum; the linear model gives the other parameters."""
-        points = []
-        for k, deviation in enumerate(knowledge.deviation):
-            along = knowledge.covariance[:, k] / knowledge.covariance[k, k]
-            for side in (-REACH, REACH):
-                to = np.clip(coarse.point[k] + side * deviation, 0, 1)
-                points.append(np.clip(coarse.point + (to - coarse.point[k]) * along, 0, 1))
-        runs = self._runs(points, self.fitted, False, "coarse_runs")
-        residuals = [self.data.residual(np.concatenate([one.values for one in of_point])) for of_point in runs]
-        for k, p in enumerate(self.record["parameters"]):
-            for point, residual in ((points[2 * k], residuals[2 * k]), (coarse.point, coarse.residual),
-                                    (points[2 * k + 1], residuals[2 * k + 1])):
-                p["profile_number"].append(self.coordinates.numbers(point)[k])
-                p["profile_chi2"].append(self._chi2(residual))
-                p["profile_expected"].append(self._chi2(coarse.residual + coarse.jacobian @ (point - coarse.point)))
+    def _sample(self, fit: Fit) -> Draws:
+        """The posterior by an emulator of all runs. A first, short sampling tells where more coarse runs improve it."""
+        n = min(MORE_RUNS, 3 * len(fit.point))
+        first = self._posterior().sample(fit.point, fit.jacobian, self.calibration.seed, SHORT)
+        more = first.points[np.linspace(0, len(first.points) - 1, n).astype(int)]
+        self._runs(more, self.fitted, False, "coarse_runs")
+        posterior = self._posterior()
+        draws = posterior.sample(fit.point, fit.jacobian, self.calibration.seed, STEPS)
+        self.record["emulator"] = {
+            "runs": len(posterior.emulator.points), "more_runs": n, "acceptance": draws.acceptance,
+            "steps": STEPS, "autocorrelation": draws.autocorrelation,
+            "left_out": float(np.sqrt(np.mean(posterior.left_out[~posterior.emulator.is_fine.astype(bool)][-n:] ** 2)))}
+        return draws
 
-    def _predict(self, best: Array, knowledge: Knowledge, jacobian: Array) -> None:
+    def _posterior(self) -> Posterior:
+        """With the runs of the search that came to their end."""
+        points, fine, values = (np.array(column) for column in zip(*self.tried))
+        good = np.isfinite(values[:, self.data.weights > 0]).all(1)
+        values = values[good][:, self.data.weights > 0]
+        return Posterior(self.data, self.coordinates, Emulator(points[good], fine[good], values))
+
+    def _predict(self, best: Array, jacobian: Array, draws: Draws) -> None:
         """All paths on their own meshes: before, calibrated, and calibrated with half the load step."""
+        self._keep(best)
+        jacobian = self.data.unweighted(jacobian[:len(self.data.mean)])
+        spread, curve = np.atleast_2d(np.cov(draws.points, rowvar=False)), iter(draws.curve.T)
         self.record["other_runs"] += 3 * len(self.paths)
         calibrated = [self._settings(best, path.target.name) for path in self.paths]
         before, after = self.run(self.paths, [[path.target.before for path in self.paths], calibrated], True,
                                  self.calibration.load_step)
         halved = self.run(self.paths, [calibrated], True, 0.5 * self.calibration.load_step)[0]
-        at = 0
+        weights = iter(self.data.weights)
         for path, *runs in zip(self.paths, before, after, halved):
             here = self._jacobian_on(path, best, jacobian)
-            deviations = np.sqrt(np.diag(here @ knowledge.covariance @ here.T))
-            self.record["paths"].append(path_record(path, self.noise, runs, deviations, float(knowledge.quantile.max())))
+            deviations = np.sqrt(np.diag(here @ spread @ here.T))
+            self.record["paths"].append(path_record(path, self.noise, runs, deviations))
             for one in self.record["paths"][-1]["observables"] if path.target.is_fitted else ():
-                one["counts"], at = bool(self.data.weights[at] > 0), at + 1
-        formerly = [one for path, one in zip(self.paths, before) if path.target.is_fitted]
-        self.record["chi2_before"] = self._chi2(self.data.residual(np.concatenate([one.values for one in formerly])))
+                one["counts"], (one["discrepancy"], one["discrepancy_deviation"]) = bool(next(weights) > 0), next(curve)
+        for key, runs in (("chi2_before", before), ("chi2", after)):
+            values = [one.values for path, one in zip(self.paths, runs) if path.target.is_fitted]
+            self.record[key] = self._chi2(self.data.residual(np.concatenate(values)))
 
     def _jacobian_on(self, path: Path, best: Array, jacobian: Array) -> Array:
         """(observables, parameters) of one path: the fit's if the path was fitted, on these or other samples; else differences
@@ -335,7 +351,7 @@ def run_calibration(line: argparse.Namespace, options: Options) -> int:
     calibration = read_calibration(line.target, contents)
     coordinates = _checked(calibration)
     directory = line.output or f"results/{calibration.name}_calibration"
-    record = empty_record(calibration.title, "grains" if calibration.of_grains else "continuum")
+    record, posterior = empty_record(calibration.title, "grains" if calibration.of_grains else "continuum"), None
     with Folder(directory) as folder:
         folder.open_runs("calibration", line.target, options, lambda: _inputs(calibration), text)
         if contents:
@@ -344,10 +360,12 @@ def run_calibration(line: argparse.Namespace, options: Options) -> int:
         try:
             paths = runs.paths()
             _check_data(calibration, paths, runs, record)
-            Calibrator(calibration, coordinates, paths, runs.evaluate, record).calibrate()
+            calibrator = Calibrator(calibration, coordinates, paths, runs.evaluate, record)
+            calibrator.calibrate()
+            posterior = calibrator.posterior
         except (Stopped, NotConverged) as error:
             record["status"] = str(error)
-        write_calibration(directory, record, runs.cpu_s)
+        write_calibration(directory, record, runs.cpu_s, posterior)
         if record["status"] != "finished":
             complain(f"diptych: {record['status']}; what was found is kept in {directory}; to go on: {options.again}")
             return NOT_CONVERGED

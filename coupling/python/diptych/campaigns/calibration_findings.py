@@ -10,62 +10,78 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+import scipy.stats
 
 from .. import _diptych
 from ..arrays import Array, Interval
 from .calibration_coordinates import Coordinates
 from .calibration_noise import Noise, covariance, covariance_of_mean
+from .calibration_posterior import Draws
 from .calibration_runs import Observation, Path
-from .calibration_search import LARGEST_SHARE, NORMAL, Knowledge
+from .calibration_search import NORMAL, PRIOR
 from .folders import write_json, write_text
 from .input_file import seeds_text
 from .statistics import Difference, line_statistics, paired, statistics
 
 NORMAL_95 = 1.6448536269514722  # 95 % quantile
-CLOSE = 1e-3  # to a bound, in the unit cube
+CUT = 0.02  # to a bound, in the unit cube: an interval ends there
+LARGEST_SHARE = 2 / 3  # of the prior deviation that an identified parameter keeps
 COLUMNS = ("kind", "from", "to", "count", "mean", "deviation", "deviation_of_mean", "before", "after", "parameter_deviation",
-           "half_step", "counts")
+           "half_step", "counts", "discrepancy", "discrepancy_deviation")
 
 
-def parameter_records(coordinates: Coordinates, knowledge: Knowledge, point: Array) -> list[dict[str, Any]]:
-    """Values with 95 % intervals; numbers are those of the coordinates."""
-    reach = knowledge.quantile * knowledge.deviation
-    ends = [coordinates.numbers(np.clip(point + side * reach, 0, 1)) for side in (-1, 0, 1)]
+def parameter_records(coordinates: Coordinates, draws: Array) -> list[dict[str, Any]]:
+    """Medians and 95 % intervals of the draws; numbers are those of the coordinates."""
+    inner = np.quantile(draws, [0.025, 0.5, 0.975], axis=0)
+    ends, numbers = [coordinates.numbers(one) for one in inner], np.transpose([coordinates.numbers(one) for one in draws])
+    prior = scipy.stats.truncnorm(-coordinates.start / PRIOR, (1 - coordinates.start) / PRIOR, scale=PRIOR).std()
+    share = draws.std(0, ddof=1) / prior
     return [{"key": p.key, "targets": list(p.targets), "coordinate": p.coordinate, "of": p.other, "low": p.low, "high": p.high,
              "start": p.start, "number": ends[1][k], "number_low": ends[0][k], "number_high": ends[2][k], "value": value,
-             "share_known": share, "is_identified": bool(share < LARGEST_SHARE),
-             "at_bound": bool(not CLOSE <= point[k] <= 1 - CLOSE),
-             "is_cut": bool(point[k] < reach[k] or point[k] + reach[k] > 1),
-             "profile_number": [], "profile_chi2": [], "profile_expected": []}
-            for k, (p, value, share) in enumerate(zip(coordinates.parameters, coordinates.values(point),
-                                                      knowledge.share_known))]
+             "share_known": share[k], "is_identified": bool(share[k] < LARGEST_SHARE),
+             "is_cut": bool(inner[0, k] < CUT or inner[2, k] > 1 - CUT), "draws": numbers[k]}
+            for k, (p, value) in enumerate(zip(coordinates.parameters, coordinates.values(inner[1])))]
 
 
 def parameter_words(parameters: Sequence[dict[str, Any]]) -> list[str]:
-    """Findings on parameters that are not identified or lie at a bound."""
+    """Findings on parameters that are not identified or reach a bound."""
     words = []
     for p in parameters:
         name = p["key"] + (f" ({', '.join(p['targets'])})" if p["targets"] else "")
         if not p["is_identified"]:
-            words.append(f"{name} is not identified: its standard deviation after the fit is {p['share_known']:.2f} times the "
-                         "one assumed before")
-        if p["at_bound"]:
-            words.append(f"{name} lies at its bound; widen low and high, or fix it")
-        elif p["is_cut"]:
+            words.append(f"{name} is not identified: its posterior deviation is {p['share_known']:.2f} times the prior one")
+        if p["is_cut"]:
             words.append(f"the interval of {name} ends at its bound, so this end comes from the bound and not from the data")
     return words
 
 
-def widened(test: Difference, deviation: float, quantile: float) -> Difference:
-    """The same if its second part has an independent uncertainty, given by a deviation and a 97.5 % quantile. The squares of
-    the half widths are added."""
+def discrepancy_record(noise: Noise, draws: Draws, paths: int) -> dict[str, Any]:
+    """Sizes of the discrepancy after the first strains and its correlation strain: medians with intervals; before the data."""
+    before = [noise.stress_discrepancy, noise.volume_discrepancy, draws.strain]
+    found = np.quantile(draws.sizes, [0.5, 0.025, 0.975], axis=0) * [noise.stress_discrepancy, noise.volume_discrepancy, 1]
+    return {"paths": paths, **{key: {"before": value, "found": Interval(*three)} for key, value, three in
+                               zip(("stress_ratio", "volumetric_strain", "correlation_strain"), before, found.T)}}
+
+
+def discrepancy_words(record: dict[str, Any]) -> list[str]:
+    """Findings on the misfit of the law."""
+    parts = []
+    for key, name, unit in (("stress_ratio", "t/s", 1), ("volumetric_strain", "volume, %", 100),
+                            ("correlation_strain", "correlation over strain, %", 100)):
+        value, low, high = (unit * number for number in record[key]["found"])
+        parts.append(f"{name} {value:.2g} [{low:.2g}, {high:.2g}] (before {unit * record[key]['before']:.2g})")
+    rests = "one path alone" if record["paths"] == 1 else f"{record['paths']} paths"
+    return [f"discrepancy of the law, deviation: {', '.join(parts)}; it rests on {rests}"]
+
+
+def widened(test: Difference, deviation: float) -> Difference:
+    """The same if its second part has an independent deviation. The squares of the half widths are added."""
     def wide(interval: Interval, half: float) -> Interval:
         value, low, high = interval
         return Interval(value, value - np.hypot(value - low, half), value + np.hypot(high - value, half))
 
-    # Student's quantile shrinks more from 97.5 to 95 % than the normal one, so this is conservative.
-    return Difference(test.n, wide(test.difference, quantile * deviation),
-                      wide(test.difference_90, quantile * NORMAL_95 / NORMAL * deviation))
+    return Difference(test.n, wide(test.difference, NORMAL * deviation),
+                      wide(test.difference_90, NORMAL_95 * deviation))
 
 
 def measured(mean: float, deviation: float, now: float, kind: str) -> Difference:
@@ -78,7 +94,7 @@ def measured(mean: float, deviation: float, now: float, kind: str) -> Difference
     return Difference(1, interval(NORMAL), interval(NORMAL_95))
 
 
-def predictions(path: Path, runs: Sequence[Observation], deviations: Array, quantile: float) -> list[dict[str, Any]]:
+def predictions(path: Path, runs: Sequence[Observation], deviations: Array) -> list[dict[str, Any]]:
     """Single numbers of a path with verdicts: two one-sided tests against the margins of the scene.
 
     deviations: (observables), of `after`: from the parameters if the path was not fitted, and from runs of grains; they widen
@@ -98,7 +114,7 @@ def predictions(path: Path, runs: Sequence[Observation], deviations: Array, quan
         test = measured(mean, given, now, kind) if np.isfinite(given) else paired(grains, [now] * len(grains), kind)
         if k is not None and deviations[k] > 0:
             deviation = deviations[k] * {"peak_stress_ratio": 1 / mean, "width_10_90": now / mean}.get(quantity, 1)
-            test = widened(test, deviation, quantile)
+            test = widened(test, deviation)
         found.append({"quantity": quantity, "data": mean, "before": earlier, "after": now, "difference": test.difference,
                       "margin": margins[margin], "verdict": test.verdict(margins[margin]), "parameter_deviation": deviation})
 
@@ -121,9 +137,9 @@ def predictions(path: Path, runs: Sequence[Observation], deviations: Array, quan
     return found
 
 
-def path_record(path: Path, noise: Noise, runs: Sequence[Observation], deviations: Array, quantile: float) -> dict[str, Any]:
-    """runs: before, calibrated, and calibrated with half the load step. deviations: (observables), from the parameters, with
-    their 97.5 % quantile. Curves: mean of the samples, plus and minus two deviations of one sample, and of the model."""
+def path_record(path: Path, noise: Noise, runs: Sequence[Observation], deviations: Array) -> dict[str, Any]:
+    """runs: before, calibrated, and calibrated with half the load step. deviations: (observables), from the parameters. Curves:
+    mean of the samples, plus and minus two deviations of one sample, and of the model."""
     before, after, halved = runs
     data = path.data
     deviation, of_mean = (np.sqrt(np.diag(of(noise, data))) for of in (covariance, covariance_of_mean))
@@ -133,12 +149,13 @@ def path_record(path: Path, noise: Noise, runs: Sequence[Observation], deviation
         {"kind": one.kind, "from": one.low, "to": one.high, "count": int(data.count[k]), "mean": data.mean[k],
          "deviation": deviation[k], "deviation_of_mean": of_mean[k],
          "before": before.values[k], "after": after.values[k], "parameter_deviation": deviations[k],
-         "half_step": halved.values[k] - after.values[k], "counts": False, "left_out": path.left_out[k]}
+         "half_step": halved.values[k] - after.values[k], "counts": False, "discrepancy": np.nan,
+         "discrepancy_deviation": np.nan, "left_out": path.left_out[k]}
         for k, one in enumerate(data.observables)]
     record = {"name": path.target.name, "use": "fit" if path.target.is_fitted else "predict", "seeds": path.target.seeds,
               "curve": os.path.basename(path.target.curve),
               "failed": after.failure, "observables": observables, "progress": path.samples[0].progress,
-              "predictions": predictions(path, (before, after), own, quantile)}
+              "predictions": predictions(path, (before, after), own)}
     for name, key in (("stress_ratio", "stress_ratio"), ("volumetric_strain", "volume")):
         record |= with_scatter(key, np.array([getattr(s, name) for s in path.samples]))
         record |= {key + end: [] if o.failure else getattr(o, name) for end, o in (("_before", before), ("_after", after))}
@@ -193,12 +210,21 @@ def _fragment(record: dict[str, Any]) -> str:
     return "\n".join(lines + ["end", ""])
 
 
-def write_calibration(directory: str, record: dict[str, Any], cpu_s: dict[str, float]) -> None:
-    """Writes calibration.json, calibration.csv (a row per observable), calibration_cost.json and calibrated.prm."""
+def posterior_table(coordinates: Coordinates, draws: Array) -> pd.DataFrame:
+    """A row per draw, a column per parameter: the values of the keys. Targets of a value that is not common follow the key."""
+    names = [p.key + (f" ({', '.join(p.targets)})" if p.targets else "") for p in coordinates.parameters]
+    return pd.DataFrame([coordinates.values(point) for point in draws], columns=names)
+
+
+def write_calibration(directory: str, record: dict[str, Any], cpu_s: dict[str, float], posterior: pd.DataFrame | None) -> None:
+    """Writes calibration.json, calibration.csv (a row per observable), posterior.csv (a row per draw), calibration_cost.json
+    and calibrated.prm."""
     rows = [{"path": path["name"], "use": path["use"], **one} for path in record["paths"] for one in path["observables"]]
     table = pd.DataFrame(rows, columns=["path", "use", *COLUMNS]).astype({"counts": int})
     write_json(directory + "/calibration.json", record)
     write_json(directory + "/calibration_cost.json", {"continuum_cpu_s": cpu_s["continuum"], "grains_cpu_s": cpu_s["discrete"]})
     write_text(directory + "/calibration.csv",
                table.to_csv(index=False, float_format="%.10g", na_rep="nan", lineterminator="\n"))
+    if posterior is not None:
+        write_text(directory + "/posterior.csv", posterior.to_csv(index=False, float_format="%.10g", lineterminator="\n"))
     write_text(directory + "/calibrated.prm", _fragment(record))

@@ -188,13 +188,12 @@ class FittedData:
         """Turns the Jacobian of the residuals into that of the observables."""
         return jacobian / np.sqrt(np.where(self.weights > 0, self.weights, 1))[:, None]
 
-    def of_means(self, with_tolerance: bool) -> Array:
-        """(n, n): covariance of the means with the model tolerance; without it only the part estimated from the samples."""
-        noise, blocks = self.noise, []
-        if not with_tolerance:
-            noise = replace(noise, **{key: 0.0 for keys in ESTIMATED.values() for key in keys if key not in noise.estimated})
-        for path in self.paths:
-            known = path.given if with_tolerance else np.where(np.isfinite(path.given), 0.0, np.nan)  # measured, not estimated
-            block = covariance_of_mean(noise, replace(path, given=known))
-            blocks.append(block + (np.diag(discrepancy(noise, path)) if with_tolerance else 0))
-        return scipy.linalg.block_diag(*blocks)
+    def of_means(self) -> Array:
+        """(n, n): covariance of the means."""
+        return scipy.linalg.block_diag(*[covariance_of_mean(self.noise, path) for path in self.paths])
+
+    def of_scatter(self, keys: Sequence[str]) -> Array:
+        """(n, n): the part of it due to these deviations of one sample."""
+        noise = replace(self.noise, **{key: 0.0 for of_kind in ESTIMATED.values() for key in of_kind if key not in keys})
+        known = [replace(path, given=np.where(np.isfinite(path.given), 0.0, np.nan)) for path in self.paths]  # not scatter
+        return scipy.linalg.block_diag(*[covariance_of_mean(noise, path) for path in known])

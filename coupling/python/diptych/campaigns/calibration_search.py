@@ -1,4 +1,4 @@
-# diptych: least squares of a calibration, and the deviations of its parameters
+# diptych: least squares of a calibration
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The search works in the unit cube, where every residual needs a run. scipy's dogleg with bounds ("dogbox") does Gauss-Newton
 steps in a trust region. The Jacobian comes from forward differences, which run in parallel, and Broyden's rank-one update
@@ -24,7 +24,6 @@ RADIUS_OF_FRESH, RADIUS_OF_GIVEN = 0.25, 0.1  # of the first trust region, with 
 EXACT = 1e-6  # mean square of the residuals below which the fit is exact
 MOST_STEPS = 6  # of a search with one Jacobian and its updates
 PRIOR = 0.25  # deviation of every coordinate before the data
-LARGEST_SHARE = 2 / 3  # of the prior deviation that an identified parameter keeps
 NORMAL = float(scipy.stats.norm.ppf(0.975))
 
 
@@ -151,58 +150,6 @@ def least_squares(residuals: Residuals, start: Array, most_jacobians: int = 4, j
             return fit
         if not fresh:
             fit.jacobian = None
-
-
-@dataclass
-class Knowledge:
-    """All in the coordinates of the fit. covariance: of the estimate, with the covariance of the samples ("sandwich") and the
-    prior. quantile: 97.5 % quantile of estimate / deviation, Student's if few samples gave the scatter."""
-
-    covariance: Array
-    quantile: Array
-
-    @property
-    def deviation(self) -> Array:
-        return np.sqrt(np.diag(self.covariance))
-
-    @property
-    def correlation(self) -> Array:
-        return self.covariance / np.outer(self.deviation, self.deviation)
-
-    @property
-    def share_known(self) -> Array:
-        """Deviation after the fit / prior deviation."""
-        return self.deviation / PRIOR
-
-
-def _inverse(jacobian: Array, weights: Array) -> Array:
-    return np.linalg.inv(jacobian.T @ (weights[:, None] * jacobian) + np.eye(jacobian.shape[1]) / PRIOR**2)
-
-
-def identify(jacobian: Array, weights: Array, noise: Array, scatter: Array | None = None, freedom: int = 0) -> Knowledge:
-    """With H = J'WJ + 1/prior^2 the estimate has the covariance H^-1 (J'W C W J + 1/prior^2) H^-1.
-
-    jacobian  (n, parameters): of the unweighted observables
-    weights   (n): of the fit
-    noise     (n, n): covariance C of the means with the model tolerance
-    scatter   (n, n): the part of C that was estimated with `freedom` degrees of freedom nu. If it contributes v to a variance
-              V, nu (V / v)^2 degrees count (Satterthwaite, Biometrics Bull. 2 (1946) 110)."""
-    weighted, inverse = weights[:, None] * jacobian, _inverse(jacobian, weights)
-    result = inverse @ (weighted.T @ noise @ weighted + np.eye(len(inverse)) / PRIOR**2) @ inverse
-    result = 0.5 * (result + result.T)
-    quantile = np.full(len(inverse), NORMAL)
-    if freedom > 0 and scatter is not None:
-        estimated = np.diag(inverse @ weighted.T @ scatter @ weighted @ inverse)
-        some = estimated > 0
-        quantile[some] = scipy.stats.t.ppf(0.975, freedom * np.maximum(1, np.diag(result)[some] / estimated[some]) ** 2)
-    return Knowledge(result, quantile)
-
-
-def expected_chi2(jacobian: Array, weights: Array, noise: Array) -> float:
-    """Expected chi^2 of a fit with these weights if the law is right and the noise has this covariance. It differs from the
-    number of observables minus parameters, because the weights omit the scatter common to all bins."""
-    left = np.eye(len(jacobian)) - jacobian @ _inverse(jacobian, weights) @ (weights[:, None] * jacobian).T
-    return float(np.diag(left @ noise @ left.T) @ weights)
 
 
 def spread_point(k: int, n: int) -> Array:

@@ -1,4 +1,4 @@
-# diptych: charts of a calibration: curves before and after, residuals, correlation, profiles
+# diptych: charts of a calibration: curves before and after, residuals, discrepancy, posterior
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 import numpy as np
@@ -67,48 +67,57 @@ def residuals(path):
     return svg(figure, f"Residuals of {path['name']} for each bin, over the standard deviation of the means.")
 
 
-def correlation(calibration):
-    names, matrix = calibration.names(), np.array(calibration.record["correlation"], dtype=float)
-    n = len(names)
-    figure = Figure(figsize=(3.2 + 0.42 * n, 1.5 + 0.42 * n))
-    width, height = figure.get_size_inches()
-    axes = figure.add_axes([2.1 / width, 1.45 / height, 0.42 * n / width, 0.42 * n / height])
-    axes.imshow(matrix, cmap="RdBu_r", vmin=-1, vmax=1)
-    for i in range(n):
-        for j in range(n):
-            axes.text(j, i, f"{matrix[i, j]:.1f}".replace("-", "−"), ha="center", va="center", fontsize=7,
-                      color="white" if abs(matrix[i, j]) > 0.6 else INK)
-    axes.set(xticks=range(n), yticks=range(n), yticklabels=names)
-    axes.set_xticklabels(names, rotation=50, ha="right")
-    axes.tick_params(length=0)
-    return svg(figure, "Correlation of the parameters, in the coordinates of the search.")
+def discrepancy(path):
+    """model - data of t/s and volume with two deviations of the means, and the estimated discrepancy as a band."""
+    kinds = [kind for kind in CURVES if any(o["kind"] == kind and o["discrepancy"] is not None for o in path["observables"])]
+    if not kinds:
+        return None
+    figure = Figure(figsize=(4.5, 0.5 + 1.9 * len(kinds)), layout="constrained")
+    for axes, kind in zip(np.atleast_1d(figure.subplots(len(kinds), 1, sharex=True)), kinds):
+        scale = CURVES[kind][2]
+        columns = [(50 * (o["from"] + o["to"]), *(scale * numbers([o["after"], o["mean"], o["deviation_of_mean"], o["discrepancy"], o["discrepancy_deviation"]])))
+                   for o in path["observables"] if o["kind"] == kind and o["discrepancy"] is not None]
+        x, after, mean, deviation, middle, spread = np.array(columns, dtype=float).T
+        ruled(axes).axhline(0, color=FAINT, linewidth=0.8)
+        axes.fill_between(x, middle - 1.96 * spread, middle + 1.96 * spread, color=CONTINUUM, alpha=0.2, linewidth=0, label="discrepancy, 95 %")
+        axes.plot(x, middle, color=CONTINUUM, label="discrepancy, mean")
+        axes.errorbar(x, after - mean, 2 * deviation, fmt="o", color=INK, markersize=3.5, linewidth=0.8, label="model − data, ± 2 deviations")
+        axes.set_ylabel(KINDS[kind] + (", %" if scale == 100 else ""))
+    axes.set_xlabel("axial strain, %")
+    figure.axes[0].legend(loc="best", fontsize=7)
+    return svg(figure, f"Discrepancy of the law over strain on {path['name']}: estimate with its band, and the residuals.")
 
 
-def parabola(x, y, logarithm):
-    """The parabola through three points: chi squared of a linear model in the coordinate of the search. Fewer points stay points."""
-    at = np.log(x) if logarithm else x
-    if not np.isfinite(y).all() or len(set(at)) < 3:
-        return x, y
-    fine = np.linspace(at[0], at[-1], 60)
-    return np.exp(fine) if logarithm else fine, np.polyval(np.polyfit(at - at[1], y, 2), fine - at[1])
-
-
-def profiles(calibration):
-    """chi^2 at 1.5 standard deviations to both sides of the minimum, computed and predicted by the linear model."""
-    entries = [p for p in calibration.parameters if None not in p["profile_number"]]
-    columns = 3
-    rows = -(-len(entries) // columns)
-    figure = Figure(figsize=(7.6, 2.1 * rows + 0.2))
-    for k, p in enumerate(entries):
-        axes = ruled(figure.add_subplot(rows, columns, k + 1))
-        x = numbers(p["profile_number"])
-        axes.plot(*parabola(x, numbers(p["profile_expected"]), p["coordinate"] == "logarithm"), color=FAINT, label="linear model")
-        axes.plot(x, numbers(p["profile_chi2"]), "o", color=CONTINUUM, markersize=4.5, label="computed")
-        axes.set_xlabel(label(p) + {"share_of": ", share", "drop_from": ", drop"}.get(p["coordinate"], ""))
-        axes.locator_params(nbins=4)
-        if k % columns == 0:
-            axes.set_ylabel("χ²")
-        if k == 0:
-            axes.legend(loc="upper center")
-    figure.tight_layout()
-    return svg(figure, "Profiles of chi squared over every parameter, with the others adjusted.")
+def corner(calibration):
+    """The posterior: a histogram of each parameter with its prior, draws of each pair, and their correlation."""
+    entries, n = calibration.parameters, len(calibration.parameters)
+    draws = [np.log10(p["draws"]) if p["coordinate"] == "logarithm" else numbers(p["draws"]) for p in entries]
+    ends = [np.log10([p["low"], p["start"], p["high"]]) if p["coordinate"] == "logarithm" else numbers([p["low"], p["start"], p["high"]]) for p in entries]
+    figure = Figure(figsize=(max(3.2, 1.25 * n + 0.6),) * 2)
+    grid = figure.subplots(n, n, squeeze=False)
+    figure.subplots_adjust(left=0.6 / (n + 0.5), bottom=0.6 / (n + 0.5), right=0.99, top=0.99, wspace=0.08, hspace=0.08)
+    for i, j in np.ndindex(n, n):
+        axes = grid[i, j]
+        low, start, high = ends[j]
+        if i == j:
+            at = np.linspace(low, high, 100)
+            axes.hist(draws[j], bins=np.linspace(low, high, 41), density=True, color=CONTINUUM, alpha=0.6)
+            prior = np.exp(-0.5 * ((at - start) / (0.25 * (high - low))) ** 2)
+            axes.plot(at, prior / np.trapz(prior, at), color=FAINT, linewidth=1)
+        elif i > j:
+            axes.plot(draws[j], draws[i], ".", color=CONTINUUM, markersize=1.6, alpha=0.6)
+            axes.set_ylim(ends[i][0], ends[i][2])
+        else:
+            axes.text(0.5, 0.5, f"{np.corrcoef(draws[i], draws[j])[0, 1]:.1f}".replace("-", "−"), ha="center", va="center", transform=axes.transAxes)
+        axes.set(xlim=(low, high), xticks=[], yticks=[])
+        for edge in ("top", "right") if i >= j else ("top", "right", "left", "bottom"):
+            axes.spines[edge].set_visible(False)
+        for axis, k, shown in ((axes.xaxis, j, i == n - 1), (axes.yaxis, i, j == 0 and i > 0)):
+            if shown:
+                name = label(entries[k]).replace("_", " ").replace(" angle", "\nangle").replace(" length", "\nlength")
+                name = name.replace(" modulus", "\nmodulus").replace(" strain", "\nstrain")
+                axis.set_label_text(name + {"share_of": ", share", "drop_from": ", drop"}.get(entries[k]["coordinate"], ""), fontsize=7)
+                axis.set_ticks([ends[k][0], ends[k][2]], [f"{entries[k][end]:g}" for end in ("low", "high")], fontsize=6)
+                for text, side in zip(axis.get_ticklabels(), (("left", "right"), ("bottom", "top"))[axis is axes.yaxis]):
+                    text.set(**{"verticalalignment" if axis is axes.yaxis else "horizontalalignment": side})
+    return svg(figure, "Posterior of the parameters: histograms with the prior, draws of every pair, correlations.")

@@ -19,8 +19,8 @@ def page(calibration):
     paths = []
     for path in calibration.paths:
         shown = [figures.curve(path, kind, calibration.model) for kind in figures.CURVES if any(o["kind"] == kind for o in path["observables"])]
-        paths.append((path, shown + [figures.residuals(path)]))
+        paths.append((path, shown + [figures.residuals(path)] + ([figures.discrepancy(path)] if path["use"] == "fit" else [])))
     return template("calibration.html").render(
         record=calibration.record, data=calibration.data, paths=paths, parameters=tables.parameters(calibration), predictions=tables.predictions(calibration),
         misfits=tables.misfits(calibration), minima=tables.minima(calibration), cost=tables.cost(calibration),
-        correlation=figures.correlation(calibration), profiles=figures.profiles(calibration))
+        corner=figures.corner(calibration))

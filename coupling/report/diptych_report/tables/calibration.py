@@ -23,7 +23,7 @@ def parameters(calibration):
         number = text(p["number"], 3) if ratio else ""
         rows.append([label(p), text(p["value"]), f"{ratio}{p['of']}: {number}" if ratio else "", f"{text(p['number_low'], 3)} … {text(p['number_high'], 3)}",
                      f"{text(p['low'], 3)} … {text(p['high'], 3)}", f"{100 * p['share_known']:.0f} %",
-                     ("yes" if p["is_identified"] else "not identified") + (", at its bound" if p["at_bound"] else "")])
+                     "yes" if p["is_identified"] else "not identified"])
     return {"head": ["continuum/" if calibration.model == "continuum" else "", "value", "fitted as", "95 %", "bounds", "deviation left", "identified"], "rows": rows}
 
 
@@ -65,8 +65,8 @@ def minima(calibration):
 
 def cost(calibration):
     r = calibration.record
-    rows = [["runs on the coarse mesh (search and profiles)", str(r["coarse_runs"])], ["runs on the fine mesh", str(r["fine_runs"])],
+    rows = [["runs on the coarse mesh (search and emulator)", str(r["coarse_runs"])], ["runs on the fine mesh", str(r["fine_runs"])],
             ["runs for predictions", str(r["other_runs"])], ["CPU time of the continuum, s", text(calibration.cost["continuum_cpu_s"], 3)]]
     if calibration.model == "grains":
-        rows = [["points of search and profiles, each with all seeds", str(r["coarse_runs"])], ["points of the comparison", str(r["other_runs"])]]
+        rows = [["points of search and emulator, each with all seeds", str(r["coarse_runs"])], ["points of the comparison", str(r["other_runs"])]]
     return {"head": ["", ""], "rows": [*rows, ["CPU time of the grains, s", text(calibration.cost["grains_cpu_s"], 3)]]}

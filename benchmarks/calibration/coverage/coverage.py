@@ -1,0 +1,49 @@
+#!/usr/bin/env python3
+# diptych: how often the 95 % intervals of a calibration hold the truth
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: coverage.py [REPLICATES [SIZE]]. Draws parameters from the prior and four noisy samples of a material point with them,
+and calibrates. SIZE: of the discrepancy in the data, in deviations assumed before (0). Prints a row per parameter."""
+import os
+import sys
+
+import numpy as np
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "tests", "python"))
+from calibration_test import SCENE, SIX, USUAL, calibrated, calibration, drawn, path_of, truth_of  # noqa: E402
+from diptych.campaigns.calibration_coordinates import Coordinates  # noqa: E402
+from diptych.campaigns.calibration_noise import Data, Noise, discrepancy  # noqa: E402
+
+CORRELATION_STRAIN = 0.005  # of the discrepancy in the data; the calibration assumes 0.7 % before
+
+
+def replicate(seed, size):
+    """Truth, ends of the interval and median of every parameter in the unit cube: (4, parameters)."""
+    c, random, there = calibration(), np.random.default_rng(seed), Coordinates(SIX, {})
+    c.noise, observables, truth = Noise(), calibration().observables_of(SCENE), np.array([np.nan])
+    while not np.isfinite(truth).all():
+        point = random.normal(there.start, 0.25)
+        truth = truth_of(c, "", there.numbers(point)) if ((point > 0) & (point < 1)).all() else truth
+    x = np.array([0.5 * (one.low + one.high) for one in observables])
+    same = np.equal.outer(*[[one.kind for one in observables]] * 2) * np.exp(-np.abs(x[:, None] - x) / CORRELATION_STRAIN)
+    deviation = size * np.sqrt(discrepancy(Noise(), Data(observables, truth)))
+    truth = truth + deviation * random.multivariate_normal(0 * x, same)
+    found = calibrated(c, [path_of(c.targets[0], drawn(USUAL, observables, truth, 4, seed))])["parameters"]
+    in_cube = [[(np.log(p[end]) if p["coordinate"] == "logarithm" else p[end]) for p in found] for end in ("number_low", "number_high", "number")]
+    return np.array([point, *((np.array(in_cube) - there.low) / there.span)])
+
+
+def main():
+    n, size = int(sys.argv[1]) if len(sys.argv) > 1 else 40, float(sys.argv[2]) if len(sys.argv) > 2 else 0
+    found = np.array([replicate(seed, size) for seed in range(n)])
+    truth, low, high, median = found.swapaxes(0, 1)
+    holds, rows = (low <= truth) & (truth <= high), []
+    for k, p in enumerate(SIX):
+        rows.append((p.key, f"{holds[:, k].sum()} of {n}", np.sqrt(np.mean((median - truth)[:, k] ** 2)), np.mean((high - low)[:, k]) / 3.92))
+    print("| parameter | in the 95 % interval | rms error | mean deviation |\n|---|---|---|---|")
+    for key, held, error, deviation in rows:
+        print(f"| {key} | {held} | {error:.3f} | {deviation:.3f} |")
+    print(f"| all | {100 * holds.mean():.1f} % | | |")
+
+
+if __name__ == "__main__":
+    main()
