@@ -15,7 +15,7 @@ from running import content, diptych, ENVIRONMENT, Folder, listing, main, PROGRA
 
 TINY = {"sample/grains": 150, "loading/axial_strain": 0.02, "loading/stage_strain": 0.01, "loading/inertial_number": 1e-3,
         "comparison/window_edges": "0, 0.01, 0.02"}
-TABLES = ("calibration.json", "calibration.csv", "calibrated.prm")
+TABLES = ("calibration.json", "calibration.csv", "posterior.csv", "calibrated.prm")
 
 
 def calibration(**changes):
@@ -87,7 +87,7 @@ class Results(Calibrate):
         self.look_at_the_page(len(record["paths"]))
 
     def look_at_the_page(self, paths):
-        """It opens without an error and fits a telephone; two curves and the residuals of every path, correlations, profiles."""
+        """It opens without an error and fits a telephone; two curves and the residuals of every path, discrepancy, posterior."""
         if browser.program() is None:
             self.skipTest("chromium is not installed (test.sh installs it)")
         for width in (1400, 390):
