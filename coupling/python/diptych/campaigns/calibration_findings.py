@@ -24,7 +24,7 @@ from .input_file import seeds_text
 from .statistics import Difference, line_statistics, paired, statistics
 
 NORMAL_95 = 1.6448536269514722  # 95 % quantile
-CUT = 0.02  # to a bound, in the unit cube: an interval ends there
+CUT = 0.04  # to a bound, in the unit cube: an interval ends there
 LARGEST_SHARE = 2 / 3  # of the prior deviation that an identified parameter keeps
 COLUMNS = ("kind", "from", "to", "count", "mean", "deviation", "deviation_of_mean", "before", "after", "parameter_deviation",
            "half_step", "counts", "discrepancy", "discrepancy_deviation")

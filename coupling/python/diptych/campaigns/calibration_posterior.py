@@ -27,7 +27,7 @@ SPREAD = 0.7  # deviation of ln(size) and of ln(correlation strain) before the d
 SHARE_OF_STRAIN = 0.25  # correlation strain of the discrepancy before the data / largest strain
 SCALED = (("stress_level",), ("volume_start", "volume_growth"))  # deviations with a sampled factor if samples gave them
 WALKERS, DRAWS = 48, 1000
-LARGE = 1e30
+FARTHEST, LARGE = 6.0, 1e30  # ln of a factor of a variance: two samples bound it nowhere; a number without effect
 
 
 @dataclass
@@ -81,12 +81,14 @@ class Posterior:
         return values - self.mean, everything + factor[:, None, None] * self.emulator.covariance, of_law
 
     def prior(self, z: Array) -> Array:
+        """Logarithm of the prior (n)."""
         n = len(self.start)
         found = -0.5 * (((z[:, :n] - self.start) / PRIOR) ** 2).sum(1) - 0.5 * (z[:, n:n + 3] ** 2).sum(1) / SPREAD**2
         q, nu = z[:, n + 3:], self.freedom
         # freedom / factor of a variance has a chi^2 distribution. A factor that scales nothing has a normal prior.
         found += np.where(nu > 0, -0.5 * nu * (q + np.exp(-q)), -0.5 * q**2).sum(1)
-        return np.where(((z[:, :n] < 0) | (z[:, :n] > 1)).any(1), -np.inf, found)
+        outside = ((z[:, :n] < 0) | (z[:, :n] > 1)).any(1) | (np.abs(q) > FARTHEST).any(1)
+        return np.where(outside, -np.inf, found)
 
     def __call__(self, z: Array) -> Array:
         found = self.prior(z)

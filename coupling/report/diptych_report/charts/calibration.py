@@ -84,7 +84,7 @@ def discrepancy(path):
         axes.errorbar(x, after - mean, 2 * deviation, fmt="o", color=INK, markersize=3.5, linewidth=0.8, label="model − data, ± 2 deviations")
         axes.set_ylabel(KINDS[kind] + (", %" if scale == 100 else ""))
     axes.set_xlabel("axial strain, %")
-    figure.axes[0].legend(loc="best", fontsize=7)
+    figure.axes[0].legend(loc="lower center", bbox_to_anchor=(0.5, 1), ncol=3, fontsize=7, columnspacing=1)
     return svg(figure, f"Discrepancy of the law over strain on {path['name']}: estimate with its band, and the residuals.")
 
 
