@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 # diptych: how often the 95 % intervals of a calibration hold the truth
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: coverage.py [REPLICATES [SIZE]]. Draws parameters from the prior and four noisy samples of a material point with them,
-and calibrates. SIZE: of the discrepancy in the data, in deviations assumed before (0). Prints a row per parameter."""
+"""Usage: coverage.py [REPLICATES [SIZE [JOBS]]]. Draws parameters from the prior and four noisy samples of a material point with them,
+and calibrates. SIZE: of the discrepancy in the data, in deviations assumed before (0). JOBS: processes (2). Prints a row per parameter."""
+import itertools
 import os
 import sys
+from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
 
@@ -19,7 +21,7 @@ CORRELATION_STRAIN = 0.005  # of the discrepancy in the data; the calibration as
 def replicate(seed, size):
     """Truth, ends of the interval and median of every parameter in the unit cube: (4, parameters)."""
     c, random, there = calibration(), np.random.default_rng(seed), Coordinates(SIX, {})
-    c.noise, observables, truth = Noise(), calibration().observables_of(SCENE), np.array([np.nan])
+    c.noise, c.starts, observables, truth = Noise(), 2, calibration().observables_of(SCENE), np.array([np.nan])
     while not np.isfinite(truth).all():
         point = random.normal(there.start, 0.25)
         truth = truth_of(c, "", there.numbers(point)) if ((point > 0) & (point < 1)).all() else truth
@@ -33,12 +35,14 @@ def replicate(seed, size):
 
 
 def main():
-    n, size = int(sys.argv[1]) if len(sys.argv) > 1 else 40, float(sys.argv[2]) if len(sys.argv) > 2 else 0
-    found = np.array([replicate(seed, size) for seed in range(n)])
+    given = [float(word) for word in sys.argv[1:]]
+    n, size, jobs = (*given, *(40, 0, 2)[len(given):])
+    with ProcessPoolExecutor(int(jobs)) as pool:
+        found = np.array(list(pool.map(replicate, range(int(n)), itertools.repeat(size))))
     truth, low, high, median = found.swapaxes(0, 1)
     holds, rows = (low <= truth) & (truth <= high), []
     for k, p in enumerate(SIX):
-        rows.append((p.key, f"{holds[:, k].sum()} of {n}", np.sqrt(np.mean((median - truth)[:, k] ** 2)), np.mean((high - low)[:, k]) / 3.92))
+        rows.append((p.key, f"{holds[:, k].sum()} of {n:.0f}", np.sqrt(np.mean((median - truth)[:, k] ** 2)), np.mean((high - low)[:, k]) / 3.92))
     print("| parameter | in the 95 % interval | rms error | mean deviation |\n|---|---|---|---|")
     for key, held, error, deviation in rows:
         print(f"| {key} | {held} | {error:.3f} | {deviation:.3f} |")

@@ -27,6 +27,7 @@ SPREAD = 0.7  # deviation of ln(size) and of ln(correlation strain) before the d
 SHARE_OF_STRAIN = 0.25  # correlation strain of the discrepancy before the data / largest strain
 SCALED = (("stress_level",), ("volume_start", "volume_growth"))  # deviations with a sampled factor if samples gave them
 WALKERS, DRAWS = 48, 1000
+CANDIDATES, HEAT = 1000, 3.0  # for the starts of the walkers; they are drawn with the posterior^(1 / heat)
 FARTHEST, LARGE = 6.0, 1e30  # ln of a factor of a variance: two samples bound it nowhere; a number without effect
 
 
@@ -102,11 +103,13 @@ class Posterior:
         return found
 
     def sample(self, best: Array, jacobian: Array, seed: int, steps: int) -> Draws:
-        """Walkers start around the best point of the search, as far as its Jacobian (with the prior) tells; the second half of
-        their steps is kept."""
+        """Walkers start at probable points, drawn around the best point of the search, as far as its Jacobian with the prior
+        tells, and from the prior, which may hold a better valley. The second half of their steps is kept."""
         random, n = np.random.RandomState(seed), len(best)
-        near = random.multivariate_normal(best, np.linalg.inv(jacobian.T @ jacobian), WALKERS)
-        start = np.hstack([np.clip(near, 0.001, 0.999), 0.2 * random.normal(size=(WALKERS, 5))])
+        points = np.vstack([random.multivariate_normal(best, np.linalg.inv(jacobian.T @ jacobian), CANDIDATES),
+                            random.normal(self.start, PRIOR, (CANDIDATES, n))])
+        start = np.hstack([np.clip(points, 0.001, 0.999), 0.2 * random.normal(size=(len(points), 5))])
+        start = start[np.argsort(self(start) / HEAT + random.gumbel(size=len(start)))[-WALKERS:]]
         sampler = emcee.EnsembleSampler(WALKERS, n + 5, self, vectorize=True,
                                         moves=[(emcee.moves.DEMove(), 0.8), (emcee.moves.DESnookerMove(), 0.2)])
         sampler.run_mcmc(emcee.State(start, random_state=random.get_state()), steps)
