@@ -17,12 +17,10 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-import scipy.spatial
 
 from ..arrays import Array
 from ..errors import NotConverged, SceneError, Stopped
 from .calibration_coordinates import Coordinates
-from .calibration_emulator import Emulator
 from .calibration_file import Calibration, Target, read_calibration
 from .calibration_findings import (discrepancy_record, discrepancy_words, parameter_records, parameter_words, path_record,
                                    posterior_table, summary, write_calibration)
@@ -41,7 +39,6 @@ HARDLY_WORSE = 4  # in chi^2: two deviations
 MOST_FAILED_STARTS = 8  # replaced by further points
 STEPS = 1500  # of the sampling of the posterior
 MORE_RUNS, SHORT = 20, 500  # coarse runs at points of the posterior, after so many steps of a first sampling
-FAILED_SHARE = 0.02  # of the posterior nearest to runs that failed, from which the result mentions it
 KEYS_OF_NOISE = ("stress_level", "stress_shape", "volume_start", "volume_growth", "ln_width", "correlation_strain",
                  "degrees_of_freedom")  # in calibration.json
 
@@ -89,21 +86,12 @@ class Calibrator:
             self.record["failed_runs"] = len(self.failures)
         return found
 
-    def _failure_words(self, draws: Draws | None = None) -> list[str]:
+    def _failure_words(self) -> list[str]:
         """Empty without failures. Reasons that differ in their numbers only count as one."""
-        share = self._share_failed(draws) if draws else 0
-        more = (f"; {100 * share:.0f} % of the posterior is nearest to them, where the emulator extrapolates"
-                if share > FAILED_SHARE else "")
         kinds = [re.sub(r"\d[\d.e+-]*", "", failure) for failure in self.failures]
         n = self.record["coarse_runs"] + self.record["fine_runs"]
         return [f"{len(kinds)} of {n} coarse and fine runs were refused or did not finish; most often ({count} times): "
-                f"{self.failures[kinds.index(kind)]}{more}" for kind, count in Counter(kinds).most_common(1)]
-
-    def _share_failed(self, draws: Draws) -> float:
-        """Share of the draws that are nearest to a run without a result, in deviations of the posterior."""
-        scale, points = draws.points.std(0), np.array([point for point, _, _ in self.tried])
-        failed = np.array([not np.isfinite(values[self.data.weights > 0]).all() for _, _, values in self.tried])
-        return float(failed[scipy.spatial.KDTree(points / scale).query(draws.points / scale)[1]].mean())
+                f"{self.failures[kinds.index(kind)]}" for kind, count in Counter(kinds).most_common(1)]
 
     def _keep(self, point: Array) -> None:
         """Records the settings that all targets share, and the values of single targets."""
@@ -187,28 +175,26 @@ class Calibrator:
         if fine is coarse:
             searches = [("", fine, "jacobians")]
         record["words"] += [f"{mesh}{fit.note}; allow more Jacobians by `{key}`" for mesh, fit, key in searches if fit.note]
-        record["words"] += self._failure_words(draws)
+        record["words"] += self._failure_words()
 
     def _sample(self, fit: Fit) -> Draws:
         """The posterior by an emulator of all runs. A first, short sampling tells where more coarse runs improve it."""
         n = min(MORE_RUNS, 3 * len(fit.point))
         first = self._posterior().sample(fit.point, fit.jacobian, self.calibration.seed, SHORT)
         more = first.points[np.linspace(0, len(first.points) - 1, n).astype(int)]
-        self._runs(more, self.fitted, False, "coarse_runs")
+        failed = sum(any(one.failure for one in runs) for runs in self._runs(more, self.fitted, False, "coarse_runs"))
+        if failed:
+            self.record["words"].append(f"{failed} of {n} runs at draws of the posterior failed; it omits what is nearest to them")
         posterior = self._posterior()
         draws = posterior.sample(fit.point, fit.jacobian, self.calibration.seed, STEPS)
         self.record["emulator"] = {
-            "runs": len(posterior.emulator.points), "more_runs": n, "acceptance": draws.acceptance,
+            "runs": len(posterior.emulator.points), "more_runs": n, "failed": failed, "acceptance": draws.acceptance,
             "steps": STEPS, "autocorrelation": draws.autocorrelation,
             "left_out": float(np.sqrt(np.mean(posterior.left_out[~posterior.emulator.is_fine.astype(bool)][-n:] ** 2)))}
         return draws
 
     def _posterior(self) -> Posterior:
-        """With the runs of the search that came to their end."""
-        points, fine, values = (np.array(column) for column in zip(*self.tried))
-        good = np.isfinite(values[:, self.data.weights > 0]).all(1)
-        values = values[good][:, self.data.weights > 0]
-        return Posterior(self.data, self.coordinates, Emulator(points[good], fine[good], values))
+        return Posterior(self.data, self.coordinates, *(np.array(column) for column in zip(*self.tried)))
 
     def _predict(self, best: Array, jacobian: Array, draws: Draws) -> None:
         """All paths on their own meshes: before, calibrated, and calibrated with half the load step."""

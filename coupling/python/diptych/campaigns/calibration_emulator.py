@@ -25,6 +25,7 @@ class Emulator:
         self._squares, self._scaled = (points[:, None] - points) ** 2, y / np.maximum(y.std(0), 1e-12)
         self._logs = scipy.optimize.minimize(self._cost, np.log([1.0] * n + [1e-2, 1e-4]), method="L-BFGS-B",
                                              bounds=np.log([LENGTHS] * n + [MESHES, NUGGET]), options={"maxiter": 60}).x
+        self.lengths = np.exp(self._logs[:n])
         self._inverse = np.linalg.inv(self._covariance(self._logs))
         self._alpha = self._inverse @ y
         variance = 1 / np.diag(self._inverse)[:, None]  # of each run, given the others

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg
+import scipy.spatial
 
 try:
     import emcee
@@ -47,10 +48,14 @@ class Draws:
 
 class Posterior:
     """Log-probability of points (n, parameters + 3 + 2): logarithms of the factors of t/s and volume, of the correlation strain
-    / its value before, and of two variances of the scatter follow the parameters."""
+    / its value before, and of two variances of the scatter follow the parameters. It is zero where the nearest run failed."""
 
-    def __init__(self, data: FittedData, coordinates: Coordinates, emulator: Emulator) -> None:
-        self.emulator, self.start, self.used = emulator, coordinates.start, data.weights > 0
+    def __init__(self, data: FittedData, coordinates: Coordinates, points: Array, is_fine: Array, values: Array) -> None:
+        """points, is_fine, values: of all runs; a value is NaN if its run failed."""
+        self.start, self.used = coordinates.start, data.weights > 0
+        good = np.isfinite(values[:, self.used]).all(1)
+        self.emulator = emulator = Emulator(points[good], is_fine[good], values[good][:, self.used])
+        self._failed, self._nearest = ~good, scipy.spatial.KDTree(points / emulator.lengths)
         square = np.ix_(self.used, self.used)
 
         def of_all(values: Callable[[Data], Array]) -> Array:
@@ -93,6 +98,7 @@ class Posterior:
 
     def __call__(self, z: Array) -> Array:
         found = self.prior(z)
+        found[self._failed[self._nearest.query(z[:, :len(self.start)] / self.emulator.lengths)[1]]] = -np.inf
         inside = np.isfinite(found)
         residual, covariance, _ = self._parts(z[inside])
         n, m = residual.shape
