@@ -52,8 +52,9 @@ def need_openturns() -> ModuleType:
 def sobol_indices(points: Array, values: Array) -> Sobol:
     """Sobol indices of values (n) at points (n, d) of the unit cube, with 95 % intervals.
 
-    For each degree the polynomials are fitted n_folds + 1 times: to all points, and without each tenth of them. The left-out
-    points choose the degree (Q2). The same fits give the intervals by the jackknife over the tenths. At least 20 values.
+    For each degree the polynomials are fitted without each tenth of the points, and at last to all. The left-out points
+    choose the degree (Q2). The same fits give the intervals by the jackknife over the tenths. The share 1 - Q2 that the
+    polynomials leave unexplained may belong to any parameter, which widens each interval. At least 20 values.
     """
     parts = np.array_split(np.random.default_rng(1).permutation(len(values)), FOLDS)
     best, without = Sobol([], [], -math.inf, 0), np.empty(0)
@@ -70,10 +71,10 @@ def sobol_indices(points: Array, values: Array) -> Sobol:
         if q2 > best.q2:
             best, without = best._replace(q2=q2, degree=degree), np.array(shares)
     _, shares = _fitted(points, values, best.degree)
-    deviation = np.sqrt((FOLDS - 1) * without.var(axis=0))
-    half = student_quantile(0.975, FOLDS - 1) * deviation
-    first, total = ([Interval(float(v), max(0.0, float(v - h)), min(1.0, float(v + h))) for v, h in zip(*one)]
-                    for one in zip(shares, half))
+    half = student_quantile(0.975, FOLDS - 1) * np.sqrt((FOLDS - 1) * without.var(axis=0))
+    unknown = min(1.0, 1 - best.q2)
+    low, high = np.clip([shares - half - unknown * shares, shares + half + unknown * (1 - shares)], 0, 1)
+    first, total = ([Interval(*map(float, ends)) for ends in zip(*one)] for one in zip(shares, low, high))
     return best._replace(first=first, total=total)
 
 
@@ -100,7 +101,6 @@ def _fitted(points: Array, values: Array, degree: int) -> tuple[Any, Array]:
 
 def sensitivity_of(study: Study, results: Results, records: Sequence[dict[str, Any]]) -> dict[str, Any]:
     """The entry `sensitivity` of study.json. A point counts with the mean of its samples; points without a value are left out."""
-    unit_cube = study.design
     failed = [any(run.exit_code for run in runs) for runs in results]
     indices = []
     for q, quantity in enumerate(study.quantities):
@@ -111,23 +111,27 @@ def sensitivity_of(study: Study, results: Results, records: Sequence[dict[str, A
             values = centre + line_turn(values, centre)
         found = Sobol([], [], math.nan, 0)
         if used.sum() >= FEWEST and values[used].std() > _ROUNDING * np.abs(values[used]).max():
-            found = sobol_indices(unit_cube[used], values[used])
+            found = sobol_indices(study.design[used], values[used])
         indices.append({
             "quantity": quantity["name"], "panel": PANELS[quantity["source"]], "unit": quantity["unit"], "used": int(used.sum()),
             "failed": sum(failed), "without_value": int((~used).sum()) - sum(failed), "q2": found.q2, "degree": found.degree,
             "mean": values[used].mean() if used.any() else math.nan,
             "deviation": values[used].std(ddof=1) if used.sum() > 1 else math.nan,
-            "parameters": [{"parameter": p.key, "first": first, "total": total}
-                           for p, first, total in zip(study.ranges, found.first, found.total)]})
+            "parameters": [{"parameter": p.key, "first": first, "total": total, "correlation": _rank_correlation(x, values[used])}
+                           for p, first, total, x in zip(study.ranges, found.first, found.total, study.design[used].T)]})
     return {"parameters": [{"key": p.key, "coordinate": p.coordinate, "of": p.other, "low": p.low, "high": p.high}
                            for p in study.ranges], "points": len(results), "indices": indices}
 
 
+def _rank_correlation(x: Array, y: Array) -> float:
+    return float(pd.Series(x).corr(pd.Series(y), method="spearman"))
+
+
 def sensitivity_table(record: dict[str, Any]) -> pd.DataFrame:
     """sensitivity.csv: a row per quantity, panel and parameter."""
-    return pd.DataFrame([[one["quantity"], one["panel"], p["parameter"], *p["first"], *p["total"], one["q2"], one["used"]]
+    return pd.DataFrame([[one["quantity"], one["panel"], p["parameter"], *p["first"], *p["total"], p["correlation"], one["q2"], one["used"]]
                          for one in record["indices"] for p in one["parameters"]],
-                        columns=["quantity", "panel", "parameter", *_FIELDS, "q2", "used"])
+                        columns=["quantity", "panel", "parameter", *_FIELDS, "correlation", "q2", "used"])
 
 
 def text_of_indices(study: Study, record: dict[str, Any]) -> list[str]:
