@@ -4,7 +4,7 @@
 from matplotlib.figure import Figure
 
 from diptych_report.charts.style import CONTINUUM, GRAINS, ruled, svg
-from diptych_report.tables.sensitivity import by_total
+from diptych_report.data.sensitivity import by_total
 
 LOOKS = {"first": ("first: alone", GRAINS, "o", GRAINS, -0.16), "total": ("total: alone and with others", CONTINUUM, "s", "white", 0.16)}
 
@@ -12,13 +12,13 @@ LOOKS = {"first": ("first: alone", GRAINS, "o", GRAINS, -0.16), "total": ("total
 def indices(one, names):
     """First and total indices of one quantity with their intervals, the largest total index on top. names: {key: label}."""
     ranked = by_total(one)
-    height = 0.95 + 0.33 * len(ranked)
+    height = 0.6 + 0.33 * len(ranked)
     figure = Figure(figsize=(4.5, height))
-    draw_indices(figure.add_axes([0.4, 0.5 / height, 0.57, 1 - 0.9 / height]), ranked, names)
+    draw_indices(figure.add_axes([0.4, 0.5 / height, 0.57, 1 - 0.55 / height]), ranked, names)
     return svg(figure, f"First and total Sobol indices of {one['quantity']}, {one['panel']}, with 95 % intervals.")
 
 
-def draw_indices(axes, ranked, names, legend=True):
+def draw_indices(axes, ranked, names):
     """Draws the indices of parameters, from top to bottom. names: {key: label}."""
     ruled(axes).grid(False, axis="y")
     for name, (label, colour, mark, face, shift) in LOOKS.items():
@@ -28,5 +28,4 @@ def draw_indices(axes, ranked, names, legend=True):
             axes.plot(value, k + shift, mark, color=colour, markerfacecolor=face, markersize=5, label=None if k else label)
     axes.set(xlim=(-0.02, 1.02), ylim=(len(ranked) - 0.5, -0.5), xlabel="share of the variance")
     axes.set_yticks(range(len(ranked)), [names[p["parameter"]] for p in ranked])
-    if legend:
-        axes.legend(loc="lower left", bbox_to_anchor=(-0.7, 1), ncol=2, fontsize=8, handletextpad=0.3)
+    axes.legend(loc="lower right", fontsize=8, handletextpad=0.3)

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 from diptych_report.charts import sensitivity as figures
+from diptych_report.data.sensitivity import labels
 from diptych_report.page.writing import template
 from diptych_report.tables import sensitivity as tables
 from diptych_report.tables import study as study_tables
@@ -12,7 +13,7 @@ ENOUGH = 0.9  # Q² below this: the indices say little
 
 def page(study):
     record = study.record["sensitivity"]
-    names = tables.labels(record)
+    names = labels(record)
     parts = [{"title": typeset(one["quantity"]) + (f" ({suffix(one['unit']).strip()})" if suffix(one["unit"]).strip() else ""),
               "basis": tables.basis(one, record), "doubtful": one["q2"] is not None and one["q2"] < ENOUGH,
               "chart": figures.indices(one, names) if one["parameters"] else None, "table": tables.indices(one, names), "panel": one["panel"]}

@@ -1,24 +1,10 @@
 # diptych: tables of the sensitivity indices of a study
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
+from diptych_report.data.sensitivity import by_total, short
 from diptych_report.tables.wording import number, rounded, suffix
 
 COORDINATES = {"value": "", "logarithm": "in its logarithm", "share_of": "as a share of", "drop_from": "as 1 − a share of"}
-
-
-def short(key):
-    """"friction angle peak" of the key continuum/friction_angle_peak."""
-    return key.partition("/")[2].replace("_", " ")
-
-
-def labels(record):
-    """{key: label}; the index of a share or drop is that of the ratio, not of the key."""
-    return {p["key"]: short(p["key"]) + (" (share)" if p["of"] else "") for p in record["parameters"]}
-
-
-def by_total(one):
-    """The parameters of a quantity, the largest total index first."""
-    return sorted(one["parameters"], key=lambda p: -p["total"]["value"])
 
 
 def indices(one, names):
