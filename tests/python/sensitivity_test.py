@@ -84,7 +84,8 @@ def test_a_study_with_ranges_ranks_the_parameters_of_the_continuum(tmp_path):
 
 @pytest.mark.parametrize("changes, words", [
     ({"samples": 5}, ["samples = 5", "from 20"]), ({"axes": []}, ["axes", "together with ranges"]),
-    ({"ranges": [{**RANGES[0], "low": 40}]}, ["40", "ascend"]), ({"ranges": [{**RANGES[0], "low": -1}]}, ["-1", "a number from"]),
+    ({"ranges": [{**RANGES[0], "low": 40}]}, ["40", "ascend"]),
+    ({"ranges": [{**RANGES[0], "low": -1}]}, ["-1", "a number from"]),
     ({"ranges": [{**RANGES[0], "coordinate": "share_of"}]}, ["'of'", "both or neither"]),
     ({"ranges": [{**RANGES[0], "low": 0, "coordinate": "logarithm"}]}, ["0", "above 0"]),
     ({"ranges": [{**RANGES[2], "of": "continuum/none"}]}, ["continuum/none", "has no value"])])

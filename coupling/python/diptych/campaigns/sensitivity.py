@@ -15,15 +15,15 @@ import numpy as np
 import pandas as pd
 
 from ..arrays import Array, Interval
+from .calibration_coordinates import Parameter
 from .effects import PANELS, text_of_quantity
 from .evaluation import Results, is_finished
 from .statistics import line_statistics, line_turn, student_quantile
-from .study_file import Study
+from .study_file import FEWEST_SAMPLES, Study
 
 FOLDS = 10  # of the cross-validation and of the jackknife
-FEWEST = 20  # values that a fit needs
 ENOUGH = 0.9  # Q2 below this: the indices say little about the quantity
-_MOST_TERMS, _HIGHEST_DEGREE = 1000, 12
+_MOST_TERMS, _HIGHEST_DEGREE = 500, 12
 _ROUNDING = 1e-9  # a smaller scatter, relative to the values, is none
 _FIELDS = ("first", "first_low", "first_high", "total", "total_low", "total_high")
 
@@ -100,27 +100,32 @@ def _fitted(points: Array, values: Array, degree: int) -> tuple[Any, Array]:
 
 
 def sensitivity_of(study: Study, results: Results, records: Sequence[dict[str, Any]]) -> dict[str, Any]:
-    """The entry `sensitivity` of study.json. A point counts with the mean of its samples; points without a value are left out."""
-    failed = [any(run.exit_code for run in runs) for runs in results]
+    """The entry `sensitivity` of study.json. A point has the mean of its samples; points without a value are left out."""
+    finished = np.array([is_finished(runs) for runs in results])
+    failed = sum(any(run.exit_code for run in runs) for runs in results)
     indices = []
     for q, quantity in enumerate(study.quantities):
         values = np.array([record["quantities"][q]["mean"] for record in records], float)
-        used = np.isfinite(values) & [is_finished(runs) for runs in results]
-        if quantity["line"] and used.any():
-            centre = line_statistics(values[used]).mean
-            values = centre + line_turn(values, centre)
-        found = Sobol([], [], math.nan, 0)
-        if used.sum() >= FEWEST and values[used].std() > _ROUNDING * np.abs(values[used]).max():
-            found = sobol_indices(study.design[used], values[used])
-        indices.append({
-            "quantity": quantity["name"], "panel": PANELS[quantity["source"]], "unit": quantity["unit"], "used": int(used.sum()),
-            "failed": sum(failed), "without_value": int((~used).sum()) - sum(failed), "q2": found.q2, "degree": found.degree,
-            "mean": values[used].mean() if used.any() else math.nan,
-            "deviation": values[used].std(ddof=1) if used.sum() > 1 else math.nan,
-            "parameters": [{"parameter": p.key, "first": first, "total": total, "correlation": _rank_correlation(x, values[used])}
-                           for p, first, total, x in zip(study.ranges, found.first, found.total, study.design[used].T)]})
+        used = np.isfinite(values) & finished
+        indices.append({"quantity": quantity["name"], "panel": PANELS[quantity["source"]], "unit": quantity["unit"],
+                        "used": int(used.sum()), "failed": failed, "without_value": int((~used).sum()) - failed,
+                        **_indices_of(study.ranges, study.design[used], values[used], quantity["line"])})
     return {"parameters": [{"key": p.key, "coordinate": p.coordinate, "of": p.other, "low": p.low, "high": p.high}
                            for p in study.ranges], "points": len(results), "indices": indices}
+
+
+def _indices_of(ranges: Sequence[Parameter], points: Array, values: Array, is_line: bool) -> dict[str, Any]:
+    """Indices, mean and deviation of one quantity. is_line: angles that repeat after 180 degrees."""
+    if is_line and len(values):
+        centre = line_statistics(values).mean
+        values = centre + line_turn(values, centre)
+    found = Sobol([], [], math.nan, 0)
+    if len(values) >= FEWEST_SAMPLES and values.std() > _ROUNDING * np.abs(values).max():
+        found = sobol_indices(points, values)
+    return {"q2": found.q2, "degree": found.degree, "mean": values.mean() if len(values) else math.nan,
+            "deviation": values.std(ddof=1) if len(values) > 1 else math.nan,
+            "parameters": [{"parameter": p.key, "first": first, "total": total, "correlation": _rank_correlation(x, values)}
+                           for p, first, total, x in zip(ranges, found.first, found.total, points.T)]}
 
 
 def _rank_correlation(x: Array, y: Array) -> float:
@@ -129,20 +134,20 @@ def _rank_correlation(x: Array, y: Array) -> float:
 
 def sensitivity_table(record: dict[str, Any]) -> pd.DataFrame:
     """sensitivity.csv: a row per quantity, panel and parameter."""
-    return pd.DataFrame([[one["quantity"], one["panel"], p["parameter"], *p["first"], *p["total"], p["correlation"], one["q2"], one["used"]]
+    return pd.DataFrame([[one["quantity"], one["panel"], p["parameter"], *p["first"], *p["total"], p["correlation"],
+                          one["q2"], one["used"]]
                          for one in record["indices"] for p in one["parameters"]],
                         columns=["quantity", "panel", "parameter", *_FIELDS, "correlation", "q2", "used"])
 
 
 def text_of_indices(study: Study, record: dict[str, Any]) -> list[str]:
-    """ "peak t/s, continuum (128 of 128 points, Q2 0.998): friction_angle_peak 0.85 +- 0.03, ..."; total indices, largest first."""
-    lines = ["total index: the share of the variance of a quantity that a parameter causes alone or together with others"]
+    """ "peak t/s, continuum (128 of 128 points, Q2 0.982): friction_angle_peak 0.79 [0.74, 0.84], ..."; largest first."""
+    lines = ["total indices from 0.01: the share of the variance that a parameter causes alone and together with others"]
     for quantity, one in zip(study.quantities, record["indices"]):
-        ranked = sorted(one["parameters"], key=lambda p: -p["total"].value)
-        found = ", ".join(f"{p['parameter'].partition('/')[2]} {p['total'].value:.2f} [{p['total'].low:.2f}, {p['total'].high:.2f}]"
-                          for p in ranked if p["total"].high >= 0.01)
+        ranked = sorted(((p["total"], p["parameter"].partition("/")[2]) for p in one["parameters"]), reverse=True)
+        found = ", ".join(f"{name} {value:.2f} [{low:.2f}, {high:.2f}]" for (value, low, high), name in ranked if value >= 0.01)
         lines.append(f"{text_of_quantity(quantity)} ({one['used']} of {record['points']} points, Q2 {one['q2']:.3f}): "
-                     + (found or "no indices, since fewer than 20 points have a value or all values are equal"))
+                     + (found or f"none, since fewer than {FEWEST_SAMPLES} points have a value or all values are equal"))
     return lines
 
 

@@ -159,7 +159,8 @@ def _sample_ranges(root: Part, study: Study) -> list[Family]:
         coordinates = Coordinates(study.ranges, others)
     except ValueError as error:
         root.refuse(str(error).removeprefix("parameters"), "ranges")
-    study.design = qmc.LatinHypercube(len(study.ranges), seed=1).random(root.number("samples", FEWEST_SAMPLES, MOST_SAMPLES, True))
+    n = root.number("samples", FEWEST_SAMPLES, MOST_SAMPLES, True)
+    study.design = qmc.LatinHypercube(len(study.ranges), seed=1).random(n)
     points = [AxisPoint(str(k), [one._replace(file=study.file) for one in coordinates.settings(point, "")])
               for k, point in enumerate(study.design, 1)]
     return [Family(axes=[Axis("sample of the ranges", points)])]
