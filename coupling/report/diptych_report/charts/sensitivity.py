@@ -13,8 +13,9 @@ def indices(one, names):
     """First and total indices of one quantity with their intervals, the largest total index on top. names: {key: label}."""
     ranked = by_total(one)
     height = 0.6 + 0.33 * len(ranked)
+    left = (0.15 + 0.065 * max(map(len, names.values()))) / 4.5
     figure = Figure(figsize=(4.5, height))
-    draw_indices(figure.add_axes([0.4, 0.5 / height, 0.57, 1 - 0.55 / height]), ranked, names)
+    draw_indices(figure.add_axes([left, 0.5 / height, 0.97 - left, 1 - 0.55 / height]), ranked, names)
     return svg(figure, f"First and total Sobol indices of {one['quantity']}, {one['panel']}, with 95 % intervals.")
 
 
