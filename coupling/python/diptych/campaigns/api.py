@@ -96,6 +96,14 @@ class Campaign(CampaignResult):
         return pd.read_csv(path, float_precision="round_trip")
 
     @property
+    def sensitivity(self) -> pd.DataFrame:
+        """A study with ranges, sensitivity.csv: a row per quantity, panel and parameter with first and total index, the ends of
+        their 95 % intervals, q2 and the number of points used."""
+        if "sensitivity" not in self.numbers:
+            raise AttributeError("no sensitivity indices here; a study has them if its file has ranges")
+        return pd.read_csv(os.path.join(self.folder, "sensitivity.csv"), float_precision="round_trip")
+
+    @property
     def changes(self) -> pd.DataFrame:
         """The same study: a row per parameter, quantity and panel with change.value, change.low, change.high, verdict and
         samples_needed."""
