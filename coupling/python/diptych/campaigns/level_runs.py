@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,8 +19,9 @@ from .folders import Runs, SceneRun, read_json
 from .input_file import Setting
 from .key_numbers import FORCE, PEAK, STRENGTH, VOLUME
 from .levels import CHEAP, FINE, LEAST_PAIRS, MOST_RATIO, Limit, limit_of, variances
-from .points import RunResult, on_sample, result_of, scene_run
-from .study_file import quantity
+from .points import RunResult, on_sample, points_of, result_of, scene_run
+from .statistics import known
+from .study_file import Study, quantity
 
 NAMES = ((PEAK, "-"), (STRENGTH, "-"), (FORCE, "P d"), (VOLUME, "-"))  # of the grains, in the order of the verdicts
 IN_THE_LIMIT = ", limit of short steps"
@@ -76,9 +78,10 @@ def _column(results: Sequence[RunResult], q: int, n: int) -> list[float]:
 
 
 def _ratio(cheap: Sequence[RunResult], fine: Sequence[RunResult], kind: str) -> float:
-    """Expected error of the fine runs / that of the cheap ones."""
-    means = [np.nanmean([run.expected_error.get(kind, math.nan) for run in results]) for results in (fine, cheap)]
-    return float(means[0] / means[1])
+    """Expected error of the fine runs / that of the cheap ones; NaN if unknown or too close to 1."""
+    below, above = (known([run.expected_error.get(kind, math.nan) for run in results]) for results in (fine, cheap))
+    ratio = below.mean() / above.mean() if len(below) and len(above) else math.nan
+    return float(ratio) if ratio <= MOST_RATIO else math.nan
 
 
 def _cpu_s(results: Sequence[RunResult]) -> float:
@@ -91,16 +94,13 @@ class PairedPoint:
     def __init__(self, cheap: Sequence[RunResult], fine: Sequence[RunResult], quantities: Sequence[dict[str, Any]]) -> None:
         self.cheap, self.fine, self.quantities, self.kinds = cheap, fine, quantities, [error_kind(q) for q in quantities]
         self.ratios = {kind: _ratio(cheap, fine, kind) for kind in {*self.kinds} - {""}}
-        if not any(ratio <= MOST_RATIO for ratio in self.ratios.values()):
-            raise SceneError(f"--levels: both accuracies give nearly the same step; expected errors fine / cheap: {self.ratios}. Give "
-                             "a finer second value, or leave --levels out", "--levels")
 
     def pairs_wanted(self) -> int:
         """Pairs that give the smallest error for the cost, for the quantity that needs most of them."""
         n, costs, wanted = len(self.cheap), (_cpu_s(self.cheap), _cpu_s(self.fine)), 0
         for q, kind in enumerate(self.kinds):
             x, y = _column(self.cheap, q, n), _column(self.fine, q, n)
-            if kind and np.isfinite(np.subtract(x, y)).sum() >= 2:
+            if kind and len(known(np.subtract(x, y))) > 1 and not math.isnan(self.ratios[kind]):
                 wanted = max(wanted, math.ceil(n * variances(x, y, self.ratios[kind]).share(costs)))
         return wanted
 
@@ -124,6 +124,9 @@ def paired_points(runs: Runs, fine: Sequence[Sequence[SceneRun]], cheap: Sequenc
             raise Stopped(f"--levels: stopped on request, finished runs are kept in {runs.directory}; to go on: {options.again}")
         results = [[result_of(runs, run, quantities) for run in of_point[:pairs]] for of_point in fine]
         points = [PairedPoint(*both, quantities) for both in zip(cheap, results)]
+        if all(math.isnan(ratio) for point in points for ratio in point.ratios.values()):
+            raise SceneError("--levels: both accuracies give nearly the same step (step and step_bound in provenance.json), or no run "
+                             "finished. Give a finer second accuracy, or leave --levels out", "--levels")
         wanted = min(n, max(point.pairs_wanted() for point in points))
         if wanted <= pairs:
             say(options, f"limit of short steps: {pairs} of {n} samples also with the fine step")
@@ -172,3 +175,16 @@ def add_summary(record: dict[str, Any], levels: dict[str, Any]) -> None:
             "quantity": found["quantity"] + IN_THE_LIMIT, "unit": found["unit"], "grains": grains.limit,
             "continuum": cells[found["quantity"]], "difference": limit_of(continuum - cheap, continuum - fine, found["ratio"]).limit,
             "verdict": f"bias of {100 * (grains.cheap / grains.limit.value - 1):+.2g} % removed ({grains.pairs} pairs)"})
+
+
+def study_levels(study: Study, results: Sequence[Sequence[RunResult]], levels: Levels, runs: Runs, options: Options) -> tuple[list[list[RunResult]], list[list[Limit]]]:
+    """Runs the pairs of a study without a reference. Adds to its quantities one in the limit for each that has a rule, and its values
+    to copies of the results: extrapolated pairs, sample by sample. Returns these, and the limits [point][new quantity]."""
+    fine = points_of(replace(study, settings=[*study.settings, levels.setting("fine")], command="discrete"))
+    paired = paired_points(runs, [point.runs for point in fine], results, study.quantities, options)
+    found = [point.limits() for point in paired]
+    n = len(study.quantities)
+    study.quantities += [{**study.quantities[q], "name": study.quantities[q]["name"] + IN_THE_LIMIT} for q in found[0]]
+    longer = [[replace(run, values=[*run.values[:n], *(values[k] for _, values in limits.values())]) for k, run in enumerate(of_point)]
+              for of_point, limits in zip(results, found)]
+    return longer, [[limit for limit, _ in limits.values()] for limits in found]
