@@ -124,25 +124,26 @@ def springs(runs, seconds, point):
     return numpy.where(seconds >= cost, numpy.sqrt(runs.bias(point)**2 + runs.scatter()**2 * cost / seconds), numpy.nan)
 
 
-def coverage(runs, fine, n=20, repetitions=2000):
-    """Draws n of the forty samples with replacement, chooses the pairs from a pilot of four as `run --levels` does, and takes the
-    interval. Returns shares of intervals that hold the forty samples' limit and their mean at the finest step, for the first 20 and
-    for all; mean half width [%], mean number of pairs, and mean error [%]."""
-    x, y = runs.values[CHEAP].to_numpy(), runs.values[fine].to_numpy()
-    truths = (runs.of_sample.mean(), runs.values[FINEST].mean())
-    ratio, cost, found = runs.ratio(fine), (runs.cpu_s[CHEAP], runs.cpu_s[fine]), []
+def two_level_mean(runs, fine, drawn):
+    """(limit with its interval, number of pairs) from some of the samples. The pairs follow from a pilot as in `run --levels`."""
+    x, y = runs.values[CHEAP].to_numpy()[drawn], runs.values[fine].to_numpy()[drawn]
+    pairs, ratio, cost = levels.LEAST_PAIRS, runs.ratio(fine), (runs.cpu_s[CHEAP], runs.cpu_s[fine])
+    while True:
+        some = numpy.where(numpy.arange(len(x)) < pairs, y, numpy.nan)
+        wanted = min(len(x), int(numpy.ceil(len(x) * levels.variances(x, some, ratio).share(cost))))
+        if wanted <= pairs:
+            return levels.limit_of(x, some, ratio).limit, pairs
+        pairs = wanted
+
+
+def coverage(runs, fine, repetitions, n=20, replace=False):
+    """Repeats the two-level mean with n of the samples, drawn with fixed seeds. Returns means over the repetitions: whether the interval
+    holds the limit of all samples, whether it holds their mean at the finest step, half width [%], pairs, error [%]."""
+    truths, found = (runs.of_sample.mean(), runs.values[FINEST].mean()), []
     for k in range(repetitions):
-        drawn = numpy.random.default_rng(k).integers(0, len(x), n)
-        m = levels.LEAST_PAIRS
-        while True:
-            some = numpy.where(numpy.arange(n) < m, y[drawn], numpy.nan)
-            wanted = min(n, int(numpy.ceil(n * levels.variances(x[drawn], some, ratio).share(cost))))
-            if wanted <= m:
-                break
-            m = wanted
-        limit = levels.limit_of(x[drawn], some, ratio).limit
-        found.append([*(limit.low <= truth <= limit.high for truth in truths), (limit.high - limit.low) / 2, m, limit.value - truths[0]])
-    return numpy.mean(found[:20], axis=0), numpy.mean(found, axis=0)
+        limit, pairs = two_level_mean(runs, fine, numpy.random.default_rng(k).choice(len(runs.values), n, replace))
+        found.append([*(limit.low <= truth <= limit.high for truth in truths), (limit.high - limit.low) / 2, pairs, limit.value - truths[0]])
+    return numpy.mean(found, axis=0)
 
 
 def show(runs):
@@ -154,10 +155,10 @@ def show(runs):
             print(f"  {point:18} {runs.cpu_s[point]:6.2f} CPU s, step {runs.step[point]:8.4f}, {d.mean():+.2f} +- {d.std() / len(d)**0.5:.2f} % "
                   f"above the limit ({len(d)} samples), law {runs.bias(point):+.2f} %")
     for fine in FINE[:2]:
-        first, every = coverage(runs, fine)
-        print(f"two levels {CHEAP}, {fine}, 20 samples, {every[3]:.1f} pairs: limit in the interval in {20 * first[0]:.0f} of 20 repetitions, "
-              f"mean of the finest step in {20 * first[1]:.0f}; of 2000: {every[0]:.1%}, {every[1]:.1%}; half width {every[2]:.2f} %, "
-              f"mean error {every[4]:+.2f} %")
+        subsets, resampled = coverage(runs, fine, 20), coverage(runs, fine, 500, replace=True)
+        print(f"two levels {CHEAP}, {fine}, 20 samples: limit in the interval in {20 * subsets[0]:.0f} of 20 subsets, mean of the finest "
+              f"step in {20 * subsets[1]:.0f}; drawn with replacement, 500 times: {resampled[0]:.1%}, {resampled[1]:.1%}; "
+              f"half width {resampled[2]:.2f} %, {resampled[3]:.1f} pairs, mean error {resampled[4]:+.2f} %")
     curves = {"NSCD, one level": one_level(runs, seconds)}
     for fine in (*FINE, "penalty=100000"):
         if fine in runs.values:

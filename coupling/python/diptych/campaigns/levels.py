@@ -6,9 +6,9 @@ expected_strength_error and expected_dilation_error of provenance.json. With r =
 
     mean of X over all N  -  w x mean of (X - Y) over the n pairs,     w = 1 / (1 - r).
 
-The first mean has the scatter of the samples, which falls with N; the second has only that of the differences. Its variance is
-v_many / N + v_pairs / n with v_many = var X - 2 w cov(X, X - Y) and v_pairs = w^2 var(X - Y). For a given cost the variance is least
-if n / N = sqrt((v_pairs / c_fine) / (v_many / c_cheap)), where c are the costs of one run.
+The first mean has the scatter of the samples, which falls with N; the second has only that of the differences. The variance of the
+estimate is v_many / N + v_pairs / n with v_many = var X - 2 w cov(X, X - Y) and v_pairs = w^2 var(X - Y). For a given cost it is
+least if n / N = sqrt((v_pairs / c_fine) / (v_many / c_cheap)), where c are the costs of one run.
 
 Sources: Giles, Operations Research 56 (2008) 607 (levels and their numbers); Lemaire and Pages, Bernoulli 23 (2017) 2643 (weights).
 """
@@ -16,6 +16,7 @@ Sources: Giles, Operations Research 56 (2008) 607 (levels and their numbers); Le
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -25,7 +26,7 @@ import numpy as np
 from .statistics import Interval, student_quantile
 
 CHEAP, FINE = 0.05, 0.01  # discrete/accuracy of --levels auto
-LEAST_PAIRS = 4  # of the pilot, and of every estimate
+LEAST_PAIRS = 6  # of the pilot and of every estimate; four leave too many intervals too narrow (benchmarks/rigid_limit)
 MOST_RATIO = 0.8  # of the expected errors: closer settings leave too much to the extrapolation
 # Standard deviation of the order of the bias in the step / the order: 0.5 +- 0.1 (benchmarks/rigid_limit).
 ORDER_DEVIATION = 0.2
@@ -39,7 +40,8 @@ def weight_of(ratio: float) -> float:
 
 def order_error(ratio: float, difference: float) -> float:
     """Standard error of the limit due to the order. An order p instead of q makes the ratio r^(p / q)."""
-    return ORDER_DEVIATION * abs(difference * weight_of(ratio) ** 2 * ratio * math.log(ratio))
+    weights = [weight_of(ratio ** (1 + sign * ORDER_DEVIATION)) for sign in (-1, 1)]
+    return abs(difference) * (weights[0] - weights[1]) / 2
 
 
 class Variances(NamedTuple):
@@ -80,11 +82,27 @@ def _pairs(cheap: Sequence[float], fine: Sequence[float]) -> tuple[np.ndarray, n
 
 
 def variances(cheap: Sequence[float], fine: Sequence[float], ratio: float) -> Variances:
-    """cheap, fine: as in limit_of(), at least two pairs."""
+    """cheap, fine: as in limit_of(), at least two pairs. cov(X, X - Y) is taken as var(X - Y) / 2: the runs of a sample diverge by
+    chance, equally far at both settings. The covariance of a few pairs would be too uncertain."""
     known, x, y = _pairs(cheap, fine)
-    w, d = weight_of(ratio), x - y
-    return Variances(float(known.var(ddof=1) - 2 * w * np.cov(x, d)[0, 1]), float(w**2 * d.var(ddof=1)),
-                     order_error(ratio, float(d.mean())))
+    return predicted(float(known.var(ddof=1)), float((x - y).var(ddof=1)), ratio, float((x - y).mean()))
+
+
+def predicted(scatter: float, divergence: float, ratio: float, difference: float) -> Variances:
+    """From var X, var(X - Y), the ratio of the expected errors and the mean difference."""
+    w = weight_of(ratio)
+    return Variances(scatter - w * divergence, w**2 * divergence, order_error(ratio, difference))
+
+
+def numbers_for(found: Sequence[Variances], costs: tuple[float, float], half: float, most: int) -> tuple[int, int]:
+    """The cheapest (N, n) whose 95 % intervals are all narrower than +- half; (0, 0) if more than `most` samples are needed."""
+    share = max(one.share(costs) for one in found)
+
+    def pairs(n: int) -> int:
+        return min(n, max(LEAST_PAIRS, math.ceil(share * n)))
+
+    n = bisect_left(range(most), True, lo=LEAST_PAIRS, key=lambda n: all(one.half_interval(n, pairs(n)) <= half for one in found))
+    return (n, pairs(n)) if n < most else (0, 0)
 
 
 @dataclass
