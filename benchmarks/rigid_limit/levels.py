@@ -3,10 +3,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """levels.py [--store RUNS] [--figure FILE]
 
-Evaluates stored runs of dense_biaxial at I = 1.13e-3 (levels.csv): forty samples, each with several steps. Checks the interval of
-two-level means against all forty samples at the finest step, and compares what methods cost. --store RUNS reads the runs of order.py
-(RUNS/fast/POINT/seed_N) and writes levels.csv; LAMMPS comes from lammps.csv if RUNS has none. Needs numpy, pandas and PYTHONPATH of
-the package diptych, the figure matplotlib."""
+Evaluates stored runs of dense_biaxial at I = 1.13e-3 (levels.csv): forty samples, each with several steps. Checks the interval
+of two-level means against all forty samples at the finest step, and compares what methods cost. --store RUNS reads the runs of
+order.py (RUNS/fast/POINT/seed_N) and writes levels.csv; LAMMPS comes from lammps.csv if RUNS has none. Needs numpy, pandas and the
+package diptych (PYTHONPATH), the figure matplotlib."""
 import argparse
 import glob
 import json
@@ -25,6 +25,9 @@ CHEAP, FINEST = "accuracy=0.05", FIXED[-1]
 FINE = ("accuracy=0.01", "accuracy=0.005", FINEST)
 ONE_LEVEL = (CHEAP, "accuracy=0.02", *FINE)
 TARGETS = (1.0, 0.5, 0.35)  # errors of the mean [%]
+SPRINGS = ("penalty=10000", "penalty=100000", "lammps=10000", "lammps=100000")
+NAMES = {"penalty=10000": "penalty, kn/P = 1e4", "penalty=100000": "penalty, 1e5", "lammps=10000": "LAMMPS, kn/P = 1e4",
+         "lammps=100000": "LAMMPS, 1e5"}
 
 
 def of_run(folder):
@@ -58,15 +61,10 @@ def store(runs):
         for stiffness in ("1e4", "1e5"):
             for seed in rigid_limit.SEEDS[1.13e-3]:
                 columns, seconds = rigid_limit.stored(1.13e-3, float(stiffness), seed)
-                rows.append(("fast", f"lammps={float(stiffness):g}", seed, numpy.nan, rigid_limit.strength(columns, *rigid_limit.JUDGED),
-                             -100 * columns["volumetric_strain"][-1], seconds))
+                strength, dilation = rigid_limit.strength(columns, *rigid_limit.JUDGED), -100 * columns["volumetric_strain"][-1]
+                rows.append(("fast", f"lammps={float(stiffness):g}", seed, numpy.nan, strength, dilation, seconds))
     table = pandas.DataFrame(rows, columns=["case", "point", "seed", "step", "strength", "dilation", "cpu_s"])
     table.to_csv(TABLE, index=False, float_format="%.5g")
-
-
-SPRINGS = ("penalty=10000", "penalty=100000", "lammps=10000", "lammps=100000")
-NAMES = {"penalty=10000": "penalty, kn/P = 1e4", "penalty=100000": "penalty, 1e5", "lammps=10000": "LAMMPS, kn/P = 1e4",
-         "lammps=100000": "LAMMPS, 1e5"}
 
 
 class Runs:
@@ -111,7 +109,8 @@ def one_level(runs, seconds):
 def two_levels(runs, seconds, fine):
     """Error [%] with the best numbers of samples and pairs."""
     s, cost = runs.values[[CHEAP, fine]].dropna(), (runs.cpu_s[CHEAP], runs.cpu_s[fine])
-    v = levels.variances(s[CHEAP], s[fine], runs.ratio(fine))
+    v, d = levels.variances(s[CHEAP], s[fine], runs.ratio(fine)), s[CHEAP] - s[fine]
+    v = v._replace(many=s[CHEAP].var() - 2 * levels.weight_of(runs.ratio(fine)) * s[CHEAP].cov(d))  # forty pairs know it
     order, bias = (0, runs.bias(fine)) if fine in SPRINGS else (v.order, 0)
     share = v.share(cost)
     error = (v.many + v.pairs / share) * (cost[0] + share * cost[1]) / seconds + order**2 + bias**2
@@ -125,7 +124,7 @@ def springs(runs, seconds, point):
 
 
 def two_level_mean(runs, fine, drawn):
-    """(limit with its interval, number of pairs) from some of the samples. The pairs follow from a pilot as in `run --levels`."""
+    """(limit with its interval, number of pairs) from some of the samples. The pairs follow from a pilot as in run --levels."""
     x, y = runs.values[CHEAP].to_numpy()[drawn], runs.values[fine].to_numpy()[drawn]
     pairs, ratio, cost = levels.LEAST_PAIRS, runs.ratio(fine), (runs.cpu_s[CHEAP], runs.cpu_s[fine])
     while True:
@@ -137,27 +136,28 @@ def two_level_mean(runs, fine, drawn):
 
 
 def coverage(runs, fine, repetitions, n=20, replace=False):
-    """Repeats the two-level mean with n of the samples, drawn with fixed seeds. Returns means over the repetitions: whether the interval
-    holds the limit of all samples, whether it holds their mean at the finest step, half width [%], pairs, error [%]."""
+    """Repeats the two-level mean with n of the samples, drawn with fixed seeds. Returns means over the repetitions: whether the
+    interval holds the limit of all samples, whether it holds their mean at the finest step, half width [%], pairs, error [%]."""
     truths, found = (runs.of_sample.mean(), runs.values[FINEST].mean()), []
     for k in range(repetitions):
         limit, pairs = two_level_mean(runs, fine, numpy.random.default_rng(k).choice(len(runs.values), n, replace))
-        found.append([*(limit.low <= truth <= limit.high for truth in truths), (limit.high - limit.low) / 2, pairs, limit.value - truths[0]])
+        held = [limit.low <= truth <= limit.high for truth in truths]
+        found.append([*held, (limit.high - limit.low) / 2, pairs, limit.value - truths[0]])
     return numpy.mean(found, axis=0)
 
 
 def show(runs):
     n, seconds = len(runs.values), numpy.geomspace(0.1, 1e5, 4000)
-    print(f"{n} samples: T/S = {runs.limit:.4f} (1 + {runs.coefficient:.2f} % sqrt(h)); one sample scatters by {runs.scatter():.2f} %")
+    print(f"{n} samples: T/S = {runs.limit:.4f} (1 + {runs.coefficient:.2f} % sqrt(h)); scatter of one {runs.scatter():.2f} %")
     for point in (*FIXED, *ONE_LEVEL[:-1], *SPRINGS):
         if point in runs.values:
             d = (runs.values[point] - runs.of_sample).dropna()
-            print(f"  {point:18} {runs.cpu_s[point]:6.2f} CPU s, step {runs.step[point]:8.4f}, {d.mean():+.2f} +- {d.std() / len(d)**0.5:.2f} % "
-                  f"above the limit ({len(d)} samples), law {runs.bias(point):+.2f} %")
+            print(f"  {point:18} {runs.cpu_s[point]:6.2f} CPU s, step {runs.step[point]:8.4f}, {d.mean():+.2f} +- "
+                  f"{d.std() / len(d)**0.5:.2f} % above the limit ({len(d)} samples), counted {runs.bias(point):.2f} %")
     for fine in FINE[:2]:
         subsets, resampled = coverage(runs, fine, 20), coverage(runs, fine, 500, replace=True)
-        print(f"two levels {CHEAP}, {fine}, 20 samples: limit in the interval in {20 * subsets[0]:.0f} of 20 subsets, mean of the finest "
-              f"step in {20 * subsets[1]:.0f}; drawn with replacement, 500 times: {resampled[0]:.1%}, {resampled[1]:.1%}; "
+        print(f"two levels {CHEAP}, {fine}, 20 samples: limit in the interval in {20 * subsets[0]:.0f} of 20 subsets, mean of the "
+              f"finest step in {20 * subsets[1]:.0f}; drawn with replacement, 500 times: {resampled[0]:.1%}, {resampled[1]:.1%}; "
               f"half width {resampled[2]:.2f} %, {resampled[3]:.1f} pairs, mean error {resampled[4]:+.2f} %")
     curves = {"NSCD, one level": one_level(runs, seconds)}
     for fine in (*FINE, "penalty=100000"):
@@ -167,7 +167,7 @@ def show(runs):
     curves |= {NAMES[point]: springs(runs, seconds, point) for point in SPRINGS if point in runs.values}
     print("CPU s for an error of the mean of " + ", ".join(f"{target:g} %" for target in TARGETS))
     for name, error in curves.items():
-        needed = [seconds[numpy.flatnonzero(error <= target)[0]] if (error <= target).any() else numpy.inf for target in TARGETS]
+        needed = [numpy.append(seconds[error <= target], numpy.inf)[0] for target in TARGETS]
         print(f"  {name:36}" + "".join(f"{one:9.0f}" for one in needed))
     return seconds, curves
 
@@ -176,20 +176,20 @@ def draw(seconds, curves, path):
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as pyplot
-    looks = {"NSCD, one level": ("#0072B2", "-"), "two": ("#56B4E9", "-"), "penalty": ("#D55E00", "-"), "LAMMPS": ("#007A5E", "-")}
+    colours = {"NSCD, one level": "#0072B2", "NSCD, two levels": "#000000", "penalty": "#D55E00", "LAMMPS": "#007A5E"}
     figure, axis = pyplot.subplots(figsize=(7, 4.6), constrained_layout=True)
-    best = numpy.nanmin([error for name, error in curves.items() if name.startswith("two") and "penalty" not in name], axis=0)
+    best = numpy.fmin.reduce([curves[f"two levels, fine: {fine}"] for fine in FINE])
     shown = {"NSCD, one level": curves["NSCD, one level"], "NSCD, two levels": best}
-    shown |= {name: error for name, error in curves.items() if name.startswith(("penalty", "LAMMPS")) or "fine: penalty" in name}
-    colours = {"NSCD, one level": "#0072B2", "NSCD, two levels": "#000000"}
+    shown |= {name: error for name, error in curves.items() if "penalty" in name or "LAMMPS" in name}
     for name, error in shown.items():
-        family = "penalty" if "penalty" in name else "LAMMPS"
         line = ":" if "two levels, fine" in name else "--" if name.endswith(", 1e5") else "-"
-        axis.plot(seconds, error, line, color=colours.get(name, looks[family][0]), linewidth=2.2 if name in colours else 1.4,
-                  label=name.replace("penalty=100000", "penalty, 1e5").replace("two levels, fine:", "NSCD and, as the fine level,"))
+        colour = next(colours[key] for key in (name, "penalty" if "penalty" in name else "LAMMPS") if key in colours)
+        label = name.replace("penalty=100000", "penalty, 1e5").replace("two levels, fine:", "NSCD and, as the fine level,")
+        axis.plot(seconds, error, line, color=colour, linewidth=2.2 if name in colours else 1.4, label=label)
     axis.axhline(0.5, color="#777777", linewidth=0.8)
-    axis.set(xscale="log", yscale="log", xlim=(1, 3000), ylim=(0.2, 6), xlabel="CPU seconds for all samples, 1000 discs to 4 % strain",
-             ylabel="error of the mean strength (%)", title="I = 1.13e-3: root of bias² + variance of the mean T/S over 0.5-4 %")
+    axis.set(xscale="log", yscale="log", xlim=(1, 3000), ylim=(0.2, 6), ylabel="error of the mean strength (%)",
+             xlabel="CPU seconds for all samples, 1000 discs to 4 % strain",
+             title="I = 1.13e-3: root of bias² + variance of the mean T/S over 0.5-4 %")
     axis.set_yticks([0.2, 0.5, 1, 2, 5], ["0.2", "0.5", "1", "2", "5"])
     axis.title.set_fontsize(10)
     axis.grid(alpha=0.3, which="both")

@@ -2,12 +2,16 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """X = S + N + bias, Y = S + N' + ratio x bias: samples S, runs that diverge by N and N'. Nothing is run."""
 
+import json
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
-from diptych import SceneError
+from diptych import Campaign, SceneError
 from diptych.campaigns import levels
-from diptych.campaigns.level_runs import PairedPoint, read_levels
+from diptych.campaigns.level_runs import PairedPoint, add_summary, read_levels
 from diptych.campaigns.points import RunResult
 from diptych.campaigns.study_file import quantity
 
@@ -24,7 +28,7 @@ def drawn(rng, n, pairs):
 
 @pytest.mark.parametrize("n, pairs", [(40, 8), (12, 12), (100, 6)])
 def test_intervals_hold_the_limit_in_95_of_100_cases(n, pairs, monkeypatch):
-    """The order is exact here, so its part of the interval is left out. 2000 cases give the share to +- 1 % (two deviations)."""
+    """The order is exact here, so its part of the interval is left out. 2000 cases give the share to +- 1 %."""
     monkeypatch.setattr(levels, "ORDER_DEVIATION", 0.0)
     rng = np.random.default_rng(1)
     found = [levels.limit_of(*drawn(rng, n, pairs), RATIO) for _ in range(2000)]
@@ -49,7 +53,8 @@ def test_the_interval_holds_the_uncertainty_of_the_order():
 
 def test_numbers_are_the_cheapest():
     v, costs = levels.Variances(1.2e-4, 4e-5, 2e-4), (0.16, 0.8)
-    best = min((n * costs[0] + m * costs[1], n, m) for n in range(6, 200) for m in range(6, n + 1) if v.half_interval(n, m) <= 0.003)
+    best = min((n * costs[0] + m * costs[1], n, m) for n in range(6, 200) for m in range(6, n + 1)
+               if v.half_interval(n, m) <= 0.003)
     n, m = levels.numbers_for([v], costs, 0.003, 1000)
     assert v.half_interval(n, m) <= 0.003 and n * costs[0] + m * costs[1] < 1.03 * best[0]
     assert levels.numbers_for([v], costs, 3.9e-4, 10000) == (0, 0)  # no number of samples helps against the order
@@ -57,8 +62,9 @@ def test_numbers_are_the_cheapest():
 
 
 def runs_of(values, cpu_s, error):
-    return [RunResult(known=True, values=[value, 45.0], phases=[{"name": "discrete", "cpu_s": cpu_s}, {"name": "report", "cpu_s": 9}],
-                      expected_error={"strength": error, "dilation": np.nan}) for value in values]
+    phases = [{"name": "discrete", "cpu_s": cpu_s}, {"name": "report", "cpu_s": 9}]
+    return [RunResult(known=True, values=[value, 45.0], phases=phases, expected_error={"strength": error, "dilation": np.nan})
+            for value in values]
 
 
 def test_pairs_follow_from_costs_and_quantities_without_a_rule_have_no_limit():
@@ -70,11 +76,42 @@ def test_pairs_follow_from_costs_and_quantities_without_a_rule_have_no_limit():
     [(limit, extrapolated)] = point.limits().values()
     assert limit.limit == levels.limit_of(x, y, RATIO).limit and np.isfinite(extrapolated).sum() == 8
     assert np.nanmean(extrapolated) - limit.limit.value == pytest.approx(x[:8].mean() - x.mean())
-    assert np.isnan(PairedPoint(runs_of(x, 1, 0.04), runs_of(y[:8], 1, 0.039), asked).ratios["strength"])  # nearly the same step
+    same_step = PairedPoint(runs_of(x, 1, 0.04), runs_of(y[:8], 1, 0.039), asked)
+    assert np.isnan(same_step.ratios["strength"]) and same_step.pairs_wanted() == 0
 
 
 @pytest.mark.parametrize("wrong", ["on", "0.05", "0.01,0.05", "0.05,0.05", "0.1,0.01", "0.05,0.0001", "0.05,0.02,0.01"])
 def test_wrong_levels_are_refused(wrong):
     with pytest.raises(SceneError, match="--levels"):
         read_levels(wrong)
-    assert read_levels("") is None and read_levels("auto") == (levels.CHEAP, levels.FINE) and read_levels("0.04,0.005") == (0.04, 0.005)
+    assert read_levels("") is None and read_levels("auto") == (levels.CHEAP, levels.FINE)
+    assert read_levels("0.04,0.005") == (0.04, 0.005)
+
+
+def test_an_ensemble_gets_rows_in_the_limit():
+    """With all samples paired, the limits are means of extrapolated samples, and so is continuum minus grains."""
+    x, y = drawn(np.random.default_rng(4), 8, 8)
+    continuum = 0.36 + 0.001 * np.arange(8)
+    record = {"verdicts": [{"discrete": x.tolist(), "continuum": continuum.tolist()}],
+              "summary": [{"quantity": "peak t/s", "continuum": (0.3635, 0.361, 0.366)}]}
+    add_summary(record, {"quantities": [{"quantity": "peak t/s", "unit": "-", "ratio": RATIO, "fine": y.tolist()}]})
+    row, limit = record["summary"][-1], x - (x - y) / (1 - RATIO)
+    assert row["quantity"] == "peak t/s, limit of short steps" and "8 pairs" in row["verdict"]
+    assert row["grains"].value == pytest.approx(limit.mean()) and row["difference"].value == pytest.approx((continuum - limit).mean())
+
+
+def test_a_study_gives_means_in_the_limit(tmp_path):
+    scene = tmp_path / "scene.json"
+    scene.write_text(json.dumps({"sample": {"grains": 100}, "loading": {"axial_strain": 0.01, "inertial_number": 2e-3}}))
+    words = ["study", scene, "--vary", "discrete/friction=0.1,0.6", "--seeds", "1-7", "--panels", "discrete", "--levels", "auto"]
+    done = subprocess.run([sys.executable, "-m", "diptych.campaigns", *words, "--output", tmp_path / "out"],
+                          capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    found = Campaign.load(tmp_path / "out")
+    rows = found.effects[found.effects.quantity.str.startswith("strength")].set_index(["discrete/friction", "quantity"])
+    for friction in (0.1, 0.6):
+        usual, limit = (rows.loc[friction, name] for name in rows.loc[friction].index)
+        assert limit["low"] < limit["mean"] < limit["high"] and limit["n"] == found.numbers["levels"]["pairs"] >= 6
+        assert 0 < abs(limit["mean"] / usual["mean"] - 1) < 0.2
+    assert {"peak t/s, limit of short steps"} <= set(found.changes.quantity)
+    assert "limit of short steps" in (tmp_path / "out/report.html").read_text()

@@ -1,7 +1,7 @@
 # diptych: --levels: the fine runs of two-level means, for ensembles and studies
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Every sample runs at the cheap discrete/accuracy. The first samples run once more, grains only, at the fine one; pilot pairs tell how
-many. levels.py has the statistics."""
+"""Every sample runs at the cheap discrete/accuracy. The first samples run once more, grains only, at the fine one; pilot pairs
+tell how many. levels.py has the statistics."""
 
 from __future__ import annotations
 
@@ -47,8 +47,8 @@ def read_levels(text: str) -> Levels | None:
     except ValueError:
         cheap = fine = math.nan
     if not 0.001 <= fine < cheap <= 0.05:
-        raise SceneError(f"--levels {text} is not allowed; write auto, or two values of discrete/accuracy from 0.05 to 0.001, the "
-                         "larger one first, such as 0.05,0.01", "--levels")
+        raise SceneError(f"--levels {text} is not allowed; write auto, or two values of discrete/accuracy from 0.05 to 0.001, "
+                         "the larger one first, such as 0.05,0.01", "--levels")
     return Levels(cheap, fine)
 
 
@@ -68,8 +68,8 @@ def error_kind(asked: dict[str, Any]) -> str:
         return ""
     if asked["name"] == VOLUME or asked["column"] == "volumetric_strain":
         return "dilation"
-    of_strength = asked["name"] in (PEAK, STRENGTH, FORCE) or asked["reduction"] == "strength" or asked["column"] == "stress_ratio"
-    return "strength" if of_strength else ""
+    is_stress = asked["reduction"] == "strength" or asked["column"] == "stress_ratio"
+    return "strength" if is_stress or asked["name"] in (PEAK, STRENGTH, FORCE) else ""
 
 
 def _column(results: Sequence[RunResult], q: int, n: int) -> list[float]:
@@ -85,7 +85,8 @@ def _ratio(cheap: Sequence[RunResult], fine: Sequence[RunResult], kind: str) -> 
 
 
 def _cpu_s(results: Sequence[RunResult]) -> float:
-    return float(np.mean([sum(phase["cpu_s"] for phase in run.phases if phase["name"] != "report") for run in results if run.phases]))
+    return float(np.mean([sum(phase["cpu_s"] for phase in run.phases if phase["name"] != "report")
+                          for run in results if run.phases]))
 
 
 class PairedPoint:
@@ -121,12 +122,12 @@ def paired_points(runs: Runs, fine: Sequence[Sequence[SceneRun]], cheap: Sequenc
     n, pairs = len(fine[0]), min(LEAST_PAIRS, len(fine[0]))
     while True:
         if any(outcome.interrupted for outcome in runs.do([run for of_point in fine for run in of_point[:pairs]], options)):
-            raise Stopped(f"--levels: stopped on request, finished runs are kept in {runs.directory}; to go on: {options.again}")
+            raise Stopped(f"stopped on request, finished runs are kept in {runs.directory}; to go on: {options.again}")
         results = [[result_of(runs, run, quantities) for run in of_point[:pairs]] for of_point in fine]
         points = [PairedPoint(*both, quantities) for both in zip(cheap, results)]
         if all(math.isnan(ratio) for point in points for ratio in point.ratios.values()):
-            raise SceneError("--levels: both accuracies give nearly the same step (step and step_bound in provenance.json), or no run "
-                             "finished. Give a finer second accuracy, or leave --levels out", "--levels")
+            raise SceneError("--levels: both accuracies give nearly the same step (step and step_bound in provenance.json), or no "
+                             "run finished. Give a finer second accuracy, or leave --levels out", "--levels")
         wanted = min(n, max(point.pairs_wanted() for point in points))
         if wanted <= pairs:
             say(options, f"limit of short steps: {pairs} of {n} samples also with the fine step")
@@ -164,27 +165,30 @@ def ensemble_levels(levels: Levels, seeds: Sequence[int], point: PairedPoint) ->
 
 
 def add_summary(record: dict[str, Any], levels: dict[str, Any]) -> None:
-    """Adds the entry `levels` and its rows of the summary to the record of an ensemble: the grains in the limit, and continuum minus
-    grains, whose limit has its own interval, since both panels share the samples."""
+    """Adds the entry `levels` and its rows of the summary to the record of an ensemble: the grains in the limit, and continuum
+    minus grains, whose limit has its own interval, since both panels share the samples."""
     record["levels"] = levels
     cells = {row["quantity"]: row["continuum"] for row in record["summary"]}
     for found, verdict in zip(levels["quantities"], record["verdicts"]):
-        continuum, cheap, fine = (np.array(values, float) for values in (verdict["continuum"], verdict["discrete"], found["fine"]))
+        continuum, cheap, fine = (np.array(values, float)
+                                  for values in (verdict["continuum"], verdict["discrete"], found["fine"]))
         grains = limit_of(cheap, fine, found["ratio"])
         record["summary"].append({
             "quantity": found["quantity"] + IN_THE_LIMIT, "unit": found["unit"], "grains": grains.limit,
-            "continuum": cells[found["quantity"]], "difference": limit_of(continuum - cheap, continuum - fine, found["ratio"]).limit,
+            "continuum": cells[found["quantity"]],
+            "difference": limit_of(continuum - cheap, continuum - fine, found["ratio"]).limit,
             "verdict": f"bias of {100 * (grains.cheap / grains.limit.value - 1):+.2g} % removed ({grains.pairs} pairs)"})
 
 
-def study_levels(study: Study, results: Sequence[Sequence[RunResult]], levels: Levels, runs: Runs, options: Options) -> tuple[list[list[RunResult]], list[list[Limit]]]:
-    """Runs the pairs of a study without a reference. Adds to its quantities one in the limit for each that has a rule, and its values
-    to copies of the results: extrapolated pairs, sample by sample. Returns these, and the limits [point][new quantity]."""
+def study_levels(study: Study, results: Sequence[Sequence[RunResult]], levels: Levels, runs: Runs,
+                 options: Options) -> tuple[list[list[RunResult]], list[list[Limit]]]:
+    """Runs the pairs of a study without a reference. Adds to its quantities one in the limit for each that has a rule, and its
+    values to copies of the results: extrapolated pairs, sample by sample. Returns these, and the limits [point][new quantity]."""
     fine = points_of(replace(study, settings=[*study.settings, levels.setting("fine")], command="discrete"))
     paired = paired_points(runs, [point.runs for point in fine], results, study.quantities, options)
     found = [point.limits() for point in paired]
     n = len(study.quantities)
     study.quantities += [{**study.quantities[q], "name": study.quantities[q]["name"] + IN_THE_LIMIT} for q in found[0]]
-    longer = [[replace(run, values=[*run.values[:n], *(values[k] for _, values in limits.values())]) for k, run in enumerate(of_point)]
-              for of_point, limits in zip(results, found)]
+    longer = [[replace(run, values=[*run.values[:n], *(values[k] for _, values in limits.values())])
+               for k, run in enumerate(of_point)] for of_point, limits in zip(results, found)]
     return longer, [[limit for limit, _ in limits.values()] for limits in found]

@@ -1,16 +1,16 @@
 # diptych: means in the limit of short steps from many cheap samples and a few pairs with a finer setting
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Two-level means. X[i] is the value of sample i at a cheap setting (long steps), i = 1 ... N. Y[i] is that of the same sample at a
-fine setting, for n of the samples. Both settings have a bias, which is proportional to an expected error e: the entries
+"""Two-level means. X[i] is the value of sample i at a cheap setting (long steps), i = 1 ... N. Y[i] is that of the same sample at
+a fine setting, for n of the samples. Both settings have a bias, which is proportional to an expected error e: the entries
 expected_strength_error and expected_dilation_error of provenance.json. With r = e(fine) / e(cheap) the estimate of the limit is
 
     mean of X over all N  -  w x mean of (X - Y) over the n pairs,     w = 1 / (1 - r).
 
-The first mean has the scatter of the samples, which falls with N; the second has only that of the differences. The variance of the
-estimate is v_many / N + v_pairs / n with v_many = var X - 2 w cov(X, X - Y) and v_pairs = w^2 var(X - Y). For a given cost it is
-least if n / N = sqrt((v_pairs / c_fine) / (v_many / c_cheap)), where c are the costs of one run.
+The first mean has the scatter of the samples, which falls with N; the second has only that of the differences. The variance of
+the estimate is v_many / N + v_pairs / n with v_many = var X - 2 w cov(X, X - Y) and v_pairs = w^2 var(X - Y). For a given cost it
+is least if n / N = sqrt((v_pairs / c_fine) / (v_many / c_cheap)), where c are the costs of one run.
 
-Sources: Giles, Operations Research 56 (2008) 607 (levels and their numbers); Lemaire and Pages, Bernoulli 23 (2017) 2643 (weights).
+Sources: Giles, Operations Research 56 (2008) 607 (levels, their numbers); Lemaire and Pages, Bernoulli 23 (2017) 2643 (weights).
 """
 
 from __future__ import annotations
@@ -82,8 +82,8 @@ def _pairs(cheap: Sequence[float], fine: Sequence[float]) -> tuple[np.ndarray, n
 
 
 def variances(cheap: Sequence[float], fine: Sequence[float], ratio: float) -> Variances:
-    """cheap, fine: as in limit_of(), at least two pairs. cov(X, X - Y) is taken as var(X - Y) / 2: the runs of a sample diverge by
-    chance, equally far at both settings. The covariance of a few pairs would be too uncertain."""
+    """cheap, fine: as in limit_of(), at least two pairs. cov(X, X - Y) is taken as var(X - Y) / 2: the runs of a sample diverge
+    by chance, equally far at both settings. The covariance of a few pairs would be too uncertain."""
     known, x, y = _pairs(cheap, fine)
     return predicted(float(known.var(ddof=1)), float((x - y).var(ddof=1)), ratio, float((x - y).mean()))
 
@@ -101,7 +101,10 @@ def numbers_for(found: Sequence[Variances], costs: tuple[float, float], half: fl
     def pairs(n: int) -> int:
         return min(n, max(LEAST_PAIRS, math.ceil(share * n)))
 
-    n = bisect_left(range(most), True, lo=LEAST_PAIRS, key=lambda n: all(one.half_interval(n, pairs(n)) <= half for one in found))
+    def suffices(n: int) -> bool:
+        return all(one.half_interval(n, pairs(n)) <= half for one in found)
+
+    n = bisect_left(range(most), True, lo=LEAST_PAIRS, key=suffices)
     return (n, pairs(n)) if n < most else (0, 0)
 
 
@@ -122,8 +125,8 @@ class Limit:
 def limit_of(cheap: Sequence[float], fine: Sequence[float], ratio: float) -> Limit:
     """The two-level mean. cheap, fine: values whose entries k belong to one sample; NaN where a sample has none.
 
-    The interval holds the scatter of the samples, that of the differences with its weight, their covariance and the order. NaN for
-    less than two pairs."""
+    The interval holds the scatter of the samples, that of the differences with its weight, their covariance and the order. NaN
+    for less than two pairs."""
     known, x, y = _pairs(cheap, fine)
     n, m, w = len(known), len(x), weight_of(ratio)
     if m < 2:
@@ -136,4 +139,5 @@ def limit_of(cheap: Sequence[float], fine: Sequence[float], ratio: float) -> Lim
     of_pairs, of_rest = m * float(z.var(ddof=1)), (n - m) * float(known.var(ddof=1)) / n**2
     order = order_error(ratio, difference)
     half = _half_interval((of_pairs, m), (of_rest, n), order)
-    return Limit(n, m, ratio, cheap_mean, difference, Interval(value, value - half, value + half), math.sqrt(of_pairs + of_rest), order)
+    limit = Interval(value, value - half, value + half)
+    return Limit(n, m, ratio, cheap_mean, difference, limit, math.sqrt(of_pairs + of_rest), order)

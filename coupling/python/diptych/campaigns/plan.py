@@ -89,7 +89,8 @@ def _carry_out(question: Question, plan: Plan, panel: PanelPlan, pilot: PilotRun
         panel.outcomes, panel.outcome_cpu_s = [], point.cpu_s
         if panel.levels:
             n_pairs = min(len(seeds), math.ceil(len(seeds) * panel.levels["pairs"] / panel.n_samples))
-            fine = pilot.run(Task(panel.command, [*settings, planned("discrete/accuracy", panel.levels["fine"])], seeds[:n_pairs], wanted))
+            settings = [*settings, planned("discrete/accuracy", panel.levels["fine"])]
+            fine = pilot.run(Task(panel.command, settings, seeds[:n_pairs], wanted))
         if point.failure or fine and fine.failure:
             panel.decisions.append(f"--run: {point.failure or fine.failure}")
             return False

@@ -15,8 +15,8 @@ import numpy as np
 from .. import _diptych
 from .input_file import Setting
 from .levels import LEAST_PAIRS, MOST_RATIO, Variances, numbers_for, predicted
-from .plan_errors import (COARSEST_ACCURACY, FINEST_ACCURACY, MOST_SAMPLES_OF_A_PLAN, Estimate, GrainErrors, cheapest_choice, cost_at,
-                          half_interval, improved, relative_difference, rounded_to_two_digits, samples_for, summary_of)
+from .plan_errors import (COARSEST_ACCURACY, FINEST_ACCURACY, MOST_SAMPLES_OF_A_PLAN, Estimate, GrainErrors, cheapest_choice,
+                          cost_at, half_interval, improved, relative_difference, rounded_to_two_digits, samples_for, summary_of)
 from .plan_question import Budget, PanelPlan, Part, Pilot, Question, RunPilot, Task, percent, planned
 from .statistics import Statistics
 
@@ -136,11 +136,12 @@ class GrainsPlan:
         return [(level.accuracy, level.cpu_s) for level in self.levels]
 
     def _choose(self) -> tuple[float, int]:
-        return cheapest_choice(self._errors(), self._cost(), self.question.accuracy - max(self._taken()), 0 if self.seeds else 1)
+        left = self.question.accuracy - max(self._taken())
+        return cheapest_choice(self._errors(), self._cost(), left, 0 if self.seeds else 1)
 
     def _variances(self, fine: float) -> list[Variances]:
-        """Of the relative means with levels at 0.05 and fine; empty if both have nearly the same step. How far the runs of a sample
-        diverge hardly depends on the fine accuracy, so all levels of the pilot tell it."""
+        """Of the relative means with levels at 0.05 and fine; empty if both have nearly the same step. How far the runs of a
+        sample diverge hardly depends on the fine accuracy, so all levels of the pilot tell it."""
         found, cheap, last = [], self.levels[0], self.levels[-1]
         for q, errors in enumerate(self._errors()):
             expected = self._expected(cheap, q), self._expected(last, q) * fine / last.accuracy
@@ -148,7 +149,8 @@ class GrainsPlan:
                 return []
             factor = errors.step.mean * last.accuracy / self._expected(last, q)  # measured / expected errors
             squares = [self._difference(cheap.point, level.point, q).deviation**2 for level in self.levels[1:]]
-            found.append(predicted(errors.scatter**2, float(np.mean(squares)), expected[1] / expected[0], factor * (expected[0] - expected[1])))
+            found.append(predicted(errors.scatter**2, float(np.mean(squares)), expected[1] / expected[0],
+                                   factor * (expected[0] - expected[1])))
         return found
 
     def _numbers(self, fine: float) -> tuple[int, int, float]:
@@ -159,8 +161,8 @@ class GrainsPlan:
         return samples, pairs, samples * costs[0] + pairs * costs[1] if samples else np.inf
 
     def _two_levels(self, one: tuple[float, int]) -> tuple[float, int, int] | None:
-        """(fine accuracy, samples, pairs) if two levels are clearly cheaper than one; one: its accuracy and samples. Quantities without
-        a rule have no known order. The fine accuracy is run before it is chosen."""
+        """(fine accuracy, samples, pairs) if two levels are clearly cheaper than one; one: its accuracy and samples. Quantities
+        without a rule have no known order. The fine accuracy is run before it is chosen."""
         if not self.seeds or not all(asked["step_error"] for asked in self.quantities):
             return None
         fine = min(FINE_LEVELS, key=lambda fine: self._numbers(fine)[2])
@@ -171,9 +173,9 @@ class GrainsPlan:
         samples, pairs, cpu_s = self._numbers(fine)
         used = cpu_s < limit
         if samples:
-            of_one = f"one level takes {limit / WORTH_TWO_LEVELS:.3g} CPU s" if one[1] else "one level does not reach the accuracy"
+            of_one = f"takes {limit / WORTH_TWO_LEVELS:.3g} CPU s" if one[1] else "does not reach the accuracy"
             self._note(f"two levels: discrete/accuracy = {COARSEST_ACCURACY} on {samples} samples and {fine} on {pairs} of them, "
-                       f"{cpu_s:.3g} CPU s; {of_one}: {'used' if used else 'not used'}")
+                       f"{cpu_s:.3g} CPU s; {'used' if used else 'not used'}, one level {of_one}")
         return (fine, samples, pairs) if used else None
 
     def _taken(self) -> list[float]:

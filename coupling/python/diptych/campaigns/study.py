@@ -154,6 +154,8 @@ def run_study(line: argparse.Namespace, options: Options) -> int:
         if levels and not left:
             results, limits = study_levels(study, results, levels, runs, options)
         record = study_record(study, points, evaluate(study, points, results, limits))
+        if limits:
+            record["levels"] = {**levels._asdict(), "pairs": max(one.pairs for of_point in limits for one in of_point)}
         _write(directory, study, points, results, record)
         if not left:
             draw(options, "study", directory)
