@@ -4,8 +4,8 @@
 """levels.py [--store RUNS] [--figure FILE]
 
 Evaluates stored runs of dense_biaxial at I = 1.13e-3 (levels.csv): forty samples, each with several steps. Checks the interval
-of two-level means against all forty samples at the finest step, and compares what methods cost. --store RUNS reads the runs of
-order.py (RUNS/fast/POINT/seed_N) and writes levels.csv; LAMMPS comes from lammps.csv if RUNS has none. Needs numpy, pandas and the
+of two-level means against all forty samples at the finest step, and compares what methods cost. --store RUNS writes levels.csv
+from the runs of order.py (RUNS/fast/POINT/seed_N). LAMMPS comes from lammps.csv if RUNS has none. Needs numpy, pandas and the
 package diptych (PYTHONPATH), the figure matplotlib."""
 import argparse
 import glob

@@ -165,8 +165,8 @@ def ensemble_levels(levels: Levels, seeds: Sequence[int], point: PairedPoint) ->
 
 
 def add_summary(record: dict[str, Any], levels: dict[str, Any]) -> None:
-    """Adds the entry `levels` and its rows of the summary to the record of an ensemble: the grains in the limit, and continuum
-    minus grains, whose limit has its own interval, since both panels share the samples."""
+    """Adds the entry `levels` and its rows of the summary to the record of an ensemble. Both panels share the samples, so the
+    limit of continuum minus grains has its own interval."""
     record["levels"] = levels
     cells = {row["quantity"]: row["continuum"] for row in record["summary"]}
     for found, verdict in zip(levels["quantities"], record["verdicts"]):
@@ -182,8 +182,8 @@ def add_summary(record: dict[str, Any], levels: dict[str, Any]) -> None:
 
 def study_levels(study: Study, results: Sequence[Sequence[RunResult]], levels: Levels, runs: Runs,
                  options: Options) -> tuple[list[list[RunResult]], list[list[Limit]]]:
-    """Runs the pairs of a study without a reference. Adds to its quantities one in the limit for each that has a rule, and its
-    values to copies of the results: extrapolated pairs, sample by sample. Returns these, and the limits [point][new quantity]."""
+    """Runs the pairs of a study without a reference. Each quantity that has a rule gets a second one, in the limit. Its values are
+    the pairs, extrapolated sample by sample. Returns copies of the results with these values, and limits [point][new quantity]."""
     fine = points_of(replace(study, settings=[*study.settings, levels.setting("fine")], command="discrete"))
     paired = paired_points(runs, [point.runs for point in fine], results, study.quantities, options)
     found = [point.limits() for point in paired]
