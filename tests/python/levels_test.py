@@ -77,7 +77,7 @@ def test_pairs_follow_from_costs_and_quantities_without_a_rule_have_no_limit():
     assert limit.limit == levels.limit_of(x, y, RATIO).limit and np.isfinite(extrapolated).sum() == 8
     assert np.nanmean(extrapolated) - limit.limit.value == pytest.approx(x[:8].mean() - x.mean())
     same_step = PairedPoint(runs_of(x, 1, 0.04), runs_of(y[:8], 1, 0.039), asked)
-    assert np.isnan(same_step.ratios["strength"]) and same_step.pairs_wanted() == 0
+    assert np.isnan(same_step.ratio) and same_step.pairs_wanted() == 0
 
 
 @pytest.mark.parametrize("wrong", ["on", "0.05", "0.01,0.05", "0.05,0.05", "0.1,0.01", "0.05,0.0001", "0.05,0.02,0.01"])

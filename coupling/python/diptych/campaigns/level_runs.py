@@ -18,7 +18,7 @@ from .engine import Options, say
 from .folders import Runs, SceneRun, read_json
 from .input_file import Setting
 from .key_numbers import FORCE, PEAK, STRENGTH, VOLUME
-from .levels import CHEAP, FINE, LEAST_PAIRS, MOST_RATIO, Limit, limit_of, variances
+from .levels import CHEAP, FINE, LEAST_PAIRS, MOST_RATIO, Limit, limit_of, variances, weight_of
 from .points import RunResult, on_sample, points_of, result_of, scene_run
 from .statistics import known
 from .study_file import Study, quantity
@@ -62,14 +62,10 @@ def demand_rule(scene: Any, levels: Levels) -> None:
         raise SceneError("--levels sets discrete/accuracy; do not vary it", "discrete/accuracy")
 
 
-def error_kind(asked: dict[str, Any]) -> str:
-    """The expected error of a quantity: "strength" or "dilation"; "" for one without a rule, such as the angle of a band."""
-    if asked["source"] != "discrete":
-        return ""
-    if asked["name"] == VOLUME or asked["column"] == "volumetric_strain":
-        return "dilation"
-    is_stress = asked["reduction"] == "strength" or asked["column"] == "stress_ratio"
-    return "strength" if is_stress or asked["name"] in (PEAK, STRENGTH, FORCE) else ""
+def has_rule(asked: dict[str, Any]) -> bool:
+    """True if the bias of a quantity follows the rule of the step. The angle of a band, for instance, has no rule."""
+    return asked["source"] == "discrete" and (asked["name"] in (PEAK, STRENGTH, FORCE, VOLUME) or asked["reduction"] == "strength"
+                                              or asked["column"] in ("stress_ratio", "volumetric_strain"))
 
 
 def _column(results: Sequence[RunResult], q: int, n: int) -> list[float]:
@@ -77,9 +73,9 @@ def _column(results: Sequence[RunResult], q: int, n: int) -> list[float]:
     return [run.values[q] for run in results] + [math.nan] * (n - len(results))
 
 
-def _ratio(cheap: Sequence[RunResult], fine: Sequence[RunResult], kind: str) -> float:
+def _ratio(cheap: Sequence[RunResult], fine: Sequence[RunResult]) -> float:
     """Expected error of the fine runs / that of the cheap ones; NaN if unknown or too close to 1."""
-    below, above = (known([run.expected_error.get(kind, math.nan) for run in results]) for results in (fine, cheap))
+    below, above = (known([run.expected_error.get("strength", math.nan) for run in results]) for results in (fine, cheap))
     ratio = below.mean() / above.mean() if len(below) and len(above) else math.nan
     return float(ratio) if ratio <= MOST_RATIO else math.nan
 
@@ -93,27 +89,25 @@ class PairedPoint:
     """The runs of one point: all samples at the cheap accuracy, the first ones also at the fine one."""
 
     def __init__(self, cheap: Sequence[RunResult], fine: Sequence[RunResult], quantities: Sequence[dict[str, Any]]) -> None:
-        self.cheap, self.fine, self.quantities, self.kinds = cheap, fine, quantities, [error_kind(q) for q in quantities]
-        self.ratios = {kind: _ratio(cheap, fine, kind) for kind in {*self.kinds} - {""}}
+        self.cheap, self.fine, self.quantities, self.ratio = cheap, fine, quantities, _ratio(cheap, fine)
+
+    def _values(self) -> dict[int, tuple[list[float], list[float]]]:
+        """{index of the quantity: values of all samples at both settings} of the quantities with a rule."""
+        n = len(self.cheap)
+        return {q: (_column(self.cheap, q, n), _column(self.fine, q, n)) for q, asked in enumerate(self.quantities) if has_rule(asked)}
 
     def pairs_wanted(self) -> int:
         """Pairs that give the smallest error for the cost, for the quantity that needs most of them."""
-        n, costs, wanted = len(self.cheap), (_cpu_s(self.cheap), _cpu_s(self.fine)), 0
-        for q, kind in enumerate(self.kinds):
-            x, y = _column(self.cheap, q, n), _column(self.fine, q, n)
-            if kind and len(known(np.subtract(x, y))) > 1 and not math.isnan(self.ratios[kind]):
-                wanted = max(wanted, math.ceil(n * variances(x, y, self.ratios[kind]).share(costs)))
-        return wanted
+        shares, costs = [0.0], (_cpu_s(self.cheap), _cpu_s(self.fine))
+        for x, y in self._values().values():
+            if len(known(np.subtract(x, y))) > 1 and not math.isnan(self.ratio):
+                shares.append(variances(x, y, self.ratio).share(costs))
+        return math.ceil(len(self.cheap) * max(shares))
 
     def limits(self) -> dict[int, tuple[Limit, list[float]]]:
         """{index of the quantity: (its limit, extrapolated values of the pairs)} of the quantities with a rule."""
-        found, n = {}, len(self.cheap)
-        for q, kind in enumerate(self.kinds):
-            if kind:
-                x, y, ratio = _column(self.cheap, q, n), _column(self.fine, q, n), self.ratios[kind]
-                extrapolated = np.subtract(x, np.subtract(x, y) / (1 - ratio))
-                found[q] = limit_of(x, y, ratio), extrapolated.tolist()
-        return found
+        return {q: (limit_of(x, y, self.ratio), np.subtract(x, np.subtract(x, y) * weight_of(self.ratio)).tolist())
+                for q, (x, y) in self._values().items()}
 
 
 def paired_points(runs: Runs, fine: Sequence[Sequence[SceneRun]], cheap: Sequence[Sequence[RunResult]],
@@ -125,7 +119,7 @@ def paired_points(runs: Runs, fine: Sequence[Sequence[SceneRun]], cheap: Sequenc
             raise Stopped(f"stopped on request, finished runs are kept in {runs.directory}; to go on: {options.again}")
         results = [[result_of(runs, run, quantities) for run in of_point[:pairs]] for of_point in fine]
         points = [PairedPoint(*both, quantities) for both in zip(cheap, results)]
-        if all(math.isnan(ratio) for point in points for ratio in point.ratios.values()):
+        if all(math.isnan(point.ratio) for point in points):
             raise SceneError("--levels: both accuracies give nearly the same step (step and step_bound in provenance.json), or no "
                              "run finished. Give a finer second accuracy, or leave --levels out", "--levels")
         wanted = min(n, max(point.pairs_wanted() for point in points))
@@ -145,7 +139,7 @@ def of_members(folders: Sequence[str], record: dict[str, Any]) -> list[RunResult
     members = []
     for k, folder in enumerate(folders):
         found = read_json(folder + "/provenance.json")
-        expected = {kind: found["discrete"][f"expected_{kind}_error"] for kind in ("strength", "dilation")}
+        expected = {"strength": found["discrete"]["expected_strength_error"]}
         members.append(RunResult(known=True, values=[verdict["discrete"][k] for verdict in record["verdicts"][:len(NAMES)]],
                                  phases=found["phases"], expected_error=expected))
     return members

@@ -98,7 +98,7 @@ def _carry_out(question: Question, plan: Plan, panel: PanelPlan, pilot: PilotRun
             found, scatter = summary_of(point.values[k], q["line"])
             half, mean = half_interval(scatter, found.n) if found.n > 1 else np.nan, found.mean
             if fine:
-                ratio = fine.expected_error[q["step_error"]] / point.expected_error[q["step_error"]]
+                ratio = fine.expected_error["strength"] / point.expected_error["strength"]
                 limit = limit_of(point.values[k], fine.values[k] + [np.nan] * (len(seeds) - n_pairs), ratio).limit
                 half, mean = (limit.high - limit.low) / 2 / abs(limit.value), limit.value
             panel.outcomes.append({"name": q["name"], "n": found.n, "mean": mean, "scatter": scatter, "half_interval": half})

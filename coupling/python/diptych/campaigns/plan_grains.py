@@ -114,8 +114,9 @@ class GrainsPlan:
         return relative_difference(one.values[q], other.values[q], self.quantities[q]["line"])
 
     def _expected(self, level: Level, q: int) -> float:
-        """Both errors are upwards: long steps increase the strength and decrease the dilation, which is negative."""
-        return level.point.expected_error["dilation" if self.quantities[q]["step_error"] == "dilation" else "strength"]
+        """Long steps increase the strength and the dilation, which is negative."""
+        errors = level.point.expected_error
+        return -errors["dilation"] if self.quantities[q]["step_error"] == "dilation" else errors["strength"]
 
     def _errors(self) -> list[GrainErrors]:
         found = []
@@ -142,15 +143,12 @@ class GrainsPlan:
     def _variances(self, fine: float) -> list[Variances]:
         """Of the relative means with levels at 0.05 and fine; empty if both have nearly the same step. How far the runs of a
         sample diverge hardly depends on the fine accuracy, so all levels of the pilot tell it."""
-        found, cheap, last = [], self.levels[0], self.levels[-1]
-        for q, errors in enumerate(self._errors()):
-            expected = self._expected(cheap, q), self._expected(last, q) * fine / last.accuracy
-            if not expected[1] <= MOST_RATIO * expected[0]:
-                return []
-            factor = errors.step.mean * last.accuracy / self._expected(last, q)  # measured / expected errors
-            squares = [self._difference(cheap.point, level.point, q).deviation**2 for level in self.levels[1:]]
-            found.append(predicted(errors.scatter**2, float(np.mean(squares)), expected[1] / expected[0],
-                                   factor * (expected[0] - expected[1])))
+        found, cheap, last = [], self.levels[0].point, self.levels[-1]
+        ratio = last.point.expected_error["strength"] * fine / last.accuracy / cheap.expected_error["strength"]
+        for q, errors in enumerate(self._errors() if ratio <= MOST_RATIO else ()):
+            squares = [self._difference(cheap, level.point, q).deviation**2 for level in self.levels[1:]]
+            difference = errors.step.mean * fine * (1 / ratio - 1)  # a bias of step.mean x fine at the fine level
+            found.append(predicted(errors.scatter**2, float(np.mean(squares)), ratio, difference))
         return found
 
     def _numbers(self, fine: float) -> tuple[int, int, float]:
