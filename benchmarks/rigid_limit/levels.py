@@ -156,9 +156,9 @@ def show(runs):
                   f"{d.std() / len(d)**0.5:.2f} % above the limit ({len(d)} samples), counted {runs.bias(point):.2f} %")
     for fine in FINE[:2]:
         subsets, resampled = coverage(runs, fine, 20), coverage(runs, fine, 500, replace=True)
-        print(f"two levels {CHEAP}, {fine}, 20 samples: limit in the interval in {20 * subsets[0]:.0f} of 20 subsets, mean of the "
-              f"finest step in {20 * subsets[1]:.0f}; drawn with replacement, 500 times: {resampled[0]:.1%}, {resampled[1]:.1%}; "
-              f"half width {resampled[2]:.2f} %, {resampled[3]:.1f} pairs, mean error {resampled[4]:+.2f} %")
+        print(f"two levels {CHEAP}, {fine}, 20 samples: limit in the interval in {20 * subsets[0]:.0f} of 20 subsets, mean of "
+              f"the finest step in {20 * subsets[1]:.0f}; drawn with replacement, 500 times: {resampled[0]:.1%}, "
+              f"{resampled[1]:.1%}; half width {resampled[2]:.2f} %, {resampled[3]:.1f} pairs, mean error {resampled[4]:+.2f} %")
     curves = {"NSCD, one level": one_level(runs, seconds)}
     for fine in (*FINE, "penalty=100000"):
         if fine in runs.values:

@@ -64,8 +64,9 @@ def demand_rule(scene: Any, levels: Levels) -> None:
 
 def has_rule(asked: dict[str, Any]) -> bool:
     """True if the bias of a quantity follows the rule of the step. The angle of a band, for instance, has no rule."""
-    return asked["source"] == "discrete" and (asked["name"] in (PEAK, STRENGTH, FORCE, VOLUME) or asked["reduction"] == "strength"
-                                              or asked["column"] in ("stress_ratio", "volumetric_strain"))
+    known_names, known_columns = dict(NAMES), ("stress_ratio", "volumetric_strain")
+    return asked["source"] == "discrete" and (asked["name"] in known_names or asked["reduction"] == "strength"
+                                              or asked["column"] in known_columns)
 
 
 def _column(results: Sequence[RunResult], q: int, n: int) -> list[float]:
@@ -94,7 +95,8 @@ class PairedPoint:
     def _values(self) -> dict[int, tuple[list[float], list[float]]]:
         """{index of the quantity: values of all samples at both settings} of the quantities with a rule."""
         n = len(self.cheap)
-        return {q: (_column(self.cheap, q, n), _column(self.fine, q, n)) for q, asked in enumerate(self.quantities) if has_rule(asked)}
+        return {q: (_column(self.cheap, q, n), _column(self.fine, q, n))
+                for q, asked in enumerate(self.quantities) if has_rule(asked)}
 
     def pairs_wanted(self) -> int:
         """Pairs that give the smallest error for the cost, for the quantity that needs most of them."""
@@ -120,8 +122,8 @@ def paired_points(runs: Runs, fine: Sequence[Sequence[SceneRun]], cheap: Sequenc
         results = [[result_of(runs, run, quantities) for run in of_point[:pairs]] for of_point in fine]
         points = [PairedPoint(*both, quantities) for both in zip(cheap, results)]
         if all(math.isnan(point.ratio) for point in points):
-            raise SceneError("--levels: both accuracies give nearly the same step (step and step_bound in provenance.json), or no "
-                             "run finished. Give a finer second accuracy, or leave --levels out", "--levels")
+            raise SceneError("--levels: both accuracies give nearly the same step (step and step_bound in provenance.json), or "
+                             "no run finished. Give a finer second accuracy, or leave --levels out", "--levels")
         wanted = min(n, max(point.pairs_wanted() for point in points))
         if wanted <= pairs:
             say(options, f"limit of short steps: {pairs} of {n} samples also with the fine step")
@@ -176,8 +178,9 @@ def add_summary(record: dict[str, Any], levels: dict[str, Any]) -> None:
 
 def study_levels(study: Study, results: Sequence[Sequence[RunResult]], levels: Levels, runs: Runs,
                  options: Options) -> tuple[list[list[RunResult]], list[list[Limit]]]:
-    """Runs the pairs of a study without a reference. Each quantity that has a rule gets a second one, in the limit. Its values are
-    the pairs, extrapolated sample by sample. Returns copies of the results with these values, and limits [point][new quantity]."""
+    """Runs the pairs of a study without a reference. Each quantity that has a rule gets a second one, in the limit. Its values
+    are the pairs, extrapolated sample by sample. Returns copies of the results with these values, and the limits
+    [point][new quantity]."""
     fine = points_of(replace(study, settings=[*study.settings, levels.setting("fine")], command="discrete"))
     paired = paired_points(runs, [point.runs for point in fine], results, study.quantities, options)
     found = [point.limits() for point in paired]

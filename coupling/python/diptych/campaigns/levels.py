@@ -1,7 +1,7 @@
 # diptych: means in the limit of short steps from many cheap samples and a few pairs with a finer setting
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Two-level means. X[i] is the value of sample i at a cheap setting (long steps), i = 1 ... N. Y[i] is that of the same sample at
-a fine setting, for n of the samples. Both settings have a bias, which is proportional to an expected error e, the entry
+"""Two-level means. X[i] is the value of sample i at a cheap setting (long steps), i = 1 ... N. Y[i] is that of the same sample
+at a fine setting, for n of the samples. Both settings have a bias, which is proportional to an expected error e, the entry
 expected_strength_error of provenance.json. It serves the dilation, too: its bias has two parts, which both fall with
 discrete/accuracy nearly as e does, but with opposite signs, so that the ratio of their sums would say nothing. With
 r = e(fine) / e(cheap) the estimate of the limit is
@@ -9,10 +9,10 @@ r = e(fine) / e(cheap) the estimate of the limit is
     mean of X over all N  -  w x mean of (X - Y) over the n pairs,     w = 1 / (1 - r).
 
 The first mean has the scatter of the samples, which falls with N; the second has only that of the differences. The variance of
-the estimate is v_many / N + v_pairs / n with v_many = var X - 2 w cov(X, X - Y) and v_pairs = w^2 var(X - Y). For a given cost it
-is least if n / N = sqrt((v_pairs / c_fine) / (v_many / c_cheap)), where c are the costs of one run.
+the estimate is v_many / N + v_pairs / n with v_many = var X - 2 w cov(X, X - Y) and v_pairs = w^2 var(X - Y). For a given cost
+it is least if n / N = sqrt((v_pairs / c_fine) / (v_many / c_cheap)), where c are the costs of one run.
 
-Sources: Giles, Operations Research 56 (2008) 607 (levels, their numbers); Lemaire and Pages, Bernoulli 23 (2017) 2643 (weights).
+Sources: Giles, Operations Research 56 (2008) 607 (levels, numbers); Lemaire and Pages, Bernoulli 23 (2017) 2643 (weights).
 """
 
 from __future__ import annotations

@@ -172,8 +172,8 @@ class GrainsPlan:
         used = cpu_s < limit
         if samples:
             of_one = f"takes {limit / WORTH_TWO_LEVELS:.3g} CPU s" if one[1] else "does not reach the accuracy"
-            self._note(f"two levels: discrete/accuracy = {COARSEST_ACCURACY} on {samples} samples and {fine} on {pairs} of them, "
-                       f"{cpu_s:.3g} CPU s; {'used' if used else 'not used'}, one level {of_one}")
+            self._note(f"two levels: discrete/accuracy = {COARSEST_ACCURACY} on {samples} samples and {fine} on {pairs} of "
+                       f"them, {cpu_s:.3g} CPU s; {'used' if used else 'not used'}, one level {of_one}")
         return (fine, samples, pairs) if used else None
 
     def _taken(self) -> list[float]:

@@ -99,8 +99,8 @@ class Budget:
 
 @dataclass
 class PanelPlan:
-    """The plan of one panel. seeds: empty: the one sample of the scene. CPU time and memory are those of one sample. levels: of a
-    plan with two levels: cheap and fine (discrete/accuracy), pairs and fine_cpu_s. The rest is then that of the cheap one."""
+    """The plan of one panel. seeds: empty: the one sample of the scene. CPU time and memory are those of one sample.
+    levels: of a plan with two levels: cheap and fine (discrete/accuracy), pairs, fine_cpu_s. The rest is that of the cheap one."""
 
     panel: str
     command: str
