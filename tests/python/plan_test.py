@@ -15,7 +15,8 @@ from diptych.campaigns.levels import limit_of
 from diptych.campaigns.plan_continuum import ContinuumPlan
 from diptych.campaigns.plan_errors import Estimate, GrainErrors
 from diptych.campaigns.plan_grains import GrainsPlan
-from diptych.campaigns.plan_question import Pilot, Question, planned, read_accuracy
+from diptych.campaigns.plan_question import Budget, PanelPlan, Part, Pilot, Question, planned, read_accuracy
+from diptych.campaigns.plan_springs import try_springs
 from diptych.campaigns.study_file import quantity
 
 RULE = Estimate(1, 0.5)
@@ -129,6 +130,17 @@ def test_two_levels_replace_one_if_they_are_cheaper_and_keep_to_the_accuracy(mon
     monkeypatch.setattr(plan_grains, "FINE_LEVELS", (0.05,))
     assert plan.total_cpu_s < 0.8 * grains_plan(0.02).total_cpu_s
     assert plan.quantities[0].method == 0 and 0.015 < plan.quantities[0].total <= 0.02
+
+
+@pytest.mark.parametrize("cpu_s, used", [(3, True), (60, False)])
+def test_springs_replace_contact_dynamics_where_they_are_cheaper(cpu_s, used):
+    """Eight samples of 10 CPU s each; with springs 1 % of the accuracy of 3 % is taken, and more samples are needed."""
+    asked = [quantity("strength", step_error="strength")]
+    plan = PanelPlan("discrete", "discrete", [planned("discrete/accuracy", 0.01)], list(range(1, 9)), 10.0,
+                     quantities=[Budget("strength", 0.3, 0.02, [Part("step, tolerance", 0.01), Part("samples", 0.0167)])])
+    try_springs(plan, question(0.03), lambda task: Pilot(values=[[0.3]], sample_cpu_s=[cpu_s], cpu_s=cpu_s), asked)
+    assert (last(plan.settings, "discrete/method", "") == "penalty") == used
+    assert plan.quantities[0].total <= 0.03 and plan.total_cpu_s <= 80
 
 
 def test_a_wrong_rule_is_detected_and_costs_more(monkeypatch):
