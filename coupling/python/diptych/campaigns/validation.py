@@ -1,0 +1,189 @@
+# diptych: validation of an ensemble as in ASME V&V 20: errors and their uncertainty
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""E = S - D is the continuum minus the grains, u_val^2 = u_num^2 + u_input^2 + u_D^2 its standard uncertainty (ASME V&V 20-2009).
+
+Values are dicts by the names of member_of(). NaN marks a part that is not known: it does not count, and the record names it.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import shutil
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from .. import _diptych
+from ..errors import Stopped
+from .engine import Options, Run, execute
+from .folders import read_json, run_name, write_json, write_text
+from .histories import panel_table
+from .input_file import Setting
+from .key_numbers import FORCE, PEAK, STRENGTH, VOLUME, key_values
+from .members import Member, member_of
+from .statistics import Difference, line_statistics, line_turn, paired, statistics
+
+DRAWS = 12  # of the parameters; their deviation is then known to a fifth
+# 95 % bound / error estimated from two meshes or steps. Roache (J. Fluids Eng. 116 (1994) 405) takes 3 for an assumed order and
+# 1.25 for an observed one. We assume order 1, the lowest that we observed (README.md), and hence take 1.25.
+SAFETY = 1.25
+_KEYS = {"peak_stress_ratio": PEAK, "strength": STRENGTH, "platen_force_pd": FORCE, "final_volumetric_strain": VOLUME}
+_PARTS = {"grains_step": "step of the grains", "mesh": "mesh", "load_step": "load step", "parameters": "parameters"}
+_FOLDER = "validation"  # of the runs; it is removed after they have been read
+NO_RUNS: dict[str, Any] = {"seed": None, "names": [], "half_step": {}, "draws": []}  # as respond() returns them
+
+
+@dataclass
+class Responses:
+    """How the continuum answers to changes. coarse: values of every member on the coarse mesh; runs: the record of respond()."""
+
+    coarse: Sequence[Mapping[str, float]] = ()
+    size_ratio: float = math.nan  # element size of the coarse mesh / that of the members
+    runs: Mapping[str, Any] = field(default_factory=lambda: NO_RUNS)
+    base: Mapping[str, float] = field(default_factory=dict)  # of the runs: the same sample on the coarse mesh
+
+
+def uncertainties(quantity: str, names: tuple[str, str], is_line: bool, members: Sequence[Member],
+                  responses: Responses) -> dict[str, float]:
+    """Standard uncertainties but that of the samples, in the unit of the quantity. names: of grains and continuum.
+
+    grains_step: the step's rule allows an error between 0 and e, whose rms value is e / sqrt(3). mesh, load_step: half of Roache's
+    95 % bound; an error of order 1 is d / (r - 1) for a change d by a mesh coarser by r, and 2 d by half the step. parameters:
+    deviation over the draws.
+    """
+    minus, average = (line_turn, line_statistics) if is_line else (np.subtract, statistics)
+    grains, fine = ([member.numbers.get(name, (math.nan,))[0] for member in members] for name in names)
+    rule = {"final_volumetric_strain": "dilation"}.get(quantity, "strength")
+    expected = [member.numbers.get(f"discrete_summary expected_{rule}_error", (math.nan,))[0] for member in members]
+    coarse = [values.get(names[1], math.nan) for values in responses.coarse] or [math.nan] * len(fine)
+    half, base = (values.get(names[1], math.nan) for values in (responses.runs["half_step"], responses.base))
+    draws = [values.get(names[1], math.nan) for values in responses.runs["draws"]]
+    return {"grains_step": statistics(expected).mean / math.sqrt(3) * abs(statistics(grains).mean) if quantity in _KEYS else math.nan,
+            "mesh": SAFETY / 2 * abs(statistics(minus(coarse, fine)).mean) / (responses.size_ratio - 1),
+            "load_step": SAFETY * abs(float(minus(half, base))),
+            "parameters": average(draws).deviation}
+
+
+def validated(quantity: str, kind: str, pairs: tuple[Sequence[float], Sequence[float]], parts: Mapping[str, float],
+              n_draws: int) -> tuple[Difference, dict[str, Any]]:
+    """The difference as paired() has it, with all known parts in its intervals, and a row of ensemble.json without its verdict.
+
+    Half widths add in squares. Each is a standard uncertainty times Student's factor: n - 1 degrees of freedom of the samples,
+    n_draws - 1 of the parameters, infinitely many of the numerical parts.
+    """
+    first, second = np.array(pairs, float)[:, np.isfinite(pairs).all(axis=0)]
+    average = line_statistics if kind == "line" else statistics
+    found, error = paired(first, second, kind), average(line_turn(second, first) if kind == "line" else second - first)
+    of_samples = error.deviation / math.sqrt(error.n) if error.n > 1 else math.nan
+    grains = average(first).mean
+    errors = [(u, n_draws - 1 if name == "parameters" else math.inf) for name, u in parts.items() if math.isfinite(u)]
+    relative = [(u / abs(grains), f) for u, f in errors] if kind == "relative" else errors
+    numerical = [parts[name] for name in ("grains_step", "mesh", "load_step") if math.isfinite(parts[name])]
+    total = math.hypot(of_samples, *(u for u, _ in errors))
+    row = {"quantity": quantity, "n": error.n, "S": average(second).mean, "D": grains,
+           "E": paired(first, second, "line" if kind == "line" else "absolute").with_errors(errors).difference,
+           "u_num": math.hypot(*numerical) if numerical else math.nan, "u_input": parts["parameters"], "u_D": of_samples,
+           "u_val": total, "ratio": abs(error.mean) / total if total > 0 else math.nan,
+           "parts": {name: parts[name] for name in ("grains_step", "mesh", "load_step")},
+           "not_known": [words for name, words in _PARTS.items() if not math.isfinite(parts[name])]}
+    return found.with_errors(relative), row
+
+
+def coarse_values(folder: str, scene: Any, member: Member) -> dict[str, float]:
+    """Values of a member's continuum on the coarse mesh, by the names of the fine one; empty without that run."""
+    table = panel_table(os.path.join(folder, "coarse"), "continuum")
+    if table is None:
+        return {}
+    found = key_values(folder, scene, {"continuum": table})
+    bands = {name.removeprefix("continuum_coarse ").replace(" band ", " continuum band "): number[0]
+             for name, number in member.numbers.items() if name.startswith("continuum_coarse window")}
+    return {**{f"continuum_summary {key}": found["continuum", name] for key, name in _KEYS.items()}, **bands}
+
+
+def responses_of(scene: Any, seeds: Sequence[int], members: Sequence[Member], runs: Mapping[str, Any]) -> Responses:
+    """Of an ensemble whose members with these seeds are done. runs: the record of respond()."""
+    keys = scene.dict()
+    ratio = keys["comparison"]["coarse_element_size"] / keys["continuum"]["element_size"]
+    coarse = {seed: coarse_values(os.path.join(scene.directory, f"seed_{seed}"), scene, member)
+              for seed, member in zip(seeds, members)}
+    return Responses(list(coarse.values()), ratio if ratio > 1 else math.nan, runs, coarse.get(runs["seed"], {}))
+
+
+def draws_of(set_files: Sequence[str], settings: Sequence[str]) -> list[list[Setting]]:
+    """Evenly chosen rows of the posterior of a calibration: posterior.csv beside a --set-file, with keys of the section continuum
+    as columns. A key of --set counts as exact. [] without such a file."""
+    path = next((path for file in set_files if os.path.isfile(path := os.path.join(os.path.dirname(file), "posterior.csv"))), "")
+    table = pd.read_csv(path, dtype=str, comment="#") if path else pd.DataFrame()
+    exact = [text.partition("=")[0].removeprefix("continuum/") for text in settings]
+    table = table[[key for key in table if key.isidentifier() and key not in exact]]  # "key (target)" is not in calibrated.prm
+    rows = np.unique(np.linspace(0, len(table) - 1, DRAWS).round().astype(int)) if table.size else ()
+    return [[Setting("continuum", key, value, path) for key, value in table.iloc[row].items()] for row in rows]
+
+
+def variations(scene_file: str, settings: Sequence[Setting], draws: Sequence[Sequence[Setting]]) -> list[Any]:
+    """Scenes of short runs of the continuum on the coarse mesh: half the load step, then the draws. Empty without a coarse mesh.
+
+    Raises SceneError, with posterior.csv, for a draw that the scene refuses.
+    """
+    keys = _diptych.read_changed_scene(scene_file, list(settings), True).dict()
+    coarse, steps = keys["comparison"]["coarse_element_size"], keys["continuum"]
+    if not coarse:
+        return []
+    common = [Setting(section, key, value, "validation") for section, key, value in (
+        ("continuum", "element_size", repr(coarse)), ("comparison", "coarse_element_size", "0"), ("output", "report", "false"),
+        ("comparison", "band_resamples", "0"), ("comparison", "probe_resamples", "0"))]
+    halves = [Setting("continuum", key, repr(steps[key] / 2), "validation") for key in ("min_step", "initial_step", "max_step")]
+    return [_diptych.read_changed_scene(scene_file, [*settings, *common, *more], True) for more in (halves, *draws)]
+
+
+def respond(directory: str, seeds: Sequence[int], scenes: Sequence[Any], options: Options) -> dict[str, Any]:
+    """Runs the variations on the grains of the first of the finished members: {seed, names, half_step, draws}, values by name, empty
+    after a failure. Runs of an earlier ensemble.json are taken with --resume. Raises Stopped after a stop signal."""
+    source = os.path.join(directory, f"seed_{seeds[0]}") if seeds else ""
+    if not scenes or not os.path.isdir(os.path.join(source, "coarse")):
+        return NO_RUNS
+    names = [f"seed_{seeds[0]}_{run_name(scene, 'run')}" for scene in scenes]
+    record = os.path.join(directory, "ensemble.json")
+    earlier = read_json(record).get("continuum_runs", NO_RUNS) if options.resume and os.path.exists(record) else NO_RUNS
+    if earlier["names"] == names:
+        return earlier
+    folders = [os.path.join(directory, _FOLDER, name) for name in names]
+    scenes = [scene.in_folder(folder, scene.name, seeds[0]) for scene, folder in zip(scenes, folders)]
+    for scene, folder in zip(scenes, folders):
+        if not os.path.isdir(folder):
+            _copy_grains(source, folder)
+        write_text(folder + ".prm", scene.text())
+    pending = [k for k, scene in enumerate(scenes) if not _diptych.holds_finished_run(scene)]
+    outcomes = execute([Run("run", folders[k] + ".prm", folders[k], folders[k] + ".log", ("--resume",)) for k in pending], options,
+                       noun="runs for the uncertainty of the continuum")
+    if any(outcome.interrupted for outcome in outcomes):
+        raise Stopped(f"stopped on request; the seeds are done, kept in {directory}; to go on: {options.again}")
+    failed = {k for k, outcome in zip(pending, outcomes) if outcome.exit_code}
+    half, *draws = [{} if k in failed else _compared(member_of(folder + "/comparison.json", scene.is_mirror_symmetric()))
+                    for k, (scene, folder) in enumerate(zip(scenes, folders))]
+    if not failed:
+        shutil.rmtree(os.path.join(directory, _FOLDER))
+    return {"seed": seeds[0], "names": names, "half_step": half, "draws": draws}
+
+
+def _copy_grains(source: str, folder: str) -> None:
+    """A result folder with the grains of another, for --resume. A finished file is never written again, so links suffice."""
+    part = folder + ".part"
+    shutil.rmtree(part, ignore_errors=True)
+    os.makedirs(part)
+    for name in ("discrete.h5", "discrete.csv", "scene.prm"):
+        os.link(os.path.join(source, name), os.path.join(part, name))
+    record = read_json(os.path.join(source, "provenance.json"))
+    write_json(os.path.join(part, "provenance.json"),
+               {key: value for key, value in record.items() if not key.startswith(("continuum", "comparison"))})
+    os.rename(part, folder)
+
+
+def _compared(member: Member) -> dict[str, float]:
+    """The numbers of a run that verdicts compare."""
+    return {name: number[0] for name, number in member.numbers.items()
+            if name.removeprefix("continuum_summary ") in _KEYS or (" continuum band " in name and name.startswith("window "))}
