@@ -58,11 +58,12 @@ def uncertainties(quantity: str, names: tuple[str, str], is_line: bool, members:
     minus, average = (line_turn, line_statistics) if is_line else (np.subtract, statistics)
     grains, fine = ([member.numbers.get(name, (math.nan,))[0] for member in members] for name in names)
     rule = {"final_volumetric_strain": "dilation"}.get(quantity, "strength")
-    expected = [member.numbers.get(f"discrete_summary expected_{rule}_error", (math.nan,))[0] for member in members]
+    expected = statistics([member.numbers.get(f"discrete_summary expected_{rule}_error", (math.nan,))[0] for member in members]).mean
     coarse = [values.get(names[1], math.nan) for values in responses.coarse] or [math.nan] * len(fine)
     half, base = (values.get(names[1], math.nan) for values in (responses.runs["half_step"], responses.base))
     draws = [values.get(names[1], math.nan) for values in responses.runs["draws"]]
-    return {"grains_step": statistics(expected).mean / math.sqrt(3) * abs(statistics(grains).mean) if quantity in _KEYS else math.nan,
+    has_rule = quantity in _KEYS and expected > 0  # 0: a flow that the rule does not describe
+    return {"grains_step": expected / math.sqrt(3) * abs(statistics(grains).mean) if has_rule else math.nan,
             "mesh": SAFETY / 2 * abs(statistics(minus(coarse, fine)).mean) / (responses.size_ratio - 1),
             "load_step": SAFETY * abs(float(minus(half, base))),
             "parameters": average(draws).deviation}
