@@ -31,8 +31,8 @@ def peak(members, *responses):
 
 @pytest.mark.parametrize("kind, n", [("absolute", 4), ("relative", 4), ("absolute", 16)])
 def test_intervals_hold_the_true_error_in_95_of_100_ensembles(kind, n):
-    """Grains of mean 1 scatter by 0.04; their step adds between 0 and 0.02, the mesh an error of deviation 0.01, the parameters one
-    of 0.015, known from 12 draws. The form of the law is wrong by 0.05."""
+    """Grains of mean 1 scatter by 0.04; their step adds between 0 and 0.02, the mesh an error of deviation 0.01, the parameters
+    one of 0.015, known from 12 draws. The form of the law is wrong by 0.05."""
     random, hits, runs = np.random.default_rng(1), 0, 3000
     for _ in range(runs):
         grains = random.normal(1, 0.04, n) + random.uniform(0, 0.02)
@@ -68,8 +68,7 @@ def test_parts_follow_from_the_runs_of_the_continuum():
     """Errors of order 1: 0.03 h of the mesh, at h = 1 and 2, and 0.02 k of the load step k = 1. The draws deviate by 0.01."""
     fine = [0.43] * 4
     responses = validation.Responses(coarse=[{NAMES[1]: 0.46}] * 4, size_ratio=2.0, base={NAMES[1]: 0.46},
-                                     runs={**validation.NO_RUNS, "half_step": {NAMES[1]: 0.45},
-                                           "draws": [{NAMES[1]: 0.4 + x} for x in (-0.01, 0, 0.01)] + [{}]})
+                                     half_step={NAMES[1]: 0.45}, draws=[{NAMES[1]: 0.4 + x} for x in (-0.01, 0, 0.01)] + [{}])
     row = peak(members_of([0.4, 0.41, 0.39, 0.4], fine, expected_strength_error=1e-9), responses)[1]
     assert row["parts"]["mesh"] == pytest.approx(validation.SAFETY / 2 * 0.03)
     assert row["parts"]["load_step"] == pytest.approx(validation.SAFETY / 2 * 0.02)
@@ -99,7 +98,7 @@ def test_an_ensemble_with_a_posterior_knows_all_parts_of_its_strength(tmp_path, 
     program(*line)
     found = diptych.Campaign.load("out").numbers
     row = found["validation"][0]
-    assert len(found["continuum_runs"]["draws"]) == 3 and row["u_input"] > 0 and row["not_known"] == []
+    assert len(found["continuum_runs"]["values"]) == 4 and row["u_input"] > 0 and row["not_known"] == []
     assert not (tmp_path / "out" / "validation").exists()
     program("compare", "out", "--set", "comparison/margin_peak_stress_ratio=10", "--quiet")
     again = diptych.Campaign.load("out").numbers["validation"][0]

@@ -80,7 +80,7 @@ def _verdicts(bands: Sequence[dict[str, Any]], margins: dict[str, float], member
         unit = units[0] if units else "degrees" if kind == "line" else "-"
         first, second = _values(members, grains), _values(members, continuum)
         parts = validation.uncertainties(name, (grains, continuum), kind == "line", members, responses)
-        found, row = validation.validated(name, kind, (first, second), parts, len(responses.runs["draws"]))
+        found, row = validation.validated(name, kind, (first, second), parts, len(responses.draws))
         verdict = found.verdict(margins[margin])
         rows.append({**row, "unit": unit, "verdict": verdict})
         verdicts.append({"quantity": name, "unit": "-" if kind == "relative" else unit, "margin": margins[margin],
@@ -260,17 +260,18 @@ def run_ensemble(line: argparse.Namespace, options: Options) -> int:
         failed = [{"seed": seed, "exit_code": outcome.exit_code, "message": outcome.message}
                   for seed, outcome in ends if outcome.exit_code and not outcome.interrupted]
         interrupted = [seed for seed, outcome in ends if outcome.interrupted]
-        runs = validation.NO_RUNS if interrupted else validation.respond(
-            directory, [seed for seed in seeds if seed not in [one["seed"] for one in failed]], variations, options)
+        done, runs = [seed for seed in seeds if seed not in [one["seed"] for one in failed]], validation.NO_RUNS
+        if done and not interrupted:
+            runs = validation.respond(directory, done[0], variations, done[0] in finished, options)
         record = _record(scene, seeds, failed, interrupted, runs)
         _write(scene, record, options, ("ensemble", begin))
         if scene.dict()["output"]["report"] and not record["interrupted"]:
             draw(options, "ensemble", directory)
-        done = f"{len(record['done'])} of {len(seeds)} seeds are done, kept in {directory}"
+        kept = f"{len(record['done'])} of {len(seeds)} seeds are done, kept in {directory}"
         if failed:
-            complain(f"failed: seed {', '.join(str(one['seed']) for one in failed)}; {done}")
+            complain(f"failed: seed {', '.join(str(one['seed']) for one in failed)}; {kept}")
         if record["interrupted"]:
-            complain(f"stopped on request; {done}; to go on: {options.again}")
+            complain(f"stopped on request; {kept}; to go on: {options.again}")
     return NOT_CONVERGED if failed or record["interrupted"] else DONE
 
 

@@ -1,6 +1,7 @@
 # diptych: validation of an ensemble as in ASME V&V 20: errors and their uncertainty
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""E = S - D is the continuum minus the grains, u_val^2 = u_num^2 + u_input^2 + u_D^2 its standard uncertainty (ASME V&V 20-2009).
+"""E = S - D is the continuum minus the grains, and u_val its standard uncertainty: u_val^2 = u_num^2 + u_input^2 + u_D^2. Source:
+ASME V&V 20-2009.
 
 Values are dicts by the names of member_of(). NaN marks a part that is not known: it does not count, and the record names it.
 """
@@ -28,40 +29,43 @@ from .members import Member, member_of
 from .statistics import Difference, line_statistics, line_turn, paired, statistics
 
 DRAWS = 12  # of the parameters; their deviation is then known to a fifth
-# 95 % bound / error estimated from two meshes or steps. Roache (J. Fluids Eng. 116 (1994) 405) takes 3 for an assumed order and
-# 1.25 for an observed one. We assume order 1, the lowest that we observed (README.md), and hence take 1.25.
+# 95 % bound / error estimated from two meshes or steps. Roache (Verification and Validation in Computational Science and
+# Engineering, 1998) takes 3 for an assumed order and 1.25 for an observed one. We assume order 1, below the orders of 1.2 to 3.3 that we observed (README.md), and take 1.25.
 SAFETY = 1.25
 _KEYS = {"peak_stress_ratio": PEAK, "strength": STRENGTH, "platen_force_pd": FORCE, "final_volumetric_strain": VOLUME}
 _PARTS = {"grains_step": "step of the grains", "mesh": "mesh", "load_step": "load step", "parameters": "parameters"}
 _FOLDER = "validation"  # of the runs; it is removed after they have been read
-NO_RUNS: dict[str, Any] = {"seed": None, "names": [], "half_step": {}, "draws": []}  # as respond() returns them
+NO_RUNS: dict[str, Any] = {"seed": None, "scenes": [], "quantities": [], "values": []}  # as respond() returns them
 
 
 @dataclass
 class Responses:
-    """How the continuum answers to changes. coarse: values of every member on the coarse mesh; runs: the record of respond()."""
+    """How the continuum answers to changes. coarse: values of every member on the coarse mesh. base, half_step and draws: values
+    of one sample on that mesh as it is, with half the load step, and with draws of the parameters."""
 
     coarse: Sequence[Mapping[str, float]] = ()
     size_ratio: float = math.nan  # element size of the coarse mesh / that of the members
-    runs: Mapping[str, Any] = field(default_factory=lambda: NO_RUNS)
-    base: Mapping[str, float] = field(default_factory=dict)  # of the runs: the same sample on the coarse mesh
+    base: Mapping[str, float] = field(default_factory=dict)
+    half_step: Mapping[str, float] = field(default_factory=dict)
+    draws: Sequence[Mapping[str, float]] = ()
 
 
 def uncertainties(quantity: str, names: tuple[str, str], is_line: bool, members: Sequence[Member],
                   responses: Responses) -> dict[str, float]:
     """Standard uncertainties but that of the samples, in the unit of the quantity. names: of grains and continuum.
 
-    grains_step: the step's rule allows an error between 0 and e, whose rms value is e / sqrt(3). mesh, load_step: half of Roache's
-    95 % bound; an error of order 1 is d / (r - 1) for a change d by a mesh coarser by r, and 2 d by half the step. parameters:
-    deviation over the draws.
+    grains_step: the step's rule allows an error between 0 and e, whose rms value is e / sqrt(3). mesh, load_step: half of
+    Roache's 95 % bound; an error of order 1 is d / (r - 1) for a change d by a mesh coarser by r, and 2 d by half the step.
+    parameters: deviation over the draws.
     """
     minus, average = (line_turn, line_statistics) if is_line else (np.subtract, statistics)
     grains, fine = ([member.numbers.get(name, (math.nan,))[0] for member in members] for name in names)
     rule = {"final_volumetric_strain": "dilation"}.get(quantity, "strength")
-    expected = statistics([member.numbers.get(f"discrete_summary expected_{rule}_error", (math.nan,))[0] for member in members]).mean
+    of_rule = [member.numbers.get(f"discrete_summary expected_{rule}_error", (math.nan,))[0] for member in members]
+    expected = statistics(of_rule).mean
     coarse = [values.get(names[1], math.nan) for values in responses.coarse] or [math.nan] * len(fine)
-    half, base = (values.get(names[1], math.nan) for values in (responses.runs["half_step"], responses.base))
-    draws = [values.get(names[1], math.nan) for values in responses.runs["draws"]]
+    half, base = (values.get(names[1], math.nan) for values in (responses.half_step, responses.base))
+    draws = [values.get(names[1], math.nan) for values in responses.draws]
     has_rule = quantity in _KEYS and expected > 0  # 0: a flow that the rule does not describe
     return {"grains_step": expected / math.sqrt(3) * abs(statistics(grains).mean) if has_rule else math.nan,
             "mesh": SAFETY / 2 * abs(statistics(minus(coarse, fine)).mean) / (responses.size_ratio - 1),
@@ -111,13 +115,16 @@ def responses_of(scene: Any, seeds: Sequence[int], members: Sequence[Member], ru
     ratio = keys["comparison"]["coarse_element_size"] / keys["continuum"]["element_size"]
     coarse = {seed: coarse_values(os.path.join(scene.directory, f"seed_{seed}"), scene, member)
               for seed, member in zip(seeds, members)}
-    return Responses(list(coarse.values()), ratio if ratio > 1 else math.nan, runs, coarse.get(runs["seed"], {}))
+    values = [{name: value for name, value in zip(runs["quantities"], row) if value is not None} for row in runs["values"]]
+    half, *draws = values or [{}]
+    return Responses(list(coarse.values()), ratio if ratio > 1 else math.nan, coarse.get(runs["seed"], {}), half, draws)
 
 
 def draws_of(set_files: Sequence[str], settings: Sequence[str]) -> list[list[Setting]]:
-    """Evenly chosen rows of the posterior of a calibration: posterior.csv beside a --set-file, with keys of the section continuum
-    as columns. A key of --set counts as exact. [] without such a file."""
-    path = next((path for file in set_files if os.path.isfile(path := os.path.join(os.path.dirname(file), "posterior.csv"))), "")
+    """Evenly chosen rows of the posterior of a calibration: posterior.csv beside a --set-file, with keys of the section
+    continuum as columns. A key of --set counts as exact. [] without such a file."""
+    beside = [os.path.join(os.path.dirname(file), "posterior.csv") for file in set_files]
+    path = next(filter(os.path.isfile, beside), "")
     table = pd.read_csv(path, dtype=str, comment="#") if path else pd.DataFrame()
     exact = [text.partition("=")[0].removeprefix("continuum/") for text in settings]
     table = table[[key for key in table if key.isidentifier() and key not in exact]]  # "key (target)" is not in calibrated.prm
@@ -126,7 +133,7 @@ def draws_of(set_files: Sequence[str], settings: Sequence[str]) -> list[list[Set
 
 
 def variations(scene_file: str, settings: Sequence[Setting], draws: Sequence[Sequence[Setting]]) -> list[Any]:
-    """Scenes of short runs of the continuum on the coarse mesh: half the load step, then the draws. Empty without a coarse mesh.
+    """Scenes of short runs of the continuum on the coarse mesh: half the load step, then the draws. [] without such a mesh.
 
     Raises SceneError, with posterior.csv, for a draw that the scene refuses.
     """
@@ -141,34 +148,39 @@ def variations(scene_file: str, settings: Sequence[Setting], draws: Sequence[Seq
     return [_diptych.read_changed_scene(scene_file, [*settings, *common, *more], True) for more in (halves, *draws)]
 
 
-def respond(directory: str, seeds: Sequence[int], scenes: Sequence[Any], options: Options) -> dict[str, Any]:
-    """Runs the variations on the grains of the first of the finished members: {seed, names, half_step, draws}, values by name, empty
-    after a failure. Runs of an earlier ensemble.json are taken with --resume. Raises Stopped after a stop signal."""
-    source = os.path.join(directory, f"seed_{seeds[0]}") if seeds else ""
+def respond(directory: str, seed: int, scenes: Sequence[Any], goes_on: bool, options: Options) -> dict[str, Any]:
+    """Runs the variations on the grains of a finished member. Returns its seed, hashes of the scenes, and values of quantities, a
+    row per run, None after a failure. goes_on: the member is an earlier one, whose runs stand.
+
+    Raises Stopped after a stop signal."""
+    source, here, record = (os.path.join(directory, name) for name in (f"seed_{seed}", _FOLDER, "ensemble.json"))
     if not scenes or not os.path.isdir(os.path.join(source, "coarse")):
         return NO_RUNS
-    names = [f"seed_{seeds[0]}_{run_name(scene, 'run')}" for scene in scenes]
-    record = os.path.join(directory, "ensemble.json")
-    earlier = read_json(record).get("continuum_runs", NO_RUNS) if options.resume and os.path.exists(record) else NO_RUNS
-    if earlier["names"] == names:
+    names = [run_name(scene.in_folder(source, scene.name, seed), "run") for scene in scenes]
+    earlier = read_json(record).get("continuum_runs", NO_RUNS) if goes_on and os.path.exists(record) else NO_RUNS
+    if earlier["scenes"] == names:
         return earlier
-    folders = [os.path.join(directory, _FOLDER, name) for name in names]
-    scenes = [scene.in_folder(folder, scene.name, seeds[0]) for scene, folder in zip(scenes, folders)]
+    if not goes_on:
+        shutil.rmtree(here, ignore_errors=True)
+    folders = [os.path.join(here, name) for name in names]
+    scenes = [scene.in_folder(folder, scene.name, seed) for scene, folder in zip(scenes, folders)]
     for scene, folder in zip(scenes, folders):
         if not os.path.isdir(folder):
             _copy_grains(source, folder)
         write_text(folder + ".prm", scene.text())
     pending = [k for k, scene in enumerate(scenes) if not _diptych.holds_finished_run(scene)]
-    outcomes = execute([Run("run", folders[k] + ".prm", folders[k], folders[k] + ".log", ("--resume",)) for k in pending], options,
-                       noun="runs for the uncertainty of the continuum")
+    tasks = [Run("run", folders[k] + ".prm", folders[k], folders[k] + ".log", ("--resume",)) for k in pending]
+    outcomes = execute(tasks, options, noun="runs for the uncertainty of the continuum")
     if any(outcome.interrupted for outcome in outcomes):
-        raise Stopped(f"stopped on request; the seeds are done, kept in {directory}; to go on: {options.again}")
+        raise Stopped(f"stopped on request; the seeds are done; to go on: {options.again}")
     failed = {k for k, outcome in zip(pending, outcomes) if outcome.exit_code}
-    half, *draws = [{} if k in failed else _compared(member_of(folder + "/comparison.json", scene.is_mirror_symmetric()))
-                    for k, (scene, folder) in enumerate(zip(scenes, folders))]
+    found = [{} if k in failed else _compared(member_of(folder + "/comparison.json", scene.is_mirror_symmetric()))
+             for k, (scene, folder) in enumerate(zip(scenes, folders))]
     if not failed:
-        shutil.rmtree(os.path.join(directory, _FOLDER))
-    return {"seed": seeds[0], "names": names, "half_step": half, "draws": draws}
+        shutil.rmtree(here)
+    quantities = sorted(set().union(*found))
+    return {"seed": seed, "scenes": names, "quantities": quantities,
+            "values": [[values.get(name) for name in quantities] for values in found]}
 
 
 def _copy_grains(source: str, folder: str) -> None:
@@ -185,6 +197,7 @@ def _copy_grains(source: str, folder: str) -> None:
 
 
 def _compared(member: Member) -> dict[str, float]:
-    """The numbers of a run that verdicts compare."""
+    """The numbers of the continuum that verdicts compare."""
+    keys, of_bands = [f"continuum_summary {key}" for key in _KEYS], (" continuum band angle_deg", " continuum band width_10_90_d")
     return {name: number[0] for name, number in member.numbers.items()
-            if name.removeprefix("continuum_summary ") in _KEYS or (" continuum band " in name and name.startswith("window "))}
+            if name in keys or (name.startswith("window ") and name.endswith(of_bands))}

@@ -82,7 +82,8 @@ def validation_table(results):
         cells += [_digits(one[key], factor, 2) for key in ("u_input", "u_D")]
         cells += [_digits(one["u_val"], factor, 2, "≥ " if missing else ""), _digits(one["ratio"], 1, 2, "≤ " if missing else "")]
         rows.append([label, *cells, one["verdict"] + (f" (without {', '.join(missing)})" if missing else "")])
-    return {"head": ["", "S", "D", "E", "u_num", "u_input", "u_D", "u_val", "|E| / u_val", "verdict"], "rows": rows}
+    return {"head": ["", ("S", "continuum"), ("D", "grains"), ("E", "S − D"), ("u_num", "methods"), ("u_input", "parameters"),
+                     ("u_D", "samples"), ("u_val", "together"), ("|E| / u_val", ""), "verdict"], "rows": rows}
 
 
 def _digits(value, factor, digits, before=""):
