@@ -30,18 +30,18 @@ def peak(members, *responses):
 
 
 @pytest.mark.parametrize("kind, n", [("absolute", 4), ("relative", 4), ("absolute", 16)])
-def test_intervals_hold_the_true_error_in_95_of_100_ensembles(kind, n):
-    """Grains of mean 1 scatter by 0.04; their step adds between 0 and 0.02, the mesh an error of deviation 0.01, the parameters
-    one of 0.015, known from 12 draws. The form of the law is wrong by 0.05."""
-    random, hits, runs = np.random.default_rng(1), 0, 3000
+def test_intervals_hold_the_true_error_in_92_to_96_of_100_ensembles(kind, n):
+    """Grains of mean 1 scatter by 0.04; their step adds 0.02 as expected, the mesh an error of deviation 0.01, the parameters one
+    of 0.015, known from 12 draws. The form of the law is wrong by 0.05."""
+    random, hits, runs = np.random.default_rng(1), 0, 2000
     for _ in range(runs):
-        grains = random.normal(1, 0.04, n) + random.uniform(0, 0.02)
+        grains = random.normal(1.02, 0.04, n)
         continuum = 1.05 + random.normal(0, 0.01) + random.normal(0, 0.015) + random.normal(0, 0.002, n)
-        parts = {"grains_step": 0.02 / math.sqrt(3), "mesh": 0.01, "load_step": math.nan,
+        parts = {"grains_step": validation.SAFETY / 2 * 0.02, "mesh": 0.01, "load_step": math.nan,
                  "parameters": random.normal(0, 0.015, 12).std(ddof=1)}
         found, _row = validation.validated("peak_stress_ratio", kind, (grains, continuum), parts, 12)
         hits += found.difference.low < 0.05 < found.difference.high
-    assert 0.94 < hits / runs < 0.99
+    assert 0.91 < hits / runs < 0.97
 
 
 def test_a_bias_within_u_num_is_no_verdict_different():
@@ -51,7 +51,7 @@ def test_a_bias_within_u_num_is_no_verdict_different():
     assert peak(members)[0]["verdict"] == "different"
     verdict, row = peak(members_of(grains, [0.4] * 4, expected_strength_error=0.02))
     assert verdict["verdict"] == row["verdict"] == "cannot tell" and row["ratio"] < 1.5
-    assert row["parts"]["grains_step"] == pytest.approx(0.02 * 0.406 / math.sqrt(3))
+    assert row["parts"]["grains_step"] == pytest.approx(validation.SAFETY / 2 * 0.02 * 0.406)
 
 
 def test_without_known_parts_the_interval_is_that_of_the_samples_and_the_parts_are_named():

@@ -29,8 +29,8 @@ from .members import Member, member_of
 from .statistics import Difference, line_statistics, line_turn, paired, statistics
 
 DRAWS = 12  # of the parameters; their deviation is then known to a fifth
-# 95 % bound / error estimated from two meshes or steps. Roache (Verification and Validation in Computational Science and
-# Engineering, 1998) takes 3 for an assumed order and 1.25 for an observed one. We assume order 1, below the orders of 1.2 to 3.3 that we observed (README.md), and take 1.25.
+# 95 % bound / estimated numerical error, of which u_num is half. Roache (Verification and Validation in Computational Science and
+# Engineering, 1998) takes 3 for an assumed order and 1.25 for an observed one. README.md compares estimates with errors.
 SAFETY = 1.25
 _KEYS = {"peak_stress_ratio": PEAK, "strength": STRENGTH, "platen_force_pd": FORCE, "final_volumetric_strain": VOLUME}
 _PARTS = {"grains_step": "step of the grains", "mesh": "mesh", "load_step": "load step", "parameters": "parameters"}
@@ -54,23 +54,20 @@ def uncertainties(quantity: str, names: tuple[str, str], is_line: bool, members:
                   responses: Responses) -> dict[str, float]:
     """Standard uncertainties but that of the samples, in the unit of the quantity. names: of grains and continuum.
 
-    grains_step: the step's rule allows an error between 0 and e, whose rms value is e / sqrt(3). mesh, load_step: half of
-    Roache's 95 % bound; an error of order 1 is d / (r - 1) for a change d by a mesh coarser by r, and 2 d by half the step.
-    parameters: deviation over the draws.
+    Estimated errors: grains_step by the rule of the step; mesh and load_step by order 1 from a change d: d / (r - 1) by a mesh
+    coarser by r, 2 d by half the step. parameters: deviation over the draws.
     """
     minus, average = (line_turn, line_statistics) if is_line else (np.subtract, statistics)
     grains, fine = ([member.numbers.get(name, (math.nan,))[0] for member in members] for name in names)
-    rule = {"final_volumetric_strain": "dilation"}.get(quantity, "strength")
-    of_rule = [member.numbers.get(f"discrete_summary expected_{rule}_error", (math.nan,))[0] for member in members]
-    expected = statistics(of_rule).mean
+    rule = f"discrete_summary expected_{'dilation' if quantity == 'final_volumetric_strain' else 'strength'}_error"
+    expected = statistics([member.numbers.get(rule, (math.nan,))[0] for member in members]).mean
     coarse = [values.get(names[1], math.nan) for values in responses.coarse] or [math.nan] * len(fine)
     half, base = (values.get(names[1], math.nan) for values in (responses.half_step, responses.base))
-    draws = [values.get(names[1], math.nan) for values in responses.draws]
-    has_rule = quantity in _KEYS and expected > 0  # 0: a flow that the rule does not describe
-    return {"grains_step": expected / math.sqrt(3) * abs(statistics(grains).mean) if has_rule else math.nan,
-            "mesh": SAFETY / 2 * abs(statistics(minus(coarse, fine)).mean) / (responses.size_ratio - 1),
-            "load_step": SAFETY * abs(float(minus(half, base))),
-            "parameters": average(draws).deviation}
+    has_rule = quantity in _KEYS and expected != 0  # 0: a flow that the rule does not describe
+    errors = {"grains_step": expected * statistics(grains).mean if has_rule else math.nan,
+              "mesh": statistics(minus(coarse, fine)).mean / (responses.size_ratio - 1), "load_step": 2 * float(minus(half, base))}
+    return {**{name: SAFETY / 2 * abs(error) for name, error in errors.items()},
+            "parameters": average([values.get(names[1], math.nan) for values in responses.draws]).deviation}
 
 
 def validated(quantity: str, kind: str, pairs: tuple[Sequence[float], Sequence[float]], parts: Mapping[str, float],
