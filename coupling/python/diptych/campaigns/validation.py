@@ -59,8 +59,9 @@ def uncertainties(quantity: str, names: tuple[str, str], is_line: bool, members:
     """
     minus, average = (line_turn, line_statistics) if is_line else (np.subtract, statistics)
     grains, fine = ([member.numbers.get(name, (math.nan,))[0] for member in members] for name in names)
-    rule = f"discrete_summary expected_{'dilation' if quantity == 'final_volumetric_strain' else 'strength'}_error"
-    expected = statistics([member.numbers.get(rule, (math.nan,))[0] for member in members]).mean
+    rules = ["strength"] + ["dilation"] * (quantity == "final_volumetric_strain")  # its two parts may cancel by chance
+    expected = max(abs(statistics([member.numbers.get(f"discrete_summary expected_{rule}_error", (math.nan,))[0]
+                                   for member in members]).mean) for rule in rules)
     coarse = [values.get(names[1], math.nan) for values in responses.coarse] or [math.nan] * len(fine)
     half, base = (values.get(names[1], math.nan) for values in (responses.half_step, responses.base))
     has_rule = quantity in _KEYS and expected != 0  # 0: a flow that the rule does not describe
