@@ -239,6 +239,7 @@ def study(contents: Mapping[str, Any] | PathLike, output: PathLike, **options: A
     options   those of `diptych study`: jobs=2, threads=1, resume=True, overwrite=True, set={"section/key": value}
               With vary={"discrete/friction": [0.2, 0.3]} the contents are a scene: a path, or a dict as in diptych.scene().
               seeds=range(1, 4) are then the samples of each point, panels="discrete" runs one panel
+              levels="auto" adds means of the grains in the limit of short steps
 
     A dict is a file of the working directory during the call, OUTPUT.json; messages name it with its lines. They also name
     the options of the command line: for --resume add resume=True to the same call.

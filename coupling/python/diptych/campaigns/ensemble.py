@@ -20,9 +20,11 @@ from .. import _diptych
 from ..errors import SceneError
 from . import ensemble_summary
 from .engine import DONE, NOT_CONVERGED, Options, Run, complain, execute, panels, run_program, say
-from .folders import Folder, draw, read_json, write_arrays, write_json, write_text
+from .folders import Folder, Runs, draw, read_json, write_arrays, write_json, write_text
 from .histories import panel_table, resampled, running_mean
 from .input_file import read_seeds, settings_of
+from .level_runs import (Levels, add_summary, demand_rule, ensemble_levels, ensemble_quantities, fine_runs, of_members, paired_points,
+                         read_levels)
 from .members import Member, member_of
 from .statistics import line_statistics, paired, statistics, student_quantile
 
@@ -199,12 +201,26 @@ def _finished(scene: Any, seeds: Sequence[int], options: Options) -> list[int]:
     return finished
 
 
-def _holds_finished(scene: Any, seeds: Sequence[int]) -> bool:
-    """True if the folder holds the finished ensemble of this scene and these seeds."""
+def _holds_finished(scene: Any, seeds: Sequence[int], levels: Levels | None) -> bool:
+    """True if the folder holds the finished ensemble of this scene, these seeds and these levels."""
     earlier, record = _diptych.resolved_scene(os.path.join(scene.directory, "ensemble.prm")), os.path.join(scene.directory, "ensemble.json")
     return (earlier is not None and earlier.identity("member") == scene.identity("member") and os.path.exists(record)
-            and read_json(record)["done"] == list(seeds)
+            and read_json(record)["done"] == list(seeds) and _levels_of(read_json(record)) == levels
             and all(_diptych.holds_finished_run(_member_scene(scene, seed)) for seed in seeds))
+
+
+def _levels_of(record: dict[str, Any]) -> Levels | None:
+    return Levels(record["levels"]["cheap"], record["levels"]["fine"]) if "levels" in record else None
+
+
+def _add_limits(scene: Any, record: dict[str, Any], given: tuple[str, list[Any]], levels: Levels, options: Options) -> None:
+    """Runs the pairs of two-level means and adds the limits to the record. given: scene file and its settings. Raises Stopped."""
+    seeds, wanted = record["done"], ensemble_quantities()
+    cheap = of_members([member_folder(scene.directory, seed) for seed in seeds], record)
+    fine = fine_runs(given[0], [*given[1], levels.setting("fine")], seeds, "--seeds")
+    os.makedirs(os.path.join(scene.directory, "runs"), exist_ok=True)
+    [point] = paired_points(Runs(scene.directory), [fine], [cheap], wanted, options)
+    add_summary(record, ensemble_levels(levels, seeds, point))
 
 
 def _origin(text: str) -> str:
@@ -216,14 +232,21 @@ def _origin(text: str) -> str:
 
 
 def run_ensemble(line: argparse.Namespace, options: Options) -> int:
-    """diptych run SCENE --seeds LIST. line: target, seeds, output, set, set_file. Returns the exit code."""
-    scene_file, seeds = line.target, read_seeds(line.seeds)
-    read = _diptych.read_changed_scene(scene_file, settings_of(line.set, line.set_file), True)
+    """diptych run SCENE --seeds LIST. line: target, seeds, levels, output, set, set_file. Returns the exit code."""
+    scene_file, seeds, levels = line.target, read_seeds(line.seeds), read_levels(line.levels)
+    settings = settings_of(line.set, line.set_file)
+    if levels:
+        settings.append(levels.setting("cheap"))
+    read = _diptych.read_changed_scene(scene_file, settings, True)
+    if levels:
+        demand_rule(read, levels)
     directory = line.output or (read.directory + "_ensemble" if read.directory == f"results/{read.name}" else read.directory)
     scene = read.in_folder(directory, read.name, read.dict()["sample"]["seed"])
     words = [word for option, values in (("--set-file", line.set_file), ("--set", line.set)) for value in values
              for word in (option, value)]
-    if not options.resume and not options.overwrite and _holds_finished(scene, seeds):
+    if levels:
+        words += ["--set", "discrete/accuracy=" + settings[-1].value]
+    if not options.resume and not options.overwrite and _holds_finished(scene, seeds, levels):
         say(options, f"{directory} holds the finished ensemble of this scene; --overwrite runs it again")
         say(options, f"its table: diptych compare {directory}")
         return 0
@@ -249,6 +272,8 @@ def run_ensemble(line: argparse.Namespace, options: Options) -> int:
         failed = [{"seed": seed, "exit_code": outcome.exit_code, "message": outcome.message}
                   for seed, outcome in ends if outcome.exit_code and not outcome.interrupted]
         record = _record(scene, seeds, failed, [seed for seed, outcome in ends if outcome.interrupted])
+        if levels and record["done"] and not record["interrupted"]:
+            _add_limits(scene, record, (scene_file, settings), levels, options)
         _write(scene, record, options, ("ensemble", begin))
         if scene.dict()["output"]["report"] and not record["interrupted"]:
             draw(options, "ensemble", directory)
@@ -274,6 +299,8 @@ def compare_again(line: argparse.Namespace, options: Options) -> int:
         _diptych.check_part(directory, "ensemble")
         earlier = read_json(os.path.join(directory, "ensemble.json"))
         record = _record(scene, earlier["seeds"], earlier["failed"], earlier["interrupted"])
+        if "levels" in earlier:
+            add_summary(record, earlier["levels"])
         _write(scene, record, options, ("statistics", begin))
         if scene.dict()["output"]["report"]:
             draw(options, "ensemble", directory)

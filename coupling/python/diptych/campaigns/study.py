@@ -23,11 +23,12 @@ from .effects import changes_of, effects_table, text_of_changes, text_of_means, 
 from .evaluation import CLASSES, Results, cost_of, evaluate, orders_of
 from .folders import Folder, Runs, draw, write_arrays, write_json, write_text
 from .histories import resampled, running_mean
+from .level_runs import demand_rule, study_levels
 from .points import Point, points_of, result_of
 from .sensitivity import need_openturns, sensitivity_of, sensitivity_table, text_of_indices, warnings_of
 from .statistics import line_turn, student_quantile
 from .study_file import COMMANDS, Study
-from .study_words import study_of_words
+from .study_words import levels_of_words, study_of_words
 
 _CURVES = (("stress_ratio", "stress ratio t/s", "running mean, averaged over the samples, one row per point; nan if a sample "
             "has no value"),
@@ -134,11 +135,15 @@ def _conclude(study: Study, points: Sequence[Point], record: dict[str, Any], opt
 
 
 def run_study(line: argparse.Namespace, options: Options) -> int:
-    """diptych study FILE. line: target, output, set, set_file, vary, seeds, panels. Returns the exit code."""
+    """diptych study FILE. line: target, output, set, set_file, vary, seeds, panels, levels. Returns the exit code."""
     study, text = study_of_words(line)
+    levels = levels_of_words(line, study)
     if study.ranges:
         need_openturns()  # before the runs
     points = points_of(study)
+    for run in [run for point in points for run in point.runs] if levels else ():
+        if run.scene is not None:
+            demand_rule(run.scene, levels)
     directory = line.output or f"results/{study.name}_study"
 
     def inputs() -> list[tuple[str, str]]:
@@ -153,11 +158,15 @@ def run_study(line: argparse.Namespace, options: Options) -> int:
         read = {run.name: result_of(runs, run, study.quantities)  # each different run once
                 for run in {run.name: run for point in points for run in point.runs}.values()}
         results = [[read[run.name] for run in point.runs] for point in points]
-        record = study_record(study, points, evaluate(study, points, results))
+        left, limits = sum(outcome.interrupted for outcome in outcomes), None
+        if levels and not left:
+            results, limits = study_levels(study, results, levels, runs, options)
+        record = study_record(study, points, evaluate(study, points, results, limits))
+        if limits:
+            record["levels"] = {**levels._asdict(), "pairs": max(one.pairs for of_point in limits for one in of_point)}
         if study.ranges:
             record["sensitivity"] = sensitivity_of(study, results, record["points"])
         _write(directory, study, points, results, record)
-        left = sum(outcome.interrupted for outcome in outcomes)
         if not left:
             draw(options, "study", directory)
         say(options, f"{_conclude(study, points, record, options)}; tables: {directory}/study.json, study.csv"
