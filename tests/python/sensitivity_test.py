@@ -1,9 +1,12 @@
 # diptych: tests of sensitivity studies: Sobol indices of known functions, and a study with ranges
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
+import importlib.util
 import json
 import os
+import signal
 import sys
+import time
 
 import numpy as np
 import pytest
@@ -17,7 +20,7 @@ from diptych.campaigns.points import points_of
 from diptych.campaigns.sensitivity import sobol_indices
 from diptych.campaigns.study_file import read_study
 
-pytest.importorskip("openturns")
+pytestmark = pytest.mark.skipif(importlib.util.find_spec("openturns") is None, reason="openturns is missing")
 
 
 def ishigami(u):
@@ -61,6 +64,14 @@ def test_noise_is_not_taken_for_an_effect():
     random = np.random.default_rng(1)
     found = sobol_indices(random.random((64, 3)), random.normal(size=64))
     assert found.q2 < 0.2 and all(one.low < 0.05 for one in found.first)
+
+
+def test_ctrl_c_still_reaches_python_after_a_fit():
+    """openturns would abort the process."""
+    sobol_indices(np.linspace(0, 1, 20)[:, None], np.linspace(0, 1, 20))
+    with pytest.raises(KeyboardInterrupt):
+        os.kill(os.getpid(), signal.SIGINT)
+        time.sleep(5)
 
 
 RANGES = [{"key": "continuum/friction_angle_peak", "low": 20, "high": 35},

@@ -6,9 +6,12 @@
 
 from __future__ import annotations
 
+import ctypes
+import importlib.util
 import math
-from collections.abc import Sequence
-from types import ModuleType
+import signal
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -38,17 +41,27 @@ class Sobol(NamedTuple):
     degree: int
 
 
-def need_openturns() -> ModuleType:
-    """The module openturns. Raises ImportError with the package to install."""
-    try:
-        import openturns
-    except ImportError:
+def need_openturns() -> None:
+    """Raises ImportError with the package to install if openturns is missing."""
+    if importlib.util.find_spec("openturns") is None:
         raise ImportError("a study with ranges needs the Python module openturns, which is missing. Install it with: "
-                          "apt-get install python3-openturns") from None
-    openturns.Log.Show(openturns.Log.NONE)
-    return openturns
+                          "apt-get install python3-openturns")
 
 
+@contextmanager
+def _ctrl_c_waits() -> Iterator[None]:
+    """Each function of openturns takes over Ctrl-C and then aborts the process. Ctrl-C waits, and its handler is put back."""
+    libc, handler = ctypes.CDLL(None), ctypes.create_string_buffer(256)  # larger than a struct sigaction
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    libc.sigaction(signal.SIGINT, None, handler)
+    try:
+        yield
+    finally:
+        libc.sigaction(signal.SIGINT, handler, None)
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+
+
+@_ctrl_c_waits()
 def sobol_indices(points: Array, values: Array) -> Sobol:
     """Sobol indices of values (n) at points (n, d) of the unit cube, with 95 % intervals.
 
@@ -81,7 +94,9 @@ def sobol_indices(points: Array, values: Array) -> Sobol:
 def _fitted(points: Array, values: Array, degree: int) -> tuple[Any, Array]:
     """Sparse Legendre polynomials up to a total degree, chosen by least angles: their prediction as a function of points, and
     the first and total shares (2, d) of its variance."""
-    ot = need_openturns()
+    import openturns as ot  # optional
+
+    ot.Log.Show(ot.Log.NONE)
     d = points.shape[1]
     terms = ot.LinearEnumerateFunction(d)
     basis = ot.OrthogonalProductPolynomialFactory([ot.LegendreFactory()] * d, terms)
