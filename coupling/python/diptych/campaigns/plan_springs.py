@@ -1,8 +1,8 @@
 # diptych: whether springs are cheaper than contact dynamics for the grains of a plan
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The CPU time of contact dynamics grows with the number of grains n like n^1.9 to n^2.1, that of springs like n^1.1 to n^1.3. Both
-cost the same at about n = 4e4 (I / 1e-3)^0.7, where I is the inertial number (benchmarks/rigid_limit/size.py). From half of this
-number on, a plan runs one sample with springs, and takes them if they save time."""
+"""The CPU time of contact dynamics grows with the number of grains n like n^1.9 to n^2.1, that of springs like n^1.1 to n^1.3.
+Both cost the same at about n = 4e4 (I / 1e-3)^0.7, where I is the inertial number (benchmarks/rigid_limit/size.py). From half
+of this number on, a plan runs one sample with springs, and takes them if they save time."""
 
 from __future__ import annotations
 
@@ -23,7 +23,8 @@ def may_pay(keys: dict[str, Any]) -> bool:
     loading = keys["loading"]
     inertial = loading["inertial_number"]
     if loading["strain_rate"]:
-        inertial = loading["strain_rate"] * keys["sample"]["mean_diameter"] * (keys["sample"]["density"] / loading["pressure"]) ** 0.5
+        sample = keys["sample"]
+        inertial = loading["strain_rate"] * sample["mean_diameter"] * (sample["density"] / loading["pressure"]) ** 0.5
     return keys["sample"]["grains"] >= 0.5 * 4e4 * (inertial / 1e-3) ** 0.7
 
 
@@ -46,5 +47,6 @@ def try_springs(plan: PanelPlan, question: Question, run: RunPilot, quantities: 
         plan.settings, plan.levels = list(SPRINGS), {}
         plan.seeds = [plan.seeds[0] + k for k in range(samples)]
         plan.cpu_s, plan.peak_memory_mb = pilot.cpu_s, pilot.peak_memory_mb
-        plan.quantities = [Budget(q.name, q.mean, q.scatter, [Part("springs", error), Part("samples", half_interval(q.scatter, samples))])
+        plan.quantities = [Budget(q.name, q.mean, q.scatter,
+                                  [Part("springs", error), Part("samples", half_interval(q.scatter, samples))])
                            for q, error in zip(plan.quantities, errors)]
