@@ -35,8 +35,8 @@ case "$preset" in
 esac
 # Only the tests need these packages. They open report.html, read the ParaView files, build a package and the manual, and use the
 # Python package and its notebooks.
-packages+=(chromium python3-meshio python3-vtk9 dpkg-dev clang-format mkdocs mkdocs-material fish man-db)
-packages+=(python3-pytest python3-pandas python3-scipy python3-nbconvert python3-ipykernel python3-mpi4py)
+packages+=(chromium python3-vtk9 dpkg-dev clang-format mkdocs mkdocs-material fish man-db)
+packages+=(python3-pytest python3-nbconvert python3-ipykernel python3-openturns)
 install_missing
 build "$preset" "${targets[@]}"
 if [ "$preset" = fuzz ]; then

@@ -1,6 +1,6 @@
 # diptych: figures of the rigid limit
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Curves of all methods, and their error against CPU time. Needs matplotlib."""
+"""Curves of all methods. Needs matplotlib."""
 import os
 
 import matplotlib
@@ -12,8 +12,6 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as pyplot  # noqa: E402
 
 COLOURS = {"NSCD h =": "#0072B2", "NSCD accuracy": "#56B4E9", "penalty kn/P =": "#D55E00", "LAMMPS kn/P =": "#007A5E"}
-MARKS = {"NSCD h =": "o", "NSCD accuracy": "*", "penalty kn/P =": "s", "LAMMPS kn/P =": "^"}
-OTHERS = "#777777"  # Colour of another build.
 QUANTITIES = (("t", "T/S, running over 0.3 %"), ("volumetric_strain", "dilation (%)"), ("kinetic_energy", "kinetic energy (P d²)"))
 
 
@@ -57,38 +55,7 @@ def draw_curves(by_method, inertial, path):
     pyplot.close(figure)
 
 
-def draw_error(by_method, strength, inertial, path):
-    """strength(columns) / reference - 1 against CPU seconds. The reference of a sample is the mean of the stiffest springs of both
-    programs."""
-    stiffest = [[m for m in by_method if m.family == family][-1] for family in ("penalty kn/P =", "LAMMPS kn/P =")]
-    seeds = list(by_method[stiffest[0]])
-    reference = {seed: numpy.mean([strength(by_method[m][seed][0]) for m in stiffest]) for seed in seeds}
-    figure, axis = pyplot.subplots(figsize=(6.4, 4.4), constrained_layout=True)
-    families = {}
-    for method, by_seed in by_method.items():
-        differences = [100 * (strength(by_seed[seed][0]) / reference[seed] - 1) for seed in seeds]
-        seconds = numpy.mean([by_seed[seed][1] for seed in seeds])
-        families.setdefault(method.family, []).append((seconds, *claims.mean_and_error(differences), method.value))
-    for family, points in families.items():
-        x, y, error, names = zip(*points)
-        colour = COLOURS.get(family, OTHERS)
-        axis.errorbar(x, y, error, fmt=MARKS.get(family, "x") + "-", color=colour, capsize=3, markersize=9 if family == "NSCD accuracy" else 5,
-                      label=family.rstrip(" ="), linewidth=1)
-        for at, height, name in zip(x, y, names):
-            axis.annotate(name, (at, height), textcoords="offset points", xytext=(5, 5), fontsize=8, color=colour)
-    axis.axhspan(-1, 1, color="black", alpha=0.07, linewidth=0)
-    axis.axhline(0, color="black", linewidth=0.7)
-    axis.set(xscale="log", xlabel="CPU seconds to 4 % strain, 1000 discs", ylabel="T/S over 0.5-4 % against the stiffest springs (%)",
-             title=f"I = {inertial:g}; paired, {len(seeds)} samples; grey band: 1 %")
-    axis.title.set_fontsize(10)
-    axis.grid(alpha=0.3, which="both")
-    axis.legend(fontsize=8)
-    figure.savefig(path, dpi=110)
-    pyplot.close(figure)
-
-
-def draw(found, strength, folder):
+def draw(found, folder):
     os.makedirs(folder, exist_ok=True)
     for inertial, by_method in found.items():
         draw_curves(by_method, inertial, os.path.join(folder, f"curves_{inertial:g}.png"))
-        draw_error(by_method, strength, inertial, os.path.join(folder, f"cost_{inertial:g}.png"))

@@ -2,12 +2,12 @@
 # diptych: rigid contacts, springs and LAMMPS on the same samples
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """rigid_limit.py PROGRAM [--seeds 11,12,...] [--inertial 1.13e-3,1.13e-4] [--quick] [--output DIR] [--reuse] [--jobs 1]
-               [--also NAME=PROGRAM] [--lammps run|stored] [--store] [--figures DIR]
+               [--lammps run|stored] [--store] [--figures DIR]
 
 Loads the samples of samples/ (those of ../dense_biaxial, 1000 discs each) to 4 % strain with NSCD at several steps, with `penalty`
 at several stiffnesses and with LAMMPS. Takes differences sample by sample. --lammps run: runs `lmp` (Debian package lammps);
-otherwise the results in lammps.csv are used, which --store writes. --also: repeats the NSCD runs with another build, which prepares
-its own samples from the same seeds. --quick: NSCD only. Needs h5py and numpy, the figures matplotlib."""
+otherwise the results in lammps.csv are used, which --store writes. --quick: NSCD only. Needs h5py and numpy, the figures
+matplotlib."""
 import argparse
 import concurrent.futures
 import csv
@@ -36,7 +36,6 @@ VOLUMES = (0.015, 0.04)  # Strains.
 STEPS = {1.13e-3: (0.4, 0.2, 0.1, 0.05, 0.025, 0.0125), 1.13e-4: (1., 0.5, 0.25, 0.125)}
 FINE = "discrete/accuracy=0.008"  # tolerance x step / I = 0.02, so that only the step matters.
 TIGHT = {1.13e-3: FINE, 1.13e-4: "discrete/accuracy=0.02"}  # Slow steps do not converge to FINE.
-NOISE = {1.13e-3: 0.02, 1.13e-4: 0.05}
 STIFFNESSES = {1.13e-3: (1e3, 1e4, 1e5), 1.13e-4: (1e3, 1e4)}
 SEEDS = {1.13e-3: range(11, 23), 1.13e-4: range(11, 17)}
 COLUMNS = ("axial_strain", "t", "s", "volumetric_strain", "kinetic_energy")
@@ -73,8 +72,8 @@ def of_panel(result):
 class Method:
     """A method that loads a sample: name and settings of the program (None: LAMMPS with `stiffness`)."""
 
-    def __init__(self, family, value, settings, program=None):
-        self.family, self.value, self.settings, self.program = family, value, settings, program
+    def __init__(self, family, value, settings):
+        self.family, self.value, self.settings = family, value, settings
 
     @property
     def name(self):
@@ -84,11 +83,9 @@ class Method:
         folder = f"{options.output}/I_{inertial:g}/{self.name.replace(' ', '_').replace('/', '')}"
         if self.settings is None:
             return self.load_by_lammps(options, inertial, seed, f"{folder}/seed_{seed}")
-        program = self.program or options.program
-        runs = claims.Runs(argparse.Namespace(program=program, reuse=options.reuse, set=[]), seed, folder)
-        source = [f"sample/file={sample_file(seed)}"] if self.program is None else []
+        runs = claims.Runs(argparse.Namespace(program=options.program, reuse=options.reuse, set=[]), seed, folder)
         return of_panel(runs.run(f"seed_{seed}", "discrete", SCENE, f"loading/inertial_number={inertial:g}", f"loading/axial_strain={STRAIN}",
-                                 "loading/stage_strain=0.01", *source, *self.settings))
+                                 "loading/stage_strain=0.01", f"sample/file={sample_file(seed)}", *self.settings))
 
     def load_by_lammps(self, options, inertial, seed, folder):
         if options.lammps == "stored":
@@ -128,10 +125,6 @@ def store(found):
 def methods(options, inertial):
     nscd = [Method("NSCD h =", f"{h:g}", [f"discrete/step={h:g}", TIGHT[inertial]]) for h in STEPS[inertial]]
     nscd += [Method("NSCD accuracy", "auto", [])]
-    for name, program in options.also:
-        nscd += [Method(f"NSCD {name} h =", f"{h:g}", [f"discrete/step={h:g}", f"discrete/tolerance={NOISE[inertial] * inertial / h:g}", "discrete/snapshot_max_sweeps=0"],
-                        program)
-                 for h in STEPS[inertial]]
     if options.quick:
         return nscd
     penalty = [Method("penalty kn/P =", f"{k:g}", ["discrete/method=penalty", f"discrete/penalty_stiffness={k:g}"])
@@ -183,7 +176,6 @@ def main():
     parser.add_argument("--output", help="folder for the result folders; default: thrown away")
     parser.add_argument("--reuse", action="store_true", help="keep runs that are already in --output")
     parser.add_argument("--jobs", type=int, default=1, help="runs side by side; CPU times suffer")
-    parser.add_argument("--also", action="append", default=[], type=lambda text: tuple(text.split("=", 1)))
     parser.add_argument("--lammps", choices=("run", "stored"), default="stored")
     parser.add_argument("--store", action="store_true")
     parser.add_argument("--figures")
@@ -213,7 +205,7 @@ def main():
             store(found)
         if options.figures:
             import charts
-            charts.draw(found, lambda columns: strength(columns, *JUDGED), options.figures)
+            charts.draw(found, options.figures)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@
 """figure.py DIR FIGURE.png [--quantities strength,dilation] [--columns 3] [--no-maps]
 
 DIR: folder of a study (`diptych study`). Draws error against CPU seconds of the given quantities (default: those with a limit), then
-the maps of classes, row by row. Uses the functions of the report. Needs h5py and matplotlib."""
+the maps of classes, row by row. A study with ranges: Sobol indices of the given quantities. Uses the functions of the report. Needs h5py and matplotlib."""
 import argparse
 import math
 import os
@@ -14,8 +14,10 @@ import textwrap
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(HERE, "../../coupling/report"))
+from diptych_report.charts import sensitivity  # noqa: E402
 from diptych_report.charts import study as charts  # noqa: E402
 from diptych_report.charts import style  # noqa: E402
+from diptych_report.data.sensitivity import by_total, labels  # noqa: E402
 from diptych_report.data.study import CLASSES, load  # noqa: E402
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: E402
@@ -24,6 +26,11 @@ from matplotlib.figure import Figure  # noqa: E402
 
 def panels(study, names, with_maps):
     """[(title, function of axes)]"""
+    if "sensitivity" in study.record:
+        record = study.record["sensitivity"]
+        return [(f"{one['quantity']} (Q² {one['q2']:.3f})",
+                 lambda axes, one=one: sensitivity.draw_indices(axes, by_total(one), labels(record)))
+                for one in record["indices"] if one["quantity"] in names]
     found = []
     for reference in study.references:
         held = ", ".join(study.points[reference]["labels"])
@@ -58,9 +65,10 @@ def main():
         axes = figure.add_subplot(rows, options.columns, k + 1)
         draw(axes)
         axes.set_title(title, fontsize=9.5)
+    with_maps = not options.no_maps and "sensitivity" not in study.record
     letters = "; ".join(f"{look[2]} {name}" for name, look in CLASSES.items())
     words = f"{letters}; below: the error that is largest against its limit; ?: the samples leave a doubt"
-    lines = [study.record["title"], *(textwrap.wrap(words, 62 * options.columns) if not options.no_maps else [])]
+    lines = [study.record["title"], *(textwrap.wrap(words, 62 * options.columns) if with_maps else [])]
     figure.suptitle("\n".join(lines), fontsize=9)
     figure.savefig(options.figure, dpi=80)
 

@@ -99,6 +99,7 @@ namespace diptych::coupling
     v({"step_length", "time", "length of the step"}, s.step_length);
     v({"max_penetration_d", "mean diameters", "largest penetration of two grains"}, s.max_penetration);
     v({"mean_inertial_number", "-", "mean inertial number"}, s.mean_inertial_number);
+    v({"impact_share", "-", "share of impacts in the dissipation from 0.3 % strain on"}, s.impact_share);
     v({"energy_residual", "-", "relative residual of the energy balance"}, s.energy_residual);
     v({"momentum_residual", "-", "relative residual of the momentum balance"}, s.momentum_residual);
     v({"residual", "-", "largest contact residual (natural map, relative)"}, s.residual);

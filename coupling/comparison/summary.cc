@@ -44,6 +44,18 @@ namespace diptych::coupling
       return (mean("lower_fy") - mean("upper_fy")) / 2 / (scene.loading.pressure * scene.sample.mean_diameter);
     }
 
+    // Over the range of the later strength. NaN along time and without dissipation.
+    double impact_share(const discrete::LoadingMode mode, const HistoryTable &h)
+    {
+      const std::vector<double> &progress = column(h, "progress");
+      if (mode == discrete::LoadingMode::time || !is_beyond(progress.back(), early_strain))
+        return NAN;
+      const auto   first   = std::upper_bound(progress.begin(), progress.end(), early_strain) - progress.begin();
+      const auto   growth  = [&](const char *name) { return column(h, name).back() - column(h, name)[std::size_t(first)]; };
+      const double impacts = growth("impact_dissipation"), sum = impacts + growth("friction_dissipation");
+      return sum > 0 ? impacts / sum : NAN;
+    }
+
     Strength strength_of(const discrete::LoadingMode mode, const HistoryTable &history)
     {
       if (mode == discrete::LoadingMode::time)
@@ -73,6 +85,7 @@ namespace diptych::coupling
     s.max_penetration              = largest(column(h, "max_penetration"));
     s.mean_inertial_number         = sum_of(column(h, "inertial_number")) / double(results.rows.size());
     s.energy_residual              = largest(column(h, "energy_residual"));
+    s.impact_share                 = impact_share(scene.loading.mode, h);
     s.momentum_residual            = largest(column(h, "momentum_residual"));
     s.residual                     = largest(column(h, "residual"));
     s.peak                         = peak_of_running_mean(h, "stress_ratio", averaging_width(scene));

@@ -26,6 +26,7 @@ namespace diptych::coupling
     double        sweeps = 0, step_length = NAN; // [-], [time]
     double        max_penetration      = NAN;    // [mean diameters]
     double        mean_inertial_number = NAN;
+    double        impact_share         = NAN; // of the dissipation from 0.3 % strain on
     double        energy_residual = NAN, momentum_residual = NAN, residual = NAN;
     double        solver_noise       = NAN; // residual x step [d sqrt(rho/P)] / mean inertial number
     double        grain_stress_error = NAN; // error / residual x residual; NaN if it was not measured

@@ -111,6 +111,22 @@ namespace diptych::coupling
           ->check(one_of(choices_of(Choice())));
       }
 
+      void add_many_runs(CLI::App *to)
+      {
+        add_set(to);
+        add_threads(to);
+        add_jobs(to, "");
+        add_resume(to, "keep finished runs, compute the others");
+        add_overwrite(to);
+        add_quiet(to);
+      }
+
+      CLI::Option *add_levels(CLI::App *to)
+      {
+        return to->add_option("--levels", ignored, "auto, or two accuracies: means of the grains in the limit of short steps")
+          ->type_name("LEVELS");
+      }
+
       void add_run()
       {
         CLI::App *run = add(Command::run, "compute grains and continuum, compare them and draw the report");
@@ -124,6 +140,7 @@ namespace diptych::coupling
           "and verdicts (default folder: results/<scene name>_ensemble; also under mpirun)");
         seeds->type_name("LIST")->check(
           [](const std::string &list) { return list.empty() ? "the list is empty; a list like 1-8" : ""; });
+        add_levels(run)->needs(seeds);
         add_jobs(run, "with --seeds: ")->needs(seeds);
         run->add_flag("--check", line.checks_only, "check the scene and its first sample, print the resources, compute nothing");
         add_quiet(run);
@@ -143,13 +160,9 @@ namespace diptych::coupling
           ->type_name("LIST");
         study->add_option("--panels", ignored, "with --vary: the panels that run (default: both, which bands need)")
           ->check(one_of({"both", "discrete", "continuum"}));
+        add_levels(study);
         add_output(study, "folder of the study (default: results/<name>_study)");
-        add_set(study);
-        add_threads(study);
-        add_jobs(study, "");
-        add_resume(study, "keep finished runs, compute the others");
-        add_overwrite(study);
-        add_quiet(study);
+        add_many_runs(study);
       }
 
       void add_calibrate()
@@ -161,13 +174,8 @@ namespace diptych::coupling
                        "scene file with --seeds, which takes the standard parameters, or calibration file, .json")
           ->required();
         calibrate->add_option("--seeds", ignored, "with a scene: samples of the fit, a list like 1-4")->type_name("LIST");
-        add_set(calibrate);
         add_output(calibrate, "folder of the calibration (default: results/<name>_calibration)");
-        add_threads(calibrate);
-        add_jobs(calibrate, "");
-        add_resume(calibrate, "keep finished runs, compute the others");
-        add_overwrite(calibrate);
-        add_quiet(calibrate);
+        add_many_runs(calibrate);
       }
 
       void add_plan()
@@ -175,9 +183,6 @@ namespace diptych::coupling
         CLI::App *plan = add(Command::plan, "find step, elements, load steps, law and number of samples for an accuracy, from "
                                             "short pilot runs");
         add_scene(plan);
-        add_set(plan);
-        add_threads(plan);
-        add_jobs(plan, "");
         plan
           ->add_option("--accuracy", ignored,
                        "relative, of the means: 2 % or 0.02; covers errors of the method and the 95 % interval")
@@ -189,9 +194,7 @@ namespace diptych::coupling
                        "width_10_90, angle, or a number of comparison.json; for one panel, put discrete. or continuum. before it")
           ->type_name("NAMES");
         plan->add_flag("--run", "also run the planned samples");
-        add_resume(plan, "keep finished runs, compute the others");
-        add_overwrite(plan);
-        add_quiet(plan);
+        add_many_runs(plan);
       }
 
       void add_panels()
@@ -208,9 +211,7 @@ namespace diptych::coupling
           ->check(one_of({"step"}));
         add_quiet(grains);
 
-        CLI::App *continuum = add(Command::continuum,
-                                  "compute only the continuum (continuum/mesh = outline prepares the grains); "
-                                  "also under mpirun");
+        CLI::App *continuum = add(Command::continuum, "compute only the continuum; also under mpirun");
         add_scene_output_set(continuum);
         add_resume(continuum, "an interrupted run");
         add_overwrite(continuum);

@@ -60,7 +60,7 @@ namespace diptych::coupling
       f.step_bound                         = r.step_bound;
       f.tolerance                          = r.tolerance;
       f.expected_strength_error            = r.expected.strength;
-      f.expected_dilation_error            = r.expected.dilation;
+      f.expected_dilation_error            = r.expected.dilation();
       f.halved_steps                       = r.halved_steps;
       f.kinetic_energy_bursts              = bursts(rows);
       f.ns_per_update                      = r.updates > 0 ? 1e9 * r.solver_cpu_s / double(r.updates) : 0;
@@ -117,10 +117,10 @@ namespace diptych::coupling
       doubt_idle_grains(rows, scene, out);
       doubt_sample(report, options, out);
       if (report.expected.strength > doubtful_strength)
-        out << "steps of " << report.step << " add about " << 100 * report.expected.strength
-            << " % to the strength; discrete/step = auto keeps to discrete/accuracy\n";
-      if (report.expected.dilation > doubtful_dilation)
-        out << "a tolerance of " << report.tolerance << " at this step loses about " << 100 * report.expected.dilation
+        out << "steps of " << report.step << " change the strength by about " << 100 * report.expected.strength
+            << " %; discrete/step = auto keeps to discrete/accuracy\n";
+      if (report.expected.dilation_loss > doubtful_dilation)
+        out << "a tolerance of " << report.tolerance << " at this step loses about " << 100 * report.expected.dilation_loss
             << " % of the dilation; discrete/tolerance = auto keeps to " << discrete::dilation_share << " discrete/accuracy\n";
       double penetration = 0;
       for (const discrete::HistoryRow &row : rows)

@@ -59,7 +59,7 @@ namespace diptych::python
       report["sweeps"]                  = r.sweeps;
       report["halved_steps"]            = r.halved_steps;
       report["expected_strength_error"] = r.expected.strength;
-      report["expected_dilation_error"] = r.expected.dilation;
+      report["expected_dilation_error"] = r.expected.dilation();
       report["preparation_cpu_s"]       = r.preparation_cpu_s;
       report["loading_cpu_s"]           = r.loading_cpu_s;
       return report;

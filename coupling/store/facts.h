@@ -52,7 +52,8 @@ namespace diptych::coupling
     v({"tolerance", "-", "residual at which the steps of the last stage ended"}, f.tolerance);
     v({"expected_strength_error", "-", "relative error of the strength expected for this step and strain rate"},
       f.expected_strength_error);
-    v({"expected_dilation_error", "-", "relative loss of dilation expected for this tolerance and step"},
+    v({"expected_dilation_error", "-",
+       "relative error of the dilation expected: what the step adds, less what the tolerance takes"},
       f.expected_dilation_error);
     v({"halved_steps", "-", "steps halved because the sweeps stalled"}, f.halved_steps);
     v({"kinetic_energy_bursts", "-", "times the kinetic energy rose above twice M|V|²/4"}, f.kinetic_energy_bursts);

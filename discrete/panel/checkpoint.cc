@@ -59,7 +59,7 @@ namespace diptych::discrete
       visit("preparation_overlap", r.preparation.soft_overlap);
       visit("report_tolerance", r.tolerance);
       visit("expected_strength_error", r.expected.strength);
-      visit("expected_dilation_error", r.expected.dilation);
+      visit("expected_dilation_loss", r.expected.dilation_loss);
       visit("preparation_settling_steps", r.preparation.settling_steps);
       visit("preparation_largest_overlap", r.preparation.largest_overlap);
       visit("preparation_friction", r.preparation.friction);

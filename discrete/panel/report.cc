@@ -21,7 +21,7 @@ namespace diptych::discrete
 
   void note(Report &report, const ExpectedErrors &errors)
   {
-    report.expected.strength = std::max(report.expected.strength, errors.strength);
-    report.expected.dilation = std::max(report.expected.dilation, errors.dilation);
+    report.expected.strength      = std::max(report.expected.strength, errors.strength);
+    report.expected.dilation_loss = std::max(report.expected.dilation_loss, errors.dilation_loss);
   }
 } // namespace diptych::discrete

@@ -54,10 +54,10 @@ namespace diptych::discrete
 
     constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    // Coefficients of the relative errors, as measured (benchmarks/studies). The error of the strength grows with the step in
-    // units of d sqrt(rho/s) and with the strain per step. The error of the dilation grows with tolerance x step / I and with the
-    // step.
-    constexpr double strength_of_step = 0.05, strength_of_strain = 55;
+    // Coefficients of the relative errors, as measured (benchmarks/rigid_limit, benchmarks/studies). The error of the strength is
+    // the larger of two: it grows with the root of the step in units of d sqrt(rho/s), and in fast flow with the strain per step.
+    // The error of the dilation grows with tolerance x step / I and with the step.
+    constexpr double strength_of_root = 0.06, strength_of_strain = 55;
     constexpr double dilation_of_noise = 0.2, dilation_of_noise_and_step = 0.8;
     // Residuals add up along extended chains, so larger samples lose more.
     constexpr double grains_of_rule = 1000, power_of_grains = 0.75;
@@ -86,7 +86,14 @@ namespace diptych::discrete
 
     double strength_error(const double step, const double unit, const double rate)
     {
-      return strength_of_step * step / unit + strength_of_strain * rate * step;
+      return std::max(strength_of_root * std::sqrt(step / unit), strength_of_strain * rate * step);
+    }
+
+    // Inverse of strength_error, and at most the longest step that keeps the dilation.
+    double longest_step_for_strength(const double allowed, const double unit, const double rate)
+    {
+      const double root = allowed / strength_of_root;
+      return std::min({root * root * unit, allowed / (strength_of_strain * rate), longest_loading_step * unit});
     }
 
     double size_factor(const double n_grains)
@@ -146,7 +153,7 @@ namespace diptych::discrete
     StepChoice   choice{infinity, "none"};
     bound(choice, (sample.end_grains ? 1. : 5.) * unit, "forces");
     if (flow.rate > 0)
-      bound(choice, std::min(accuracy_of(flow) / strength_error(1, unit, flow.rate), longest_loading_step * unit), "strength");
+      bound(choice, longest_step_for_strength(accuracy_of(flow), unit, flow.rate), "strength");
     if (flow.rate > 0 && std::isfinite(unit))
       bound(choice,
             unit * longest_step(dilation_share * accuracy_of(flow) / size_factor(sample.n_grains),

@@ -38,7 +38,7 @@ class Package(unittest.TestCase):
     def test_it_names_what_it_needs(self):
         fields = subprocess.run(["dpkg-deb", "-f", self.package, "Depends"], check=True, capture_output=True, text=True).stdout
         for package in ("python3-h5py", "python3-matplotlib", "python3-jinja2", "python3-numpy", "python3-scipy", "python3-pandas",
-                        "python3-mpi4py", "python3-meshio", "libdeal.ii", "libhdf5-openmpi", "libc6"):
+                        "python3-mpi4py", "python3-meshio", "python3-emcee", "libdeal.ii", "libhdf5-openmpi", "libc6"):
             self.assertIn(package, fields)
 
     def test_no_file_of_it_knows_where_it_was_built(self):

@@ -10,10 +10,13 @@ import pytest
 import diptych
 from diptych import scenes
 from diptych.campaigns import plan_errors as errors
+from diptych.campaigns import plan_grains
+from diptych.campaigns.levels import limit_of
 from diptych.campaigns.plan_continuum import ContinuumPlan
 from diptych.campaigns.plan_errors import Estimate, GrainErrors
 from diptych.campaigns.plan_grains import GrainsPlan
-from diptych.campaigns.plan_question import Pilot, Question, planned, read_accuracy
+from diptych.campaigns.plan_question import Budget, PanelPlan, Part, Pilot, Question, planned, read_accuracy
+from diptych.campaigns.plan_springs import try_springs
 from diptych.campaigns.study_file import quantity
 
 RULE = Estimate(1, 0.5)
@@ -104,7 +107,8 @@ def grains_plan(accuracy, factor=1.0, scatter=0.04, noise=0.01, file=""):
 
 
 @pytest.mark.parametrize("accuracy", [0.02, 0.05, 0.1])
-def test_method_and_samples_together_keep_to_the_accuracy(accuracy):
+def test_method_and_samples_together_keep_to_the_accuracy(accuracy, monkeypatch):
+    monkeypatch.setattr(plan_grains, "FINE_LEVELS", (0.05,))  # one level only
     plan = grains_plan(accuracy)
     budget, truth = plan.quantities[0], float(last(plan.settings, "discrete/accuracy", "nan"))
     assert plan.reaches and 0.5 * accuracy < budget.total <= accuracy * (1 + 1e-12)
@@ -112,7 +116,35 @@ def test_method_and_samples_together_keep_to_the_accuracy(accuracy):
     assert plan.cpu_s == pytest.approx(0.05 / truth, rel=0.01) and plan.seeds[0] == 1
 
 
-def test_a_wrong_rule_is_detected_and_costs_more():
+def test_two_levels_replace_one_if_they_are_cheaper_and_keep_to_the_accuracy(monkeypatch):
+    """A hundred repetitions of the planned numbers of samples and pairs, whose bias is 1.0 x accuracy."""
+    plan, rng = grains_plan(0.02), np.random.default_rng(1)
+    cheap, fine, n, pairs = plan.levels["cheap"], plan.levels["fine"], plan.n_samples, plan.levels["pairs"]
+    errors_of_means = []
+    for _ in range(100):
+        of_sample = 0.3 * (1 + 0.04 * rng.normal(size=n))
+        x, y = (of_sample * (1 + 0.01 * rng.normal(size=n) + a) for a in (cheap, fine))
+        y[pairs:] = np.nan
+        errors_of_means.append(limit_of(x, y, fine / cheap).limit.value / 0.3 - 1)
+    assert np.quantile(np.abs(errors_of_means), 0.95) < 0.02 and 0 < pairs < n
+    monkeypatch.setattr(plan_grains, "FINE_LEVELS", (0.05,))
+    assert plan.total_cpu_s < 0.8 * grains_plan(0.02).total_cpu_s
+    assert plan.quantities[0].method == 0 and 0.015 < plan.quantities[0].total <= 0.02
+
+
+@pytest.mark.parametrize("cpu_s, used", [(3, True), (60, False)])
+def test_springs_replace_contact_dynamics_where_they_are_cheaper(cpu_s, used):
+    """Eight samples of 10 CPU s each; with springs 1 % of the accuracy of 3 % is taken, and more samples are needed."""
+    asked = [quantity("strength", step_error="strength")]
+    plan = PanelPlan("discrete", "discrete", [planned("discrete/accuracy", 0.01)], list(range(1, 9)), 10.0,
+                     quantities=[Budget("strength", 0.3, 0.02, [Part("step, tolerance", 0.01), Part("samples", 0.0167)])])
+    try_springs(plan, question(0.03), lambda task: Pilot(values=[[0.3]], sample_cpu_s=[cpu_s], cpu_s=cpu_s), asked)
+    assert (last(plan.settings, "discrete/method", "") == "penalty") == used
+    assert plan.quantities[0].total <= 0.03 and plan.total_cpu_s <= 80
+
+
+def test_a_wrong_rule_is_detected_and_costs_more(monkeypatch):
+    monkeypatch.setattr(plan_grains, "FINE_LEVELS", (0.05,))
     usual, worse = grains_plan(0.03), grains_plan(0.03, 6, 0.04, 0.002)
     finer = float(last(worse.settings, "discrete/accuracy", "nan"))
     assert worse.reaches and finer < float(last(usual.settings, "discrete/accuracy", "nan"))

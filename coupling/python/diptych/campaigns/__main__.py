@@ -24,7 +24,7 @@ def parsed(words: Sequence[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="diptych", allow_abbrev=False)
     for name in ("command", "target"):
         parser.add_argument(name)
-    for option in ("--output", "--seeds", "--accuracy", "--for", "--panels"):
+    for option in ("--output", "--seeds", "--accuracy", "--for", "--panels", "--levels"):
         parser.add_argument(option, default="")
     for option in ("--set", "--set-file", "--vary"):
         parser.add_argument(option, action="append", default=[])

@@ -96,6 +96,14 @@ class Campaign(CampaignResult):
         return pd.read_csv(path, float_precision="round_trip")
 
     @property
+    def sensitivity(self) -> pd.DataFrame:
+        """A study with ranges, sensitivity.csv: a row per quantity, panel and parameter with first and total index, the ends of
+        their 95 % intervals, q2 and the number of points used."""
+        if "sensitivity" not in self.numbers:
+            raise AttributeError("no sensitivity indices here; a study has them if its file has ranges")
+        return pd.read_csv(os.path.join(self.folder, "sensitivity.csv"), float_precision="round_trip")
+
+    @property
     def changes(self) -> pd.DataFrame:
         """The same study: a row per parameter, quantity and panel with change.value, change.low, change.high, verdict and
         samples_needed."""
@@ -231,6 +239,7 @@ def study(contents: Mapping[str, Any] | PathLike, output: PathLike, **options: A
     options   those of `diptych study`: jobs=2, threads=1, resume=True, overwrite=True, set={"section/key": value}
               With vary={"discrete/friction": [0.2, 0.3]} the contents are a scene: a path, or a dict as in diptych.scene().
               seeds=range(1, 4) are then the samples of each point, panels="discrete" runs one panel
+              levels="auto" adds means of the grains in the limit of short steps
 
     A dict is a file of the working directory during the call, OUTPUT.json; messages name it with its lines. They also name
     the options of the command line: for --resume add resume=True to the same call.

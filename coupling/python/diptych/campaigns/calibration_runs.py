@@ -24,12 +24,11 @@ from .engine import Options
 from .folders import Runs, SceneRun, read_json
 from .histories import is_beyond, mean_over, panel_table, running_mean
 from .input_file import Setting
+from .key_numbers import bands_between, snapshots_at
 from .points import on_sample, scene_run
 
 CURVE_POINTS = 120
 NO_CURVE = np.full(CURVE_POINTS, np.nan)
-SAME_PROGRESS = 1e-6
-BAND_OPTIONS = ("max_bands", "huber_threshold", "correlation_length", "minimum_jump", "residual_floor")
 
 
 @dataclass
@@ -93,26 +92,17 @@ def observe_history(scene: _diptych.Scene, observables: Sequence[Observable], ta
     return o
 
 
-def snapshots_at(snapshots: Sequence[Any], one: Observable) -> list[Any] | None:
-    """The snapshots at both edges of a window; None if one is missing."""
-    pair = [next((s for s in snapshots if abs(s.progress - at) < SAME_PROGRESS), None) for at in (one.low, one.high)]
-    return None if None in pair else pair
-
-
 def add_bands(o: Observation, scene: _diptych.Scene, observables: Sequence[Observable], snapshots: Sequence[Any],
               frames: Sequence[dict[str, Any]], of_grains: bool) -> Observation:
     """Adds ln(width / d) of the first band of every window. The continuum's bands are searched in the grains' frames, so that
     both panels are measured alike. A continuum without a band counts as half the sample's height wide, which cannot be told
     from a homogeneous deformation."""
-    keys = scene.dict()
-    options = {name: keys["comparison"][name] for name in BAND_OPTIONS}
-    d = keys["sample"]["mean_diameter"]
+    d = scene.dict()["sample"]["mean_diameter"]
     for frame, k in zip(frames, [k for k, one in enumerate(observables) if one.kind == "ln_width"]):
-        pair = snapshots_at(snapshots, observables[k])
+        pair = snapshots_at(snapshots, observables[k].low, observables[k].high)
         if pair is None:
             continue
-        moved = {**operators.increment(*pair), **({} if of_grains else frame)}
-        found = operators.find_bands(**moved, band_resamples=0, **options).bands
+        found = bands_between(scene, pair, {} if of_grains else frame)
         if found:
             o.values[k] = np.log(found[0].width_10_90 / d)
             o.angle_deg = abs(found[0].angle_deg) if scene.is_mirror_symmetric() else found[0].angle_deg
@@ -185,7 +175,7 @@ class CalibrationRuns:
         for other in self.calibration.targets:
             if other.name in self.outlines and other.is_same_path(target):
                 return self.outlines[other.name]
-        pairs = [snapshots_at(snapshots, one) for one in observables if one.kind == "ln_width"]
+        pairs = [snapshots_at(snapshots, one.low, one.high) for one in observables if one.kind == "ln_width"]
         if None in pairs:
             raise ValueError("an edge of comparison/window_edges is not a stage of the grains")
         frames = [{key: value for key, value in operators.increment(*pair).items()

@@ -18,13 +18,15 @@ import pandas as pd
 
 from .. import _diptych
 from ..errors import SceneError
-from . import ensemble_summary
+from . import ensemble_summary, validation
 from .engine import DONE, NOT_CONVERGED, Options, Run, complain, execute, panels, run_program, say
-from .folders import Folder, draw, read_json, write_arrays, write_json, write_text
+from .folders import Folder, Runs, draw, read_json, write_arrays, write_json, write_text
 from .histories import panel_table, resampled, running_mean
 from .input_file import read_seeds, settings_of
+from .level_runs import (Levels, add_summary, demand_rule, ensemble_levels, ensemble_quantities, fine_runs, of_members, paired_points,
+                         read_levels)
 from .members import Member, member_of
-from .statistics import line_statistics, paired, statistics, student_quantile
+from .statistics import line_statistics, statistics, student_quantile
 
 _LARGEST_ERROR_OF_THE_TOTAL = 1e-12  # above it `diptych run` ends with exit code 1
 _PANELS = ("discrete", "continuum")
@@ -39,8 +41,9 @@ def _values(members: Sequence[Member], name: str) -> list[float]:
     return [member.numbers.get(name, (math.nan,))[0] for member in members]
 
 
-def evaluate(members: Sequence[Member], margins: dict[str, float]) -> dict[str, Any]:
-    """quantities, bands and verdicts as ensemble.json has them. margins: comparison/margin_* of the scene."""
+def evaluate(members: Sequence[Member], margins: dict[str, float],
+             responses: validation.Responses = validation.Responses()) -> dict[str, Any]:
+    """quantities, bands, verdicts and validation as ensemble.json has them. margins: comparison/margin_* of the scene."""
     quantities: dict[str, dict[str, Any]] = {}
     for name, (_, unit, line, _place) in (pair for member in members for pair in member.numbers.items()):
         if name not in quantities:
@@ -48,7 +51,8 @@ def evaluate(members: Sequence[Member], margins: dict[str, float]) -> dict[str, 
             found = (line_statistics if line else statistics)(values)
             quantities[name] = {"name": name, "unit": unit, **found._asdict(), "values": values}
     bands = [_band_count(name, members) for name in dict.fromkeys(name for member in members for name in member.bands)]
-    return {"quantities": list(quantities.values()), "bands": bands, "verdicts": _verdicts(bands, margins, members, quantities)}
+    verdicts, rows = _verdicts(bands, margins, members, quantities, responses)
+    return {"quantities": list(quantities.values()), "bands": bands, "verdicts": verdicts, "validation": rows}
 
 
 def _band_count(name: str, members: Sequence[Member]) -> dict[str, Any]:
@@ -60,8 +64,10 @@ def _band_count(name: str, members: Sequence[Member]) -> dict[str, Any]:
 
 
 def _verdicts(bands: Sequence[dict[str, Any]], margins: dict[str, float], members: Sequence[Member],
-              quantities: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
-    """Differences continuum minus grains with verdicts: of single numbers, and of the bands in every window."""
+              quantities: dict[str, dict[str, Any]],
+              responses: validation.Responses) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+    """Differences continuum minus grains with verdicts, and rows of the validation: of single numbers, and of the bands in every
+    window."""
     asked = [(key, f"discrete_summary {key}", f"continuum_summary {key}", margin, kind) for key, margin, kind in (
         ("peak_stress_ratio", "margin_peak_stress_ratio", "relative"), ("strength", "margin_peak_stress_ratio", "relative"),
         ("platen_force_pd", "margin_peak_stress_ratio", "relative"), ("final_volumetric_strain", "margin_volumetric_strain", "absolute"))]
@@ -70,16 +76,19 @@ def _verdicts(bands: Sequence[dict[str, Any]], margins: dict[str, float], member
             asked += [(f"{window} band {key}", f"{window} discrete band {key}", f"{window} continuum band {key}", margin, kind)
                       for key, margin, kind in (("angle_deg", "margin_angle", "line"),
                                                 ("width_10_90_d", "margin_thickness", "relative"))]
-    verdicts = []
+    verdicts, rows = [], []
     for name, grains, continuum, margin, kind in asked:
         units = [quantities[one]["unit"] for one in (grains, continuum) if one in quantities]
-        unit = "-" if kind == "relative" else units[0] if units else "degrees" if kind == "line" else "-"
+        unit = units[0] if units else "degrees" if kind == "line" else "-"
         first, second = _values(members, grains), _values(members, continuum)
-        found = paired(first, second, kind)
-        verdicts.append({"quantity": name, "unit": unit, "margin": margins[margin], "relative": kind == "relative",
-                         "difference": found.difference, "difference_90": found.difference_90, "n": found.n,
-                         "verdict": found.verdict(margins[margin]), "discrete": first, "continuum": second})
-    return verdicts
+        parts = validation.uncertainties(name, (grains, continuum), kind == "line", members, responses)
+        found, row = validation.validated(name, kind, (first, second), parts, len(responses.draws))
+        verdict = found.verdict(margins[margin])
+        rows.append({**row, "unit": unit, "verdict": verdict})
+        verdicts.append({"quantity": name, "unit": "-" if kind == "relative" else unit, "margin": margins[margin],
+                         "relative": kind == "relative", "difference": found.difference, "difference_90": found.difference_90,
+                         "n": found.n, "verdict": verdict, "discrete": first, "continuum": second})
+    return verdicts, rows
 
 
 def with_means(members: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -110,8 +119,10 @@ def _write_curves(directory: str, scene: Any, seeds: Sequence[int]) -> None:
     write_arrays(os.path.join(directory, "ensemble.h5"), arrays, {"/": {"averaging_width": width}})
 
 
-def _record(scene: Any, seeds: Sequence[int], failed: Sequence[dict[str, Any]], interrupted: Sequence[int]) -> dict[str, Any]:
-    """ensemble.json, from the members that finished. Raises ValueError with the file of a member that is broken."""
+def _record(scene: Any, seeds: Sequence[int], failed: Sequence[dict[str, Any]], interrupted: Sequence[int],
+            runs: dict[str, Any]) -> dict[str, Any]:
+    """ensemble.json, from the members that finished. runs: those of validation.respond(). Raises ValueError with the file of a
+    member that is broken."""
     out = {one["seed"] for one in failed} | set(interrupted)
     done = [seed for seed in seeds if seed not in out]
     margins = {key: value for key, value in scene.dict()["comparison"].items() if key.startswith("margin_")}
@@ -122,12 +133,12 @@ def _record(scene: Any, seeds: Sequence[int], failed: Sequence[dict[str, Any]], 
             _diptych.check_part(folder, part)
         _demand_member(scene, seed)
         members.append(member_of(os.path.join(folder, "comparison.json"), folded))
-    found = evaluate(members, margins)
+    found = evaluate(members, margins, validation.responses_of(scene, done, members, runs))
     first = read_json(os.path.join(member_folder(scene.directory, done[0]), "comparison.json"))["summary"] if done else []
     return {"format": 1, "scene": scene.name, "seeds": list(seeds), "done": done, "failed": list(failed),
             "interrupted": list(interrupted), "margins": margins, "walk": scene.loading_variable(), "folded": folded,
             "student_t_95": student_quantile(0.975, n - 1) if n > 1 else math.nan,
-            "summary": ensemble_summary.summary(first, found), **found}
+            "continuum_runs": runs, "summary": ensemble_summary.summary(first, found), **found}
 
 
 def _write(scene: Any, record: dict[str, Any], options: Options, phase: tuple[str, os.times_result]) -> None:
@@ -195,16 +206,30 @@ def _finished(scene: Any, seeds: Sequence[int], options: Options) -> list[int]:
             stages = read_json(os.path.join(member.directory, "comparison.json"))["stages"]
             if all(stage["mapping"]["total_relative_error"] < _LARGEST_ERROR_OF_THE_TOTAL for stage in stages):
                 finished.append(seed)
-    _record(scene, finished, [], [])
+    _record(scene, finished, [], [], validation.NO_RUNS)
     return finished
 
 
-def _holds_finished(scene: Any, seeds: Sequence[int]) -> bool:
-    """True if the folder holds the finished ensemble of this scene and these seeds."""
+def _holds_finished(scene: Any, seeds: Sequence[int], levels: Levels | None) -> bool:
+    """True if the folder holds the finished ensemble of this scene, these seeds and these levels."""
     earlier, record = _diptych.resolved_scene(os.path.join(scene.directory, "ensemble.prm")), os.path.join(scene.directory, "ensemble.json")
     return (earlier is not None and earlier.identity("member") == scene.identity("member") and os.path.exists(record)
-            and read_json(record)["done"] == list(seeds)
+            and read_json(record)["done"] == list(seeds) and _levels_of(read_json(record)) == levels
             and all(_diptych.holds_finished_run(_member_scene(scene, seed)) for seed in seeds))
+
+
+def _levels_of(record: dict[str, Any]) -> Levels | None:
+    return Levels(record["levels"]["cheap"], record["levels"]["fine"]) if "levels" in record else None
+
+
+def _add_limits(scene: Any, record: dict[str, Any], given: tuple[str, list[Any]], levels: Levels, options: Options) -> None:
+    """Runs the pairs of two-level means and adds the limits to the record. given: scene file and its settings. Raises Stopped."""
+    seeds, wanted = record["done"], ensemble_quantities()
+    cheap = of_members([member_folder(scene.directory, seed) for seed in seeds], record)
+    fine = fine_runs(given[0], [*given[1], levels.setting("fine")], seeds, "--seeds")
+    os.makedirs(os.path.join(scene.directory, "runs"), exist_ok=True)
+    [point] = paired_points(Runs(scene.directory), [fine], [cheap], wanted, options)
+    add_summary(record, ensemble_levels(levels, seeds, point))
 
 
 def _origin(text: str) -> str:
@@ -216,14 +241,21 @@ def _origin(text: str) -> str:
 
 
 def run_ensemble(line: argparse.Namespace, options: Options) -> int:
-    """diptych run SCENE --seeds LIST. line: target, seeds, output, set, set_file. Returns the exit code."""
-    scene_file, seeds = line.target, read_seeds(line.seeds)
-    read = _diptych.read_changed_scene(scene_file, settings_of(line.set, line.set_file), True)
+    """diptych run SCENE --seeds LIST. line: target, seeds, levels, output, set, set_file. Returns the exit code."""
+    scene_file, seeds, levels = line.target, read_seeds(line.seeds), read_levels(line.levels)
+    settings = settings_of(line.set, line.set_file)
+    if levels:
+        settings.append(levels.setting("cheap"))
+    read = _diptych.read_changed_scene(scene_file, settings, True)
+    if levels:
+        demand_rule(read, levels)
     directory = line.output or (read.directory + "_ensemble" if read.directory == f"results/{read.name}" else read.directory)
     scene = read.in_folder(directory, read.name, read.dict()["sample"]["seed"])
     words = [word for option, values in (("--set-file", line.set_file), ("--set", line.set)) for value in values
              for word in (option, value)]
-    if not options.resume and not options.overwrite and _holds_finished(scene, seeds):
+    if levels:
+        words += ["--set", "discrete/accuracy=" + settings[-1].value]
+    if not options.resume and not options.overwrite and _holds_finished(scene, seeds, levels):
         say(options, f"{directory} holds the finished ensemble of this scene; --overwrite runs it again")
         say(options, f"its table: diptych compare {directory}")
         return 0
@@ -234,6 +266,7 @@ def run_ensemble(line: argparse.Namespace, options: Options) -> int:
                         str(options.threads), "--check"])  # whether scene, first sample and resources suffice
     if code:
         return code
+    variations = validation.variations(scene_file, settings, validation.draws_of(line.set_file, line.set))
     with Folder(directory) as folder:
         begin = os.times()
         _diptych.require_usable(directory, options.resume, options.overwrite)
@@ -248,15 +281,21 @@ def run_ensemble(line: argparse.Namespace, options: Options) -> int:
         ends = list(zip(pending, execute(tasks, options, noun="seeds", finished=len(finished))))
         failed = [{"seed": seed, "exit_code": outcome.exit_code, "message": outcome.message}
                   for seed, outcome in ends if outcome.exit_code and not outcome.interrupted]
-        record = _record(scene, seeds, failed, [seed for seed, outcome in ends if outcome.interrupted])
+        interrupted = [seed for seed, outcome in ends if outcome.interrupted]
+        done, runs = [seed for seed in seeds if seed not in [one["seed"] for one in failed]], validation.NO_RUNS
+        if done and not interrupted:
+            runs = validation.respond(directory, done[0], variations, done[0] in finished, options)
+        record = _record(scene, seeds, failed, interrupted, runs)
+        if levels and done and not interrupted:
+            _add_limits(scene, record, (scene_file, settings), levels, options)
         _write(scene, record, options, ("ensemble", begin))
         if scene.dict()["output"]["report"] and not record["interrupted"]:
             draw(options, "ensemble", directory)
-        done = f"{len(record['done'])} of {len(seeds)} seeds are done, kept in {directory}"
+        kept = f"{len(record['done'])} of {len(seeds)} seeds are done, kept in {directory}"
         if failed:
-            complain(f"failed: seed {', '.join(str(one['seed']) for one in failed)}; {done}")
+            complain(f"failed: seed {', '.join(str(one['seed']) for one in failed)}; {kept}")
         if record["interrupted"]:
-            complain(f"stopped on request; {done}; to go on: {options.again}")
+            complain(f"stopped on request; {kept}; to go on: {options.again}")
     return NOT_CONVERGED if failed or record["interrupted"] else DONE
 
 
@@ -273,7 +312,10 @@ def compare_again(line: argparse.Namespace, options: Options) -> int:
         scene = read.in_folder(directory, _diptych.recorded_scene(directory) or read.name, read.dict()["sample"]["seed"])
         _diptych.check_part(directory, "ensemble")
         earlier = read_json(os.path.join(directory, "ensemble.json"))
-        record = _record(scene, earlier["seeds"], earlier["failed"], earlier["interrupted"])
+        record = _record(scene, earlier["seeds"], earlier["failed"], earlier["interrupted"],
+                         earlier.get("continuum_runs", validation.NO_RUNS))
+        if "levels" in earlier:
+            add_summary(record, earlier["levels"])
         _write(scene, record, options, ("statistics", begin))
         if scene.dict()["output"]["report"]:
             draw(options, "ensemble", directory)

@@ -8,7 +8,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from .statistics import Interval, paired
+from .statistics import Interval
 
 _PANELS = ("discrete", "continuum")
 
@@ -17,22 +17,20 @@ def summary(member: Sequence[dict[str, Any]], record: dict[str, Any]) -> list[di
     """One row per quantity in the summary of a member's comparison.json. record: quantities and verdicts as in ensemble.json.
 
     Differences are continuum - grains in the unit of the row; verdicts are those of the record, with their margins."""
-    verdicts, quantities = record["verdicts"], {q["name"]: q for q in record["quantities"]}
+    verdicts, quantities = list(zip(record["verdicts"], record["validation"])), {q["name"]: q for q in record["quantities"]}
     asked = verdicts[:4] + (verdicts[-2:] if len(verdicts) > 4 else [])  # of the windows only the last
-    return [_row(name["quantity"], name["unit"], verdict, quantities) for name, verdict in zip(member, asked)]
+    return [_row(name["quantity"], name["unit"], *pair, quantities) for name, pair in zip(member, asked)]
 
 
-def _row(quantity: str, unit: str, verdict: dict[str, Any], quantities: dict[str, Any]) -> dict[str, Any]:
+def _row(quantity: str, unit: str, verdict: dict[str, Any], validation: dict[str, Any],
+         quantities: dict[str, Any]) -> dict[str, Any]:
     window, _, key = verdict["quantity"].rpartition(" band ")
     of = [quantities.get(f"{window} {panel} band {key}" if window else f"{panel}_summary {key}") for panel in _PANELS]
     grains, continuum = (Interval(q["mean"], q["low"], q["high"]) if q else Interval(*[math.nan] * 3) for q in of)
-    difference = verdict["difference"]
-    if verdict["relative"]:
-        difference = paired(verdict["discrete"], verdict["continuum"]).difference
     margin = f"{100 * verdict['margin']:g} %" if verdict["relative"] else f"{verdict['margin']:g}"
     words = {"equivalent": f"equivalent within {margin}", "different": f"different by more than {margin}",
              "cannot tell": f"cannot tell (margin {margin})"}[verdict["verdict"]]
-    return {"quantity": quantity, "unit": unit, "grains": grains, "continuum": continuum, "difference": difference,
+    return {"quantity": quantity, "unit": unit, "grains": grains, "continuum": continuum, "difference": validation["E"],
             "verdict": words if verdict["n"] else "not in both panels"}
 
 

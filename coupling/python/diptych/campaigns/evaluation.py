@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from .effects import mean_of
+from .levels import Limit
 from .points import Point, RunResult
 from .statistics import Interval, jackknife_convergence, known, line_statistics, paired, statistics
 from .study_file import Study
@@ -67,8 +68,10 @@ def _classify(study: Study, runs: Sequence[RunResult], point: dict[str, Any]) ->
     return "struggled" if point["halved_steps"] or point["cut_backs"] else "right", certain
 
 
-def evaluate(study: Study, points: Sequence[Point], results: Results) -> list[dict[str, Any]]:
-    """The points as study.json has them: errors are point minus reference, sample by sample. Without a reference: means."""
+def evaluate(study: Study, points: Sequence[Point], results: Results,
+             limits: Sequence[Sequence[Limit]] | None = None) -> list[dict[str, Any]]:
+    """The points as study.json has them: errors are point minus reference, sample by sample. Without a reference: means.
+    limits: [point][last quantities], two-level means."""
     records = []
     for point, runs in zip(points, results):
         values = [[run.values[q] for run in runs] for q in range(len(study.quantities))]
@@ -79,6 +82,8 @@ def evaluate(study: Study, points: Sequence[Point], results: Results) -> list[di
             "halved_steps": max(run.halved_steps for run in runs), "cut_backs": max(run.cut_backs for run in runs)}
         if study.reference is None:
             record["quantities"] = [mean_of(*one) for one in zip(study.quantities, values)]
+            for one, limit in zip(reversed(record["quantities"]), reversed(limits[len(records)]) if limits else ()):
+                one |= dict(zip(("mean", "low", "high"), limit.limit))
         else:
             of_reference = [[run.values[q] for run in results[point.reference]] for q in range(len(study.quantities))]
             record["reference"] = point.reference

@@ -6,18 +6,24 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import pandas as pd
 
+from .. import _diptych, operators
+from ..arrays import Band
 from .folders import read_json
 from .histories import is_beyond, mean_over, running_mean, stress_ratio_of_means
 
 PEAK, STRENGTH, VOLUME = "peak t/s", "strength T/S from 0.3 % strain", "volumetric strain at the end"
 FORCE = "platen force from 0.3 % strain"
-# name, unit, whether it is the angle of a line; bands are found only where both panels run
-OF_ONE_PANEL = ((PEAK, "-", False), (STRENGTH, "-", False), (FORCE, "P d", False), (VOLUME, "-", False))
-OF_BOTH_PANELS = (*OF_ONE_PANEL, ("inclination of the band", "degrees", True), ("10-90 % width of the band", "mean diameters", False))
+ANGLE, WIDTH = "inclination of the band", "10-90 % width of the band"
+# name, unit, whether it is the angle of a line; grains alone have no bands here
+OF_GRAINS = ((PEAK, "-", False), (STRENGTH, "-", False), (FORCE, "P d", False), (VOLUME, "-", False))
+OF_BOTH_PANELS = (*OF_GRAINS, (ANGLE, "degrees", True), (WIDTH, "mean diameters", False))
+BAND_OPTIONS = ("max_bands", "huber_threshold", "correlation_length", "minimum_jump", "residual_floor")
+SAME_PROGRESS = 1e-6
 _EARLY = 0.003  # the strength before depends on the start
 _ROWS = {"discrete": "grains", "continuum": "continuum", "difference": "difference"}
 
@@ -40,7 +46,36 @@ def key_values(folder: str, scene: Any, tables: dict[str, pd.DataFrame | None]) 
                        else stress_ratio_of_means(table, _EARLY, table["progress"].iloc[-1]),
                        (panel, FORCE): math.nan if along_time else _platen_force(scene, table),
                        (panel, VOLUME): float(table["volumetric_strain"].iloc[-1])}
+    if tables.get("continuum") is not None:
+        values |= _band_of_nodes(folder, scene)
     return values
+
+
+def snapshots_at(snapshots: Sequence[Any], *progress: float) -> list[Any] | None:
+    """The snapshots at each progress; None if one is missing."""
+    found = [next((s for s in snapshots if abs(s.progress - at) < SAME_PROGRESS), None) for at in progress]
+    return None if None in found else found
+
+
+def bands_between(scene: Any, pair: Sequence[Any], frame: Mapping[str, Any]) -> list[Band]:
+    """The bands of the increment between two snapshots, the strongest first, without intervals. frame: replaces that of the
+    snapshots."""
+    keys = scene.dict()
+    options = {name: keys["comparison"][name] for name in BAND_OPTIONS}
+    return operators.find_bands(**{"mean_diameter": keys["sample"]["mean_diameter"], **operators.increment(*pair), **frame},
+                                band_resamples=0, **options).bands
+
+
+def _band_of_nodes(folder: str, scene: Any) -> dict[tuple[str, str], float]:
+    """Inclination and width of the continuum's strongest band in the last window; nothing without a band."""
+    edges = scene.dict()["comparison"]["window_edges"]
+    last = [float(edge) for edge in (edges.split(",") if isinstance(edges, str) else edges)][-2:]
+    pair = snapshots_at(_diptych.read_nodes(folder).snapshots, *last)
+    found = bands_between(scene, pair, {}) if pair else []
+    if not found:
+        return {}
+    angle = abs(found[0].angle_deg) if scene.is_mirror_symmetric() else found[0].angle_deg
+    return {("continuum", ANGLE): angle, ("continuum", WIDTH): found[0].width_10_90 / scene.dict()["sample"]["mean_diameter"]}
 
 
 def _platen_force(scene: Any, table: pd.DataFrame) -> float:

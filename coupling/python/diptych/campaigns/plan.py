@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import math
 import os
 from collections.abc import Sequence
 from dataclasses import replace
@@ -18,10 +19,11 @@ from .. import _diptych
 from ..errors import Stopped
 from .engine import DONE, NOT_CONVERGED, Options, complain, tell
 from .folders import Folder, Runs, write_json, write_text
+from .levels import limit_of
 from .plan_continuum import ContinuumPlan
 from .plan_errors import half_interval, samples_for, summary_of
 from .plan_grains import GrainsPlan
-from .plan_question import PanelPlan, Pilot, Plan, Question, Task, percent, read_question, text_of
+from .plan_question import PanelPlan, Pilot, Plan, Question, Task, percent, planned, read_question, text_of
 from .points import RunResult, on_sample, result_of, scene_run
 
 LEAST_SHARE_THAT_FINISHES = 0.75  # other samples are left out, as long as they are few
@@ -82,15 +84,24 @@ def _carry_out(question: Question, plan: Plan, panel: PanelPlan, pilot: PilotRun
     """Runs the planned samples of a panel, and more if they scatter more than the pilot's did. True: it is accurate."""
     most, seeds, wanted = 2 * panel.n_samples + SPARE_SAMPLES, list(panel.seeds), question.quantities[panel.panel]
     while True:
-        point = pilot.run(Task(panel.command, [*question.changes, *plan.settings], seeds, wanted))
+        settings = [*question.changes, *plan.settings]
+        point, fine = pilot.run(Task(panel.command, settings, seeds, wanted)), None
         panel.outcomes, panel.outcome_cpu_s = [], point.cpu_s
-        if point.failure:
-            panel.decisions.append(f"--run: {point.failure}")
+        if panel.levels:
+            n_pairs = min(len(seeds), math.ceil(len(seeds) * panel.levels["pairs"] / panel.n_samples))
+            settings = [*settings, planned("discrete/accuracy", panel.levels["fine"])]
+            fine = pilot.run(Task(panel.command, settings, seeds[:n_pairs], wanted))
+        if point.failure or fine and fine.failure:
+            panel.decisions.append(f"--run: {point.failure or fine.failure}")
             return False
-        for q, values in zip(wanted, point.values):
-            found, scatter = summary_of(values, q["line"])
-            panel.outcomes.append({"name": q["name"], "n": found.n, "mean": found.mean, "scatter": scatter,
-                                   "half_interval": half_interval(scatter, found.n) if found.n > 1 else np.nan})
+        for k, q in enumerate(wanted):
+            found, scatter = summary_of(point.values[k], q["line"])
+            half, mean = half_interval(scatter, found.n) if found.n > 1 else np.nan, found.mean
+            if fine:
+                ratio = fine.expected_error["strength"] / point.expected_error["strength"]
+                limit = limit_of(point.values[k], fine.values[k] + [np.nan] * (len(seeds) - n_pairs), ratio).limit
+                half, mean = (limit.high - limit.low) / 2 / abs(limit.value), limit.value
+            panel.outcomes.append({"name": q["name"], "n": found.n, "mean": mean, "scatter": scatter, "half_interval": half})
         missing = _missing(question.accuracy, panel, len(seeds))
         if missing == 0 or len(seeds) >= most:
             return missing == 0
@@ -101,7 +112,9 @@ def _missing(accuracy: float, panel: PanelPlan, n: int) -> int:
     """How many samples more the intervals need. Some samples may have no value, such as the width of a band."""
     missing = 0
     for outcome, budget in zip(panel.outcomes if n > 1 else (), panel.quantities):
-        if not outcome["half_interval"] + budget.method <= accuracy:
+        if panel.levels and not outcome["half_interval"] + budget.method <= accuracy:
+            missing = max(missing, math.ceil(n * (outcome["half_interval"] / (accuracy - budget.method))**2) - n)
+        elif not outcome["half_interval"] + budget.method <= accuracy:
             needed, share = samples_for(outcome["scatter"], accuracy - budget.method), outcome["n"] / n
             missing = max(missing, n if needed == 0 or share == 0 else max(1, int(needed / share) - n))
     return missing

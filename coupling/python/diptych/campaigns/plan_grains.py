@@ -3,7 +3,7 @@
 """The pilot runs eight samples at the coarsest discrete/accuracy and four of them at half of it. They give scatter and cost,
 and test the rule for the errors of step and tolerance (a factor, 1 +- 0.5 beforehand). The plan takes the accuracy that reaches
 the goal with the least CPU time. A coarser one is cheaper, but leaves less for the interval of the mean and so needs more
-samples."""
+samples. Two levels (levels.py) replace it if they save a fifth of that time."""
 
 from __future__ import annotations
 
@@ -14,9 +14,11 @@ import numpy as np
 
 from .. import _diptych
 from .input_file import Setting
-from .plan_errors import (COARSEST_ACCURACY, FINEST_ACCURACY, Estimate, GrainErrors, cheapest_choice, cost_at, half_interval,
-                          improved, relative_difference, rounded_to_two_digits, samples_for, summary_of)
+from .levels import LEAST_PAIRS, MOST_RATIO, Variances, numbers_for, predicted
+from .plan_errors import (COARSEST_ACCURACY, FINEST_ACCURACY, MOST_SAMPLES_OF_A_PLAN, Estimate, GrainErrors, cheapest_choice,
+                          cost_at, half_interval, improved, relative_difference, rounded_to_two_digits, samples_for, summary_of)
 from .plan_question import Budget, PanelPlan, Part, Pilot, Question, RunPilot, Task, percent, planned
+from .plan_springs import may_pay, try_springs
 from .statistics import Statistics
 
 PILOT_SAMPLES, PAIRED_SAMPLES = 8, 4
@@ -28,6 +30,8 @@ SHARE_OF_A_KNOB = 0.25  # of the accuracy: the largest change by a cheaper setti
 FAR_FROM_THE_PILOT = 1.5  # a choice finer by this factor is run,
 FURTHEST_AHEAD = 4  # at most this factor ahead at a time
 NORMAL = 1.959963984540054  # 97.5 % quantile
+FINE_LEVELS = (0.02, 0.014, 0.01, 0.007, 0.005, 0.0035, 0.0025)  # discrete/accuracy of the second of two levels
+WORTH_TWO_LEVELS = 0.8  # of the time of one level
 
 
 @dataclass
@@ -66,6 +70,7 @@ class GrainsPlan:
                             for key in ("coarse_element_size", "band_resamples", "probe_resamples")]
         self.corrects = keys["discrete"]["penetration_correction"] != "none"
         self.preparation_steps = keys["sample"]["preparation_steps"]
+        self.springs_may_pay = may_pay(keys)
         self.levels: list[Level] = []
         self.cheaper: dict[str, list[float]] = {}  # cheaper settings in use: effect on each quantity, with sign
         self.one_run = [0.0] * len(self.quantities)  # half an interval of a single run, for a single sample
@@ -87,7 +92,10 @@ class GrainsPlan:
                 ahead = rounded_to_two_digits(self.levels[-1].accuracy / FURTHEST_AHEAD)
                 self._add_level(max(choice[0], ahead), self.seeds[:PAIRED_SAMPLES])
                 choice = self._choose()
-            self._conclude(*choice)
+            two = self._two_levels(choice)
+            self._conclude(*choice, two)
+            if self.springs_may_pay:
+                try_springs(self.plan, self.question, self.run, self.quantities)
         except _Unfinished:
             self.plan.reaches = False
         return self.plan
@@ -110,8 +118,9 @@ class GrainsPlan:
         return relative_difference(one.values[q], other.values[q], self.quantities[q]["line"])
 
     def _expected(self, level: Level, q: int) -> float:
-        """Both errors are upwards: long steps increase the strength and decrease the dilation, which is negative."""
-        return level.point.expected_error["dilation" if self.quantities[q]["step_error"] == "dilation" else "strength"]
+        """Long steps increase the strength and the dilation, which is negative."""
+        errors = level.point.expected_error
+        return -errors["dilation"] if self.quantities[q]["step_error"] == "dilation" else errors["strength"]
 
     def _errors(self) -> list[GrainErrors]:
         found = []
@@ -132,11 +141,54 @@ class GrainsPlan:
         return [(level.accuracy, level.cpu_s) for level in self.levels]
 
     def _choose(self) -> tuple[float, int]:
-        taken = [sum(abs(shifts[q]) for shifts in self.cheaper.values()) + alone for q, alone in enumerate(self.one_run)]
-        return cheapest_choice(self._errors(), self._cost(), self.question.accuracy - max(taken), 0 if self.seeds else 1)
+        left = self.question.accuracy - max(self._taken())
+        return cheapest_choice(self._errors(), self._cost(), left, 0 if self.seeds else 1)
 
-    def _conclude(self, accuracy: float, samples: int) -> None:
+    def _variances(self, fine: float) -> list[Variances]:
+        """Of the relative means with levels at 0.05 and fine; empty if both have nearly the same step. How far the runs of a
+        sample diverge hardly depends on the fine accuracy, so all levels of the pilot tell it."""
+        found, cheap, last = [], self.levels[0].point, self.levels[-1]
+        ratio = last.point.expected_error["strength"] * fine / last.accuracy / cheap.expected_error["strength"]
+        for q, errors in enumerate(self._errors() if ratio <= MOST_RATIO else ()):
+            squares = [self._difference(cheap, level.point, q).deviation**2 for level in self.levels[1:]]
+            difference = errors.step.mean * fine * (1 / ratio - 1)  # a bias of step.mean x fine at the fine level
+            found.append(predicted(errors.scatter**2, float(np.mean(squares)), ratio, difference))
+        return found
+
+    def _numbers(self, fine: float) -> tuple[int, int, float]:
+        """(samples, pairs, CPU s) of a plan with two levels; infinite CPU s: no number suffices."""
+        found, costs = self._variances(fine), (self.levels[0].cpu_s, cost_at(self._cost(), fine))
+        half = self.question.accuracy - max(self._taken())
+        samples, pairs = numbers_for(found, costs, half, MOST_SAMPLES_OF_A_PLAN) if found else (0, 0)
+        return samples, pairs, samples * costs[0] + pairs * costs[1] if samples else np.inf
+
+    def _two_levels(self, one: tuple[float, int]) -> tuple[float, int, int] | None:
+        """(fine accuracy, samples, pairs) if two levels are clearly cheaper than one; one: its accuracy and samples. Quantities
+        without a rule have no known order. The fine accuracy is run before it is chosen."""
+        if not self.seeds or not all(asked["step_error"] for asked in self.quantities):
+            return None
+        fine = min(FINE_LEVELS, key=lambda fine: self._numbers(fine)[2])
+        limit = WORTH_TWO_LEVELS * one[1] * cost_at(self._cost(), one[0]) if one[1] else np.inf
+        if self._numbers(fine)[2] < limit and all(level.accuracy != fine for level in self.levels):
+            self._add_level(fine, self.seeds[:LEAST_PAIRS])
+            self.levels.sort(key=lambda level: -level.accuracy)
+        samples, pairs, cpu_s = self._numbers(fine)
+        used = cpu_s < limit
+        if samples:
+            of_one = f"takes {limit / WORTH_TWO_LEVELS:.3g} CPU s" if one[1] else "does not reach the accuracy"
+            self._note(f"two levels: discrete/accuracy = {COARSEST_ACCURACY} on {samples} samples and {fine} on {pairs} of "
+                       f"them, {cpu_s:.3g} CPU s; {'used' if used else 'not used'}, one level {of_one}")
+        return (fine, samples, pairs) if used else None
+
+    def _taken(self) -> list[float]:
+        """Of the accuracy, by cheaper settings and by single runs: one number per quantity."""
+        return [sum(abs(shifts[q]) for shifts in self.cheaper.values()) + alone for q, alone in enumerate(self.one_run)]
+
+    def _conclude(self, accuracy: float, samples: int, two: tuple[float, int, int] | None = None) -> None:
         plan = self.plan
+        if two:
+            accuracy, samples = COARSEST_ACCURACY, two[1]
+            plan.levels = {"cheap": accuracy, "fine": two[0], "pairs": two[2], "fine_cpu_s": cost_at(self._cost(), two[0])}
         plan.reaches = samples > 0
         if not plan.reaches:
             accuracy = float(np.clip(self.question.accuracy / 2, FINEST_ACCURACY, COARSEST_ACCURACY))
@@ -147,11 +199,14 @@ class GrainsPlan:
         plan.peak_memory_mb = self.levels[-1].point.peak_memory_mb
         for q, errors in enumerate(self._errors()):
             mean = summary_of(self.levels[0].point.values[q], self.quantities[q]["line"])[0].mean
-            parts = [Part("step, tolerance", errors.at(accuracy), errors.step.mean * accuracy,
-                          errors.step.deviation * accuracy),
-                     Part("samples", half_interval(errors.scatter, samples)) if self.seeds
-                     else Part("one run", self.one_run[q]),
-                     *(Part(name, abs(shifts[q]), shifts[q]) for name, shifts in self.cheaper.items())]
+            if two:
+                parts = [Part("samples, pairs and order", self._variances(two[0])[q].half_interval(*two[1:]))]
+            else:
+                parts = [Part("step, tolerance", errors.at(accuracy), errors.step.mean * accuracy,
+                              errors.step.deviation * accuracy),
+                         Part("samples", half_interval(errors.scatter, samples)) if self.seeds
+                         else Part("one run", self.one_run[q])]
+            parts += [*(Part(name, abs(shifts[q]), shifts[q]) for name, shifts in self.cheaper.items())]
             plan.quantities.append(Budget(self.quantities[q]["name"], mean, errors.scatter if self.seeds else np.nan, parts))
         self._report_levels()
         self._advise()

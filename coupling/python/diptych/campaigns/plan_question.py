@@ -90,7 +90,7 @@ class Budget:
     @property
     def method(self) -> float:
         """Without half the interval of the samples."""
-        return sum(part.error for part in self.parts if part.cause != "samples")
+        return sum(part.error for part in self.parts if not part.cause.startswith("samples"))
 
     @property
     def bias(self) -> float:
@@ -99,7 +99,8 @@ class Budget:
 
 @dataclass
 class PanelPlan:
-    """The plan of one panel. seeds: empty: the one sample of the scene. CPU time and memory are those of one sample."""
+    """The plan of one panel. seeds: empty: the one sample of the scene. CPU time and memory are those of one sample.
+    levels: of a plan with two levels: cheap and fine (discrete/accuracy), pairs, fine_cpu_s. The rest is that of the cheap one."""
 
     panel: str
     command: str
@@ -108,6 +109,7 @@ class PanelPlan:
     cpu_s: float = np.nan
     peak_memory_mb: float = 0.0
     reaches: bool = True
+    levels: dict[str, Any] = field(default_factory=dict)
     quantities: list[Budget] = field(default_factory=list)
     decisions: list[str] = field(default_factory=list)
     outcomes: list[dict[str, Any]] = field(default_factory=list)  # of --run
@@ -119,7 +121,8 @@ class PanelPlan:
 
     @property
     def total_cpu_s(self) -> float:
-        return self.cpu_s * self.n_samples if self.quantities else 0.0
+        of_pairs = self.levels["pairs"] * self.levels["fine_cpu_s"] if self.levels else 0.0
+        return self.cpu_s * self.n_samples + of_pairs if self.quantities else 0.0
 
     def record(self) -> dict[str, Any]:
         return {**vars(self), "settings": [one.text() for one in self.settings], "total_cpu_s": self.total_cpu_s,
@@ -263,6 +266,10 @@ def _panel_text(panel: PanelPlan) -> list[str]:
     seeds = f" (seeds {panel.seeds[0]}-{panel.seeds[-1]})" if len(panel.seeds) > 1 else ""
     lines.append(f"  {panel.command} on {panel.n_samples} sample{'s' if panel.n_samples > 1 else ''}{seeds}: "
                  f"{panel.cpu_s:.3g} CPU s each, {panel.total_cpu_s:.3g} s in all, {panel.peak_memory_mb:.3g} MB")
+    if panel.levels:
+        lines.append(f"  two levels: {panel.levels['pairs']} of these also at discrete/accuracy = {panel.levels['fine']:g}, "
+                     f"{panel.levels['fine_cpu_s']:.3g} CPU s each; the means are those in the limit of short steps. "
+                     f"For both panels: --levels {panel.levels['cheap']:g},{panel.levels['fine']:g} of diptych run")
     if panel.outcomes:
         lines.append(f"  result, at {panel.outcome_cpu_s:.3g} CPU s per sample:")
         lines += [f"    {one['name']:<41} {one['mean']:.3g}" +

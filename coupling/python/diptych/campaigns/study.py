@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs the points of a study, evaluates them and writes study.json, study.csv, study_cost.json, study.h5 and report.html.
 
-A study without a reference also writes effects.csv.
+A study without a reference also writes effects.csv, one with ranges sensitivity.csv.
 """
 
 from __future__ import annotations
@@ -23,10 +23,12 @@ from .effects import changes_of, effects_table, text_of_changes, text_of_means, 
 from .evaluation import CLASSES, Results, cost_of, evaluate, orders_of
 from .folders import Folder, Runs, draw, write_arrays, write_json, write_text
 from .histories import resampled, running_mean
+from .level_runs import demand_rule, study_levels
 from .points import Point, points_of, result_of
+from .sensitivity import need_openturns, sensitivity_of, sensitivity_table, text_of_indices, warnings_of
 from .statistics import line_turn, student_quantile
 from .study_file import COMMANDS, Study
-from .study_words import study_of_words
+from .study_words import levels_of_words, study_of_words
 
 _CURVES = (("stress_ratio", "stress ratio t/s", "running mean, averaged over the samples, one row per point; nan if a sample "
             "has no value"),
@@ -47,7 +49,7 @@ def study_record(study: Study, points: Sequence[Point], records: Sequence[dict[s
              "points": [{"label": point.label, "value": point.value} for point in axis.points]} for axis in family.axes]}
                      for family in study.families],
         "borders": study.borders, "points": records, "orders": orders_of(study, points, records),
-        "changes": changes_of(study, points, records) if study.reference is None else []}
+        "changes": changes_of(study, points, records) if study.reference is None and not study.ranges else []}
 
 
 def _difference(quantity: dict[str, Any], value: float, reference: float) -> float:
@@ -70,6 +72,7 @@ def study_csv(study: Study, points: Sequence[Point], results: Results, records: 
                    "folder": record["folders"][sample]}
             if study.reference is None:
                 del row["class"]
+                row |= {p.key: setting.partition(" = ")[2] for p, setting in zip(study.ranges, point.settings)}
                 row |= dict(zip(map(text_of_quantity, study.quantities), run.values))
             else:
                 for quantity, value, reference in zip(study.quantities, run.values, results[point.reference][sample].values):
@@ -101,8 +104,9 @@ def _write(directory: str, study: Study, points: Sequence[Point], results: Resul
     write_json(os.path.join(directory, "study.json"), record)
     write_text(os.path.join(directory, "study.csv"), study_csv(study, points, results, records))
     if study.reference is None:
-        write_text(os.path.join(directory, "effects.csv"),
-                   effects_table(study, points, records).to_csv(index=False, lineterminator="\n"))
+        name, table = (("sensitivity", sensitivity_table(record["sensitivity"])) if study.ranges
+                       else ("effects", effects_table(study, points, records)))
+        write_text(os.path.join(directory, name + ".csv"), table.to_csv(index=False, lineterminator="\n"))
     write_json(os.path.join(directory, "study_cost.json"), cost_of(study, points, results, records))
     write_curves(directory, study, points, results)
 
@@ -114,7 +118,10 @@ def _conclude(study: Study, points: Sequence[Point], record: dict[str, Any], opt
         for one in records:
             if one["words"]:
                 complain(f"diptych: warning: {', '.join(one['labels'])}: {one['words']}")
-        for line in (text_of_means(study, points, records), *text_of_changes(study, record["changes"])):
+        for line in warnings_of(record["sensitivity"]) if study.ranges else []:
+            complain(f"diptych: warning: {line}")
+        for line in (text_of_indices(study, record["sensitivity"]) if study.ranges else
+                     [text_of_means(study, points, records), *text_of_changes(study, record["changes"])]):
             say(options, line)
         return f"{n} points"
     for quantity, found in zip(study.quantities, records[0]["quantities"]):
@@ -128,9 +135,15 @@ def _conclude(study: Study, points: Sequence[Point], record: dict[str, Any], opt
 
 
 def run_study(line: argparse.Namespace, options: Options) -> int:
-    """diptych study FILE. line: target, output, set, set_file, vary, seeds, panels. Returns the exit code."""
+    """diptych study FILE. line: target, output, set, set_file, vary, seeds, panels, levels. Returns the exit code."""
     study, text = study_of_words(line)
+    levels = levels_of_words(line, study)
+    if study.ranges:
+        need_openturns()  # before the runs
     points = points_of(study)
+    for run in [run for point in points for run in point.runs] if levels else ():
+        if run.scene is not None:
+            demand_rule(run.scene, levels)
     directory = line.output or f"results/{study.name}_study"
 
     def inputs() -> list[tuple[str, str]]:
@@ -145,13 +158,19 @@ def run_study(line: argparse.Namespace, options: Options) -> int:
         read = {run.name: result_of(runs, run, study.quantities)  # each different run once
                 for run in {run.name: run for point in points for run in point.runs}.values()}
         results = [[read[run.name] for run in point.runs] for point in points]
-        record = study_record(study, points, evaluate(study, points, results))
+        left, limits = sum(outcome.interrupted for outcome in outcomes), None
+        if levels and not left:
+            results, limits = study_levels(study, results, levels, runs, options)
+        record = study_record(study, points, evaluate(study, points, results, limits))
+        if limits:
+            record["levels"] = {**levels._asdict(), "pairs": max(one.pairs for of_point in limits for one in of_point)}
+        if study.ranges:
+            record["sensitivity"] = sensitivity_of(study, results, record["points"])
         _write(directory, study, points, results, record)
-        left = sum(outcome.interrupted for outcome in outcomes)
         if not left:
             draw(options, "study", directory)
         say(options, f"{_conclude(study, points, record, options)}; tables: {directory}/study.json, study.csv"
-            + (", effects.csv" if study.reference is None else ""))
+            + (", sensitivity.csv" if study.ranges else ", effects.csv" if study.reference is None else ""))
         lost = sum(not all(run.known for run in of_point) for of_point in results)
         if all(run.exit_code for run in read.values()):
             complain(f"every run failed, the first with: {next(iter(read.values())).words}")

@@ -10,15 +10,20 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
+
 from .. import _diptych
+from ..arrays import Array
+from .calibration_coordinates import COORDINATES, Coordinates, Parameter
 from .histories import SOURCES
-from .key_numbers import OF_BOTH_PANELS, OF_ONE_PANEL
+from .key_numbers import OF_BOTH_PANELS, OF_GRAINS
 from .input_file import Part, Setting, is_number, name_of, value_text
 
 COMMANDS = {"discrete": ("discrete",), "continuum": ("continuum",), "run": ("discrete", "continuum"),
             "material-point": ("material_point",)}  # the panels that each command runs
 REDUCTIONS = ("strength", "mean", "at", "peak", "largest", "last", "number")
 PHASES = ("preparation", "discrete", "continuum", "continuum_coarse", "comparison", "report", "material_point")
+FEWEST_SAMPLES, MOST_SAMPLES = 20, 100000  # of the parameters of a sensitivity study; a fit needs 20 values
 _FAR = 1e12
 
 
@@ -73,6 +78,8 @@ class Study:
     quantities: list[dict[str, Any]] = field(default_factory=list)
     cost: list[str] = field(default_factory=list)  # phases that count; empty: all except the report
     borders: list[dict[str, Any]] = field(default_factory=list)
+    ranges: list[Parameter] = field(default_factory=list)  # of a sensitivity study
+    design: Array = field(default_factory=lambda: np.empty((0, 0)))  # its points in the unit cube, (points, ranges)
 
 
 def _axis(part: Part) -> Axis:
@@ -117,6 +124,46 @@ def _families(root: Part) -> list[Family]:
         part.allow("name", "set", "axes", "combine")
         part.at("name")
     return [_family(part, part.settings("set")) for part in root.list("families")]
+
+
+def _range(part: Part) -> Parameter:
+    """A key that varies between low and high, or its share of another key."""
+    part.allow("key", "low", "high", "coordinate", "of")
+    part.at("key")
+    key, (low, high) = part.word("key"), (part.number(name, -_FAR, _FAR) for name in ("low", "high"))
+    coordinate = part.choice("coordinate", COORDINATES, "share_of" if part.has("of") else "value")
+    is_ratio = coordinate in ("share_of", "drop_from")
+    if is_ratio != part.has("of"):
+        part.refuse("'of' names the key that coordinate = share_of or drop_from refers to; give both or neither")
+    if not low < high:
+        part.refuse(f" = {low:g} and high = {high:g}: a range must ascend", "low")
+    if low < 0 and is_ratio or low <= 0 and coordinate == "logarithm":
+        part.refuse(f" = {low:g}: a logarithm needs bounds above 0, a share or drop bounds of at least 0", "low")
+    for value in (0.3,) if is_ratio else (low, high):  # checks that the key exists and takes such values
+        part.setting("key" if is_ratio else "low", key, value)
+    return Parameter(key, coordinate, low, low, high, part.word("of"))
+
+
+def _sample_ranges(root: Part, study: Study) -> list[Family]:
+    """A Latin hypercube over the ranges, as a family with one axis."""
+    from scipy.stats import qmc  # loads slowly
+
+    for name in ("axes", "families", "combine", "reference", "borders"):
+        if root.has(name):
+            root.refuse(" cannot be used together with ranges", name)
+    study.ranges = [_range(part) for part in root.list("ranges")]
+    root.demand_distinct("ranges", [p.key for p in study.ranges])
+    read = _diptych.read_changed_scene(study.scene, study.settings, study.command == "run").dict()
+    others = {f"{section}/{key}": value for section, keys in read.items() for key, value in keys.items() if is_number(value)}
+    try:
+        coordinates = Coordinates(study.ranges, others)
+    except ValueError as error:
+        root.refuse(str(error).removeprefix("parameters"), "ranges")
+    n = root.number("samples", FEWEST_SAMPLES, MOST_SAMPLES, True)
+    study.design = qmc.LatinHypercube(len(study.ranges), seed=1).random(n)
+    points = [AxisPoint(str(k), [one._replace(file=study.file) for one in coordinates.settings(point, "")])
+              for k, point in enumerate(study.design, 1)]
+    return [Family(axes=[Axis("sample of the ranges", points)])]
 
 
 def _reduction(part: Part) -> dict[str, Any]:
@@ -185,7 +232,7 @@ def _key_quantities(command: str) -> list[dict[str, Any]]:
     """The key numbers of each panel that runs, and of their difference."""
     panels = (*COMMANDS[command], "difference") if command == "run" else COMMANDS[command]
     return [quantity(name, unit=unit, line=line, source=panel, reduction="key number", relative=False)
-            for name, unit, line in (OF_BOTH_PANELS if command == "run" else OF_ONE_PANEL) for panel in panels]
+            for name, unit, line in (OF_GRAINS if command == "discrete" else OF_BOTH_PANELS) for panel in panels]
 
 
 def _quantities(root: Part, study: Study) -> list[dict[str, Any]]:
@@ -240,16 +287,18 @@ def read_study(file: str, overrides: Sequence[Setting] = ()) -> Study:
 def study_of(root: Part, name: str, overrides: Sequence[Setting]) -> Study:
     """The study of an input file or of the words of a command line."""
     root.allow("title", "scene", "command", "set", "seeds", "reference", "families", "axes", "combine", "quantities", "cost",
-               "borders")
+               "borders", "ranges", "samples")
     study = Study(name, root.file, scene=os.path.abspath(root.existing_file("scene")))
     study.command = root.choice("command", tuple(COMMANDS), "run")
     study.settings = [*root.settings("set"), *(setting.check() for setting in overrides)]
     study.seeds = root.seeds("seeds")
     study.reference = root.settings("reference") if root.has("reference") else None
-    study.families = _families(root)
+    study.families = _sample_ranges(root, study) if root.has("ranges") else _families(root)
     root.demand_distinct("families", [family.name for family in study.families])
     varied = dict.fromkeys(axis.name for family in study.families for axis in family.axes)
     effect = f"{name_of(study.scene, 'scene')}: effect of {', '.join(varied)}"
+    if study.ranges:
+        effect = f"{name_of(study.scene, 'scene')}: sensitivity to {len(study.ranges)} parameters"
     study.title = root.word("title", effect if study.reference is None else name)
     study.quantities = _quantities(root, study)
     study.cost = [value_text(part.value) for part in root.list("cost")]

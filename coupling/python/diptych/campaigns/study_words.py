@@ -12,6 +12,7 @@ from typing import Any
 from .. import _diptych
 from ..errors import SceneError
 from .input_file import Part, name_of, read_seeds, settings_of
+from .level_runs import Levels, read_levels
 from .study_file import Study, read_study, study_of
 
 _COMMANDS = {"": "run", "both": "run", "discrete": "discrete", "continuum": "continuum"}  # of --panels
@@ -40,6 +41,15 @@ def _axis(text: str) -> dict[str, Any]:
         return int(number) if number.is_integer() and abs(number) < 1e15 else number
 
     return {"name": key, "key": key, "values": [value(word.strip()) for word in words.split(",")]}
+
+
+def levels_of_words(line: argparse.Namespace, study: Study) -> Levels | None:
+    """--levels, whose cheap accuracy becomes a setting of all points. Raises SceneError if this study can have no levels."""
+    levels = read_levels(line.levels)
+    if levels and (study.ranges or study.reference is not None or not study.seeds or study.command not in ("run", "discrete")):
+        raise SceneError(f"--levels {line.levels} gives means of grains over samples: it needs seeds, grains, axes and no reference")
+    study.settings += [levels.setting("cheap")] if levels else []
+    return levels
 
 
 def study_of_words(line: argparse.Namespace) -> tuple[Study, str]:

@@ -27,6 +27,7 @@ def page(results):
                "Volumetric strain 1 − V/V₀; dilation is negative." + lines)]
     return template("ensemble.html").render(
         record=results.record, first=summary.first(results.record), verdicts=rows,
+        validation=tables.validation_table(results),
         differences=figures.differences(labelled), dots=dots, curves=curves,
         bands=tables.band_table(results), members=tables.members(results), quantities=tables.quantity_table(results),
         provenance=tables.provenance(results), fitted=results.parameters_from)

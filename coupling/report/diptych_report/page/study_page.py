@@ -6,7 +6,7 @@ import numpy as np
 from diptych_report.charts import study as figures
 from diptych_report.charts import style
 from diptych_report.data.study import CLASSES, load
-from diptych_report.page import effects_page
+from diptych_report.page import effects_page, sensitivity_page
 from diptych_report.page.writing import template, write
 from diptych_report.tables import study as tables
 
@@ -19,7 +19,10 @@ def draw(folder):
     study = load(folder)
     style.set_up()
     names = [f"{PANEL_WORDS[panel]}, {words}" for panel in study.curves for words in CURVE_NAMES.values()]
-    write(folder, page(study, names) if study.has_reference else effects_page.page(study, curves(study), names))
+    if "sensitivity" in study.record:
+        write(folder, sensitivity_page.page(study))
+    else:
+        write(folder, page(study, names) if study.has_reference else effects_page.page(study, curves(study), names))
 
 
 def page(study, curve_names):

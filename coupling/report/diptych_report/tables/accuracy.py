@@ -31,7 +31,7 @@ def _grains(result):
                      f"{number(summary.get('snapshots_accurate'))} of {number(summary['snapshots_sampled'])}",
                      "means over a stage need less accuracy than single snapshots"])
     spin, acceleration = (number(_largest(result, key), "", 2) for key in ("dynamic_share", "acceleration_share"))
-    return rows + [_row(result, part, "energy_residual"), _row(result, part, "momentum_residual"),
+    return rows + [_row(result, part, "expected_strength_error", 2), _row(result, part, "impact_share", 2), _row(result, part, "energy_residual"), _row(result, part, "momentum_residual"),
                    ["grains: dynamic terms over the mean stress, largest of the stages: spin; acceleration in one step",
                     f"{spin}; {acceleration}", "Moreau (1997): below 10⁻³"],
                    _row(result, part, "max_penetration_d"), _row(result, part, "step_length"),

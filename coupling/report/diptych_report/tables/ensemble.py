@@ -5,7 +5,7 @@ import os
 
 from diptych_report.data.ensemble import MOST_CURVES
 from diptych_report.data.panels import PANEL_NAMES
-from diptych_report.tables.wording import DECIMALS, ending, fixed, number, rounded, shown_unit
+from diptych_report.tables.wording import DECIMALS, UNBROKEN, ending, fixed, number, rounded, shown_unit
 
 AXIS_UNITS = {"": "", "%": " (%)", "°": " (°)", " d": " (d)"}
 
@@ -66,6 +66,29 @@ def verdict_rows(results):
             "intervals": [_ends(verdict[key], unit, decimals) for key in ("difference_90", "difference")],
             "margin": "± " + number(margin) + ending(unit), "n": verdict["n"], "verdict": verdict["verdict"]})
     return rows
+
+
+def validation_table(results):
+    """Errors and their uncertainty in the sense of ASME V&V 20, for quantities with a value in both panels."""
+    rows = []
+    for verdict, one in zip(results.record["verdicts"], results.record.get("validation", [])):
+        if not one["n"]:
+            continue
+        unit, missing = own_text(results, verdict)[1], one["not_known"]
+        label = text_of(results, verdict) + (f" [{unit.strip()}]" if unit else "")
+        factor = 100 if unit == "%" else 1
+        cells = [_digits(value, factor, 3) for value in (one["S"], one["D"], one["E"]["value"])]
+        cells.append(_digits(one["u_num"], factor, 2, "≥ " if None in one["parts"].values() else ""))
+        cells += [_digits(one[key], factor, 2) for key in ("u_input", "u_D")]
+        cells += [_digits(one["u_val"], factor, 2, "≥ " if missing else ""), _digits(one["ratio"], 1, 2, "≤ " if missing else "")]
+        rows.append([label, *cells, one["verdict"] + (f" (without {', '.join(missing)})" if missing else "")])
+    return {"head": ["", ("S", "continuum"), ("D", "grains"), ("E", "S − D"), ("u_num", "methods"), ("u_input", "parameters"),
+                     ("u_D", "samples"), ("u_val", "together"), ("|E| / u_val", ""), "verdict"], "rows": rows}
+
+
+def _digits(value, factor, digits, before=""):
+    text = "not known" if value is None else before + number(factor * value, "", digits)
+    return text.replace(" ", UNBROKEN)
 
 
 def _signed(value, unit, decimals, suffix=""):

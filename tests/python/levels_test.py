@@ -1,0 +1,135 @@
+# diptych: two-level means of samples with known biases and scatter
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""X = S + N + bias, Y = S + N' + ratio x bias: samples S, runs that diverge by N and N'. Nothing is run."""
+
+import json
+import os
+import runpy
+import subprocess
+import sys
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from diptych import Campaign, SceneError, benchmarks_dir
+from diptych.campaigns import levels
+from diptych.campaigns.level_runs import PairedPoint, add_summary, read_levels
+from diptych.campaigns.points import RunResult
+from diptych.campaigns.study_file import quantity
+
+TRUTH, BIAS, RATIO, SCATTER, NOISE = 0.37, 0.013, 0.25, 0.012, 0.004  # as measured in benchmarks/rigid_limit
+
+
+def drawn(rng, n, pairs):
+    """X of n samples and Y of the first ones."""
+    of_sample = TRUTH + SCATTER * rng.normal(size=n)
+    x, y = (of_sample + NOISE * rng.normal(size=n) + bias for bias in (BIAS, RATIO * BIAS))
+    y[pairs:] = np.nan
+    return x, y
+
+
+@pytest.mark.parametrize("n, pairs", [(40, 8), (12, 12), (100, 6)])
+def test_intervals_hold_the_limit_in_95_of_100_cases(n, pairs, monkeypatch):
+    """The order is exact here, so its part of the interval is left out. 2000 cases give the share to +- 1 %."""
+    monkeypatch.setattr(levels, "ORDER_DEVIATION", 0.0)
+    rng = np.random.default_rng(1)
+    found = [levels.limit_of(*drawn(rng, n, pairs), RATIO) for _ in range(2000)]
+    error = [one.limit.value - TRUTH for one in found]
+    assert abs(np.mean(error)) < 4 * np.std(error) / np.sqrt(2000)  # without bias
+    assert 0.93 < np.mean([one.limit.low <= TRUTH <= one.limit.high for one in found]) < 0.97
+    assert np.sqrt(np.mean([one.error_samples**2 for one in found])) == pytest.approx(np.std(error), rel=0.06)
+    expected = levels.predicted(SCATTER**2 + NOISE**2, 2 * NOISE**2, RATIO, (1 - RATIO) * BIAS)
+    assert np.sqrt(expected.many / n + expected.pairs / pairs) == pytest.approx(np.std(error), rel=0.06)
+
+
+def test_the_interval_holds_the_uncertainty_of_the_order():
+    """The bias follows another order, drawn from 0.5 +- 0.1: the ratio of the biases is 0.25^(order / 0.5)."""
+    rng, within = np.random.default_rng(2), []
+    for _ in range(1000):
+        x, _ = drawn(rng, 400, 400)
+        y = x - BIAS * (1 - RATIO ** (1 + levels.ORDER_DEVIATION * rng.normal()))
+        limit = levels.limit_of(x, y, RATIO).limit
+        within.append(limit.low <= TRUTH <= limit.high)
+    assert np.mean(within) > 0.93
+
+
+def test_numbers_are_the_cheapest():
+    v, costs = levels.Variances(1.2e-4, 4e-5, 2e-4), (0.16, 0.8)
+    best = min((n * costs[0] + m * costs[1], n, m) for n in range(6, 200) for m in range(6, n + 1)
+               if v.half_interval(n, m) <= 0.003)
+    n, m = levels.numbers_for([v], costs, 0.003, 1000)
+    assert v.half_interval(n, m) <= 0.003 and n * costs[0] + m * costs[1] < 1.03 * best[0]
+    assert levels.numbers_for([v], costs, 3.9e-4, 10000) == (0, 0)  # no number of samples helps against the order
+    assert levels.Variances(1.0, 100.0, 0.0).share((1, 1)) == 1 and levels.Variances(-1.0, 1.0, 0.0).share((1, 1)) == 1
+
+
+def test_stored_runs_keep_what_the_benchmark_claims(monkeypatch):
+    """Forty samples of dense_biaxial. The mean of 20 with pairs holds brute force in 19 of 20 subsets, at the finest step and in
+    its limit. Its error of 0.5 % takes less than 1 / 2.5 of the CPU time of one level."""
+    folder = os.path.join(benchmarks_dir(), "rigid_limit")
+    monkeypatch.syspath_prepend(folder)
+    benchmark = SimpleNamespace(**runpy.run_path(os.path.join(folder, "levels.py")))
+    runs, seconds = benchmark.Runs(), np.geomspace(10, 1e4, 500)
+    for fine in ("accuracy=0.01", "accuracy=0.005"):
+        assert (20 * benchmark.coverage(runs, fine, 20)[:2] > 18.5).all()
+        cost = [seconds[np.argmax(error < 0.5)] for error in (benchmark.one_level(runs, seconds),
+                                                              benchmark.two_levels(runs, seconds, fine)[0])]
+        assert cost[0] > 2.5 * cost[1]
+
+
+def runs_of(values, cpu_s, error):
+    phases = [{"name": "discrete", "cpu_s": cpu_s}, {"name": "report", "cpu_s": 9}]
+    return [RunResult(known=True, values=[value, 45.0], phases=phases, expected_error={"strength": error, "dilation": np.nan})
+            for value in values]
+
+
+def test_pairs_follow_from_costs_and_quantities_without_a_rule_have_no_limit():
+    x, y = drawn(np.random.default_rng(3), 40, 8)
+    asked = [quantity("T/S", reduction="strength"), quantity("angle", source="comparison", line=True)]
+    wanted = [PairedPoint(runs_of(x, 0.2, 0.04), runs_of(y[:8], cost, 0.01), asked).pairs_wanted() for cost in (0.2, 3.2)]
+    assert wanted[0] > 3 * wanted[1] > 0  # n / N falls with the root of the cost
+    point = PairedPoint(runs_of(x, 0.2, 0.04), runs_of(y[:8], 1, 0.01), asked)
+    [(limit, extrapolated)] = point.limits().values()
+    assert limit.limit == levels.limit_of(x, y, RATIO).limit and np.isfinite(extrapolated).sum() == 8
+    assert np.nanmean(extrapolated) - limit.limit.value == pytest.approx(x[:8].mean() - x.mean())
+    same_step = PairedPoint(runs_of(x, 1, 0.04), runs_of(y[:8], 1, 0.039), asked)
+    assert np.isnan(same_step.ratio) and same_step.pairs_wanted() == 0
+
+
+@pytest.mark.parametrize("wrong", ["on", "0.05", "0.01,0.05", "0.05,0.05", "0.1,0.01", "0.05,0.0001", "0.05,0.02,0.01"])
+def test_wrong_levels_are_refused(wrong):
+    with pytest.raises(SceneError, match="--levels"):
+        read_levels(wrong)
+    assert read_levels("") is None and read_levels("auto") == (levels.CHEAP, levels.FINE)
+    assert read_levels("0.04,0.005") == (0.04, 0.005)
+
+
+def test_an_ensemble_gets_rows_in_the_limit():
+    """With all samples paired, the limits are means of extrapolated samples, and so is continuum minus grains."""
+    x, y = drawn(np.random.default_rng(4), 8, 8)
+    continuum = 0.36 + 0.001 * np.arange(8)
+    record = {"verdicts": [{"discrete": x.tolist(), "continuum": continuum.tolist()}],
+              "summary": [{"quantity": "peak t/s", "continuum": (0.3635, 0.361, 0.366)}]}
+    add_summary(record, {"quantities": [{"quantity": "peak t/s", "unit": "-", "ratio": RATIO, "fine": y.tolist()}]})
+    row, limit = record["summary"][-1], x - (x - y) / (1 - RATIO)
+    assert row["quantity"] == "peak t/s, limit of short steps" and "8 pairs" in row["verdict"]
+    assert row["grains"].value == pytest.approx(limit.mean())
+    assert row["difference"].value == pytest.approx((continuum - limit).mean())
+
+
+def test_a_study_gives_means_in_the_limit(tmp_path):
+    scene = tmp_path / "scene.json"
+    scene.write_text(json.dumps({"sample": {"grains": 100}, "loading": {"axial_strain": 0.01, "inertial_number": 2e-3}}))
+    words = ["study", scene, "--vary", "discrete/friction=0.1,0.6", "--seeds", "1-7", "--panels", "discrete", "--levels", "auto"]
+    done = subprocess.run([sys.executable, "-m", "diptych.campaigns", *words, "--output", tmp_path / "out"],
+                          capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    found = Campaign.load(tmp_path / "out")
+    rows = found.effects[found.effects.quantity.str.startswith("strength")].set_index(["discrete/friction", "quantity"])
+    for friction in (0.1, 0.6):
+        usual, limit = (rows.loc[friction, name] for name in rows.loc[friction].index)
+        assert limit["low"] < limit["mean"] < limit["high"] and limit["n"] == found.numbers["levels"]["pairs"] >= 6
+        assert 0 < abs(limit["mean"] / usual["mean"] - 1) < 0.2
+    assert {"peak t/s, limit of short steps"} <= set(found.changes.quantity)
+    assert "limit of short steps" in (tmp_path / "out/report.html").read_text()
