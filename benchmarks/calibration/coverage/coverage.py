@@ -30,7 +30,7 @@ def replicate(seed, size):
     deviation = size * np.sqrt(discrepancy(Noise(), Data(observables, truth)))
     truth = truth + deviation * random.multivariate_normal(0 * x, same)
     found = calibrated(c, [path_of(c.targets[0], drawn(USUAL, observables, truth, 4, seed))])["parameters"]
-    in_cube = [[(np.log(p[end]) if p["coordinate"] == "logarithm" else p[end]) for p in found] for end in ("number_low", "number_high", "number")]
+    in_cube = [[(np.log(p[end]) if p["coordinate"] == "logarithm" else p[end]) for p in found] for end in ("number_low", "number_high", "number_median")]
     return np.array([point, *((np.array(in_cube) - there.low) / there.span)])
 
 

@@ -131,7 +131,7 @@ class Calibrator:
         draws = self._sample(fine)
         self.posterior = posterior_table(self.coordinates, draws.points)
         self._report(fine, coarse, draws)
-        self._predict(np.median(draws.points, axis=0), fine.jacobian, draws)
+        self._predict(fine.point, fine.jacobian, draws)
         self.record["status"] = "finished"
 
     def _fit_coarse(self) -> Fit:
@@ -167,7 +167,7 @@ class Calibrator:
 
     def _report(self, fine: Fit, coarse: Fit, draws: Draws) -> None:
         record = self.record
-        record["parameters"] = parameter_records(self.coordinates, draws.points)
+        record["parameters"] = parameter_records(self.coordinates, draws.points, fine.point)
         record["correlation"] = np.corrcoef(draws.points, rowvar=False).reshape(2 * (len(self.coordinates),))
         record["discrepancy"] = discrepancy_record(self.noise, draws, len(self.fitted))
         record["words"] += parameter_words(record["parameters"]) + discrepancy_words(record["discrepancy"])

@@ -30,17 +30,18 @@ COLUMNS = ("kind", "from", "to", "count", "mean", "deviation", "deviation_of_mea
            "half_step", "counts", "discrepancy", "discrepancy_deviation")
 
 
-def parameter_records(coordinates: Coordinates, draws: Array) -> list[dict[str, Any]]:
-    """Medians and 95 % intervals of the draws; numbers are those of the coordinates."""
+def parameter_records(coordinates: Coordinates, draws: Array, best: Array) -> list[dict[str, Any]]:
+    """Values of the best point, medians and 95 % intervals of the draws; numbers are those of the coordinates."""
     inner = np.quantile(draws, [0.025, 0.5, 0.975], axis=0)
-    ends, numbers = [coordinates.numbers(one) for one in inner], np.transpose([coordinates.numbers(one) for one in draws])
+    ends, numbers = [coordinates.numbers(one) for one in (*inner, best)], np.transpose([coordinates.numbers(one) for one in draws])
     prior = scipy.stats.truncnorm(-coordinates.start / PRIOR, (1 - coordinates.start) / PRIOR, scale=PRIOR).std()
     share = draws.std(0, ddof=1) / prior
     return [{"key": p.key, "targets": list(p.targets), "coordinate": p.coordinate, "of": p.other, "low": p.low, "high": p.high,
-             "start": p.start, "number": ends[1][k], "number_low": ends[0][k], "number_high": ends[2][k], "value": value,
+             "start": p.start, "number": ends[3][k], "number_low": ends[0][k], "number_median": ends[1][k],
+             "number_high": ends[2][k], "value": value, "is_outside": bool(not inner[0, k] <= best[k] <= inner[2, k]),
              "share_known": share[k], "is_identified": bool(share[k] < LARGEST_SHARE),
              "is_cut": bool(inner[0, k] < CUT or inner[2, k] > 1 - CUT), "draws": numbers[k]}
-            for k, (p, value) in enumerate(zip(coordinates.parameters, coordinates.values(inner[1])))]
+            for k, (p, value) in enumerate(zip(coordinates.parameters, coordinates.values(best)))]
 
 
 def parameter_words(parameters: Sequence[dict[str, Any]]) -> list[str]:
@@ -50,6 +51,9 @@ def parameter_words(parameters: Sequence[dict[str, Any]]) -> list[str]:
         name = p["key"] + (f" ({', '.join(p['targets'])})" if p["targets"] else "")
         if not p["is_identified"]:
             words.append(f"{name} is not identified: its posterior deviation is {p['share_known']:.2f} times the prior one")
+        if p["is_outside"]:
+            words.append(f"{name}: the best point of the search lies outside the interval of the posterior, whose median is "
+                         f"{p['number_median']:.4g}")
         if p["is_cut"]:
             words.append(f"the interval of {name} ends at its bound, so this end comes from the bound and not from the data")
     return words
