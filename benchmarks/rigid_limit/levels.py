@@ -1,70 +1,28 @@
 #!/usr/bin/env python3
 # diptych: error of the mean strength against CPU time: one level, two levels, springs, LAMMPS
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""levels.py [--store RUNS] [--figure FILE]
+"""levels.py [--figure FILE]
 
-Evaluates stored runs of dense_biaxial at I = 1.13e-3 (levels.csv): forty samples, each with several steps. Checks the interval
-of two-level means against all forty samples at the finest step, and compares what methods cost. --store RUNS writes levels.csv
-from the runs of order.py (RUNS/fast/POINT/seed_N). LAMMPS comes from lammps.csv if RUNS has none. Needs numpy, pandas and the
+Evaluates the runs of dense_biaxial at I = 1.13e-3 that order.csv holds: forty samples, each with several steps. Checks the interval
+of two-level means against all forty samples at the finest step, and compares what methods cost. Needs numpy, pandas and the
 package diptych (PYTHONPATH), the figure matplotlib."""
 import argparse
-import glob
-import json
 import os
 
 import numpy
 import pandas
 
-import rigid_limit
 from diptych.campaigns import levels
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-TABLE = os.path.join(HERE, "levels.csv")
+TABLE = os.path.join(HERE, "order.csv")
 FIXED = tuple(f"h={h}" for h in ("0.4", "0.1", "0.025", "0.00625", "0.0015625"))  # steps of the fit, with tight tolerances
 CHEAP, FINEST = "accuracy=0.05", FIXED[-1]
 FINE = ("accuracy=0.01", "accuracy=0.005", FINEST)
 ONE_LEVEL = (CHEAP, "accuracy=0.02", *FINE)
 TARGETS = (1.0, 0.5, 0.35)  # errors of the mean [%]
-SPRINGS = ("penalty=10000", "penalty=100000", "lammps=10000", "lammps=100000")
-NAMES = {"penalty=10000": "penalty, kn/P = 1e4", "penalty=100000": "penalty, 1e5", "lammps=10000": "LAMMPS, kn/P = 1e4",
-         "lammps=100000": "LAMMPS, 1e5"}
-
-
-def of_run(folder):
-    """(step, T/S, dilation at 4 % [%], CPU s) of a run; None if it is not finished."""
-    if os.path.exists(os.path.join(folder, "binned.json")):  # LAMMPS
-        with open(os.path.join(folder, "binned.json")) as file:
-            found = json.load(file)
-        columns, seconds, step = {name: numpy.array(v) for name, v in found["columns"].items()}, found["seconds"], numpy.nan
-    elif os.path.exists(os.path.join(folder, "provenance.json")):
-        with open(os.path.join(folder, "provenance.json")) as file:
-            record = json.load(file)
-        table = pandas.read_csv(os.path.join(folder, "discrete.csv"))
-        table["t"] = numpy.hypot(0.5 * (table.syy - table.sxx), 0.5 * (table.sxy + table.syx))
-        table["s"] = 0.5 * (table.sxx + table.syy)
-        columns = rigid_limit.binned({name: table[name].to_numpy() for name in rigid_limit.COLUMNS})
-        seconds, step = sum(p["cpu_s"] for p in record["phases"] if p["name"] == "discrete"), record["discrete"]["step"]
-    else:
-        return None
-    return step, rigid_limit.strength(columns, *rigid_limit.JUDGED), -100 * columns["volumetric_strain"][-1], seconds
-
-
-def store(runs):
-    """Writes levels.csv. Runs of `new accuracy=A` replace those of `accuracy=A`, an earlier rule of the step."""
-    rows = []
-    for folder in sorted(glob.glob(os.path.join(runs, "fast", "*", "seed_*"))):
-        point, found = os.path.basename(os.path.dirname(folder)), of_run(folder)
-        name = point.removeprefix("new ")
-        if found and name in (*FIXED, *ONE_LEVEL, *SPRINGS) and not (name == point and name.startswith("accuracy")):
-            rows.append(("fast", name, int(folder.rpartition("_")[2]), *found))
-    if not any(row[1].startswith("lammps") for row in rows):
-        for stiffness in ("1e4", "1e5"):
-            for seed in rigid_limit.SEEDS[1.13e-3]:
-                columns, seconds = rigid_limit.stored(1.13e-3, float(stiffness), seed)
-                strength, dilation = rigid_limit.strength(columns, *rigid_limit.JUDGED), -100 * columns["volumetric_strain"][-1]
-                rows.append(("fast", f"lammps={float(stiffness):g}", seed, numpy.nan, strength, dilation, seconds))
-    table = pandas.DataFrame(rows, columns=["case", "point", "seed", "step", "strength", "dilation", "cpu_s"])
-    table.to_csv(TABLE, index=False, float_format="%.5g")
+SPRINGS = {"penalty=1e4": "penalty, kn/P = 1e4", "penalty=1e5": "penalty, 1e5", "lammps=1e4": "LAMMPS, kn/P = 1e4",
+           "lammps=1e5": "LAMMPS, 1e5"}
 
 
 class Runs:
@@ -72,6 +30,7 @@ class Runs:
 
     def __init__(self, quantity="strength"):
         table = pandas.read_csv(TABLE)
+        table = table[table.case == "dense"]
         mean = table.groupby("point")[["step", "cpu_s"]].mean()
         self.step, self.cpu_s = mean["step"], mean["cpu_s"]
         values = table.pivot(index="seed", columns="point", values=quantity)
@@ -160,11 +119,11 @@ def show(runs):
               f"the finest step in {20 * subsets[1]:.0f}; drawn with replacement, 500 times: {resampled[0]:.1%}, "
               f"{resampled[1]:.1%}; half width {resampled[2]:.2f} %, {resampled[3]:.1f} pairs, mean error {resampled[4]:+.2f} %")
     curves = {"NSCD, one level": one_level(runs, seconds)}
-    for fine in (*FINE, "penalty=100000"):
+    for fine in (*FINE, "penalty=1e5"):
         if fine in runs.values:
             curves[f"two levels, fine: {fine}"], share = two_levels(runs, seconds, fine)
             print(f"{fine}: pairs for {share:.0%} of the samples")
-    curves |= {NAMES[point]: springs(runs, seconds, point) for point in SPRINGS if point in runs.values}
+    curves |= {SPRINGS[point]: springs(runs, seconds, point) for point in SPRINGS if point in runs.values}
     print("CPU s for an error of the mean of " + ", ".join(f"{target:g} %" for target in TARGETS))
     for name, error in curves.items():
         needed = [numpy.append(seconds[error <= target], numpy.inf)[0] for target in TARGETS]
@@ -184,7 +143,7 @@ def draw(seconds, curves, path):
     for name, error in shown.items():
         line = ":" if "two levels, fine" in name else "--" if name.endswith(", 1e5") else "-"
         colour = next(colours[key] for key in (name, "penalty" if "penalty" in name else "LAMMPS") if key in colours)
-        label = name.replace("penalty=100000", "penalty, 1e5").replace("two levels, fine:", "NSCD and, as the fine level,")
+        label = name.replace("penalty=1e5", "penalty, 1e5").replace("two levels, fine:", "NSCD and, as the fine level,")
         axis.plot(seconds, error, line, color=colour, linewidth=2.2 if name in colours else 1.4, label=label)
     axis.axhline(0.5, color="#777777", linewidth=0.8)
     axis.set(xscale="log", yscale="log", xlim=(1, 3000), ylim=(0.2, 6), ylabel="error of the mean strength (%)",
@@ -199,11 +158,8 @@ def draw(seconds, curves, path):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--store", metavar="RUNS")
     parser.add_argument("--figure", metavar="FILE")
     options = parser.parse_args()
-    if options.store:
-        store(options.store)
     seconds, curves = show(Runs())
     if options.figure:
         draw(seconds, curves, options.figure)

@@ -92,8 +92,9 @@ def load(options, name, point, seed):
     columns |= {"t": numpy.hypot(columns["syy"] - columns["sxx"], columns["sxy"] + columns["syx"]) / 2,
                 "s": (columns["sxx"] + columns["syy"]) / 2}
     with open(os.path.join(folder, "provenance.json")) as file:
-        seconds = sum(p["cpu_s"] for p in json.load(file)["phases"] if p["name"] == "discrete")
-    return row | means(columns, case.end) | {"cpu_s": seconds}
+        record = json.load(file)
+    seconds = sum(p["cpu_s"] for p in record["phases"] if p["name"] == "discrete")
+    return row | means(columns, case.end) | {"step": record["discrete"]["step"], "cpu_s": seconds}
 
 
 def means(columns, end):

@@ -78,22 +78,20 @@ def test_stored_runs_keep_what_the_benchmark_claims(monkeypatch):
         assert cost[0] > 2.5 * cost[1]
 
 
-def runs_of(values, cpu_s, error):
-    phases = [{"name": "discrete", "cpu_s": cpu_s}, {"name": "report", "cpu_s": 9}]
-    return [RunResult(known=True, values=[value, 45.0], phases=phases, expected_error={"strength": error, "dilation": np.nan})
+def runs_of(values, error):
+    return [RunResult(known=True, values=[value, 45.0], expected_error={"strength": error, "dilation": np.nan})
             for value in values]
 
 
-def test_pairs_follow_from_costs_and_quantities_without_a_rule_have_no_limit():
+def test_pairs_follow_from_scatter_and_quantities_without_a_rule_have_no_limit():
     x, y = drawn(np.random.default_rng(3), 40, 8)
     asked = [quantity("T/S", reduction="strength"), quantity("angle", source="comparison", line=True)]
-    wanted = [PairedPoint(runs_of(x, 0.2, 0.04), runs_of(y[:8], cost, 0.01), asked).pairs_wanted() for cost in (0.2, 3.2)]
-    assert wanted[0] > 3 * wanted[1] > 0  # n / N falls with the root of the cost
-    point = PairedPoint(runs_of(x, 0.2, 0.04), runs_of(y[:8], 1, 0.01), asked)
+    point, closer = (PairedPoint(runs_of(x, 0.04), runs_of(fine, 0.01), asked) for fine in (y[:8], (x[:8] + y[:8]) / 2))
+    assert point.pairs_wanted() > 1.5 * closer.pairs_wanted() > 0  # n / N grows with the scatter of the differences
     [(limit, extrapolated)] = point.limits().values()
     assert limit.limit == levels.limit_of(x, y, RATIO).limit and np.isfinite(extrapolated).sum() == 8
     assert np.nanmean(extrapolated) - limit.limit.value == pytest.approx(x[:8].mean() - x.mean())
-    same_step = PairedPoint(runs_of(x, 1, 0.04), runs_of(y[:8], 1, 0.039), asked)
+    same_step = PairedPoint(runs_of(x, 0.04), runs_of(y[:8], 0.039), asked)
     assert np.isnan(same_step.ratio) and same_step.pairs_wanted() == 0
 
 

@@ -81,11 +81,6 @@ def _ratio(cheap: Sequence[RunResult], fine: Sequence[RunResult]) -> float:
     return float(ratio) if ratio <= MOST_RATIO else math.nan
 
 
-def _cpu_s(results: Sequence[RunResult]) -> float:
-    return float(np.mean([sum(phase["cpu_s"] for phase in run.phases if phase["name"] != "report")
-                          for run in results if run.phases]))
-
-
 class PairedPoint:
     """The runs of one point: all samples at the cheap accuracy, the first ones also at the fine one."""
 
@@ -99,11 +94,12 @@ class PairedPoint:
                 for q, asked in enumerate(self.quantities) if has_rule(asked)}
 
     def pairs_wanted(self) -> int:
-        """Pairs that give the smallest error for the cost, for the quantity that needs most of them."""
-        shares, costs = [0.0], (_cpu_s(self.cheap), _cpu_s(self.fine))
+        """Pairs that give the smallest error for the cost, for the quantity that needs most of them. The cost of grains is about
+        inverse to their expected error (benchmarks/rigid_limit); measured times would make results depend on the machine."""
+        shares = [0.0]
         for x, y in self._values().values():
             if len(known(np.subtract(x, y))) > 1 and not math.isnan(self.ratio):
-                shares.append(variances(x, y, self.ratio).share(costs))
+                shares.append(variances(x, y, self.ratio).share((self.ratio, 1.0)))
         return math.ceil(len(self.cheap) * max(shares))
 
     def limits(self) -> dict[int, tuple[Limit, list[float]]]:

@@ -43,7 +43,7 @@ EXPECTED = {
     "platen_unbalance": "equilibrium: 0",
     "share_zz_not_intermediate": "below 5 %; elsewhere the in-plane yield surface is approximate",
     "max_penetration_d": "rigid grains: 0",
-    "impact_share": "without restitution: 6 % where the strength is right to 0.5 %, 15 % at 3 %",
+    "impact_share": "6 % where the strength is right to 0.5 %, 15 % at 3 % (no restitution; less in slow flow)",
     "energy_residual": "closed balance: 0",
     "momentum_residual": "closed balance: 0",
     "spin_term_share": "Moreau (1997): below 10⁻³",
