@@ -55,7 +55,7 @@ class Results(Calibrate):
         self.assertEqual(record["status"], "finished")
         self.assertLess(record["chi2"], record["chi2_before"])
         friction, dilatancy = record["parameters"]
-        self.assertTrue(friction["number_low"] < friction["value"] < friction["number_high"], friction)
+        self.assertTrue(friction["number_low"] < friction["number_median"] < friction["number_high"], friction["key"])
         self.assertAlmostEqual(dilatancy["value"], dilatancy["number"] * friction["value"], places=6)
         fitted, unseen = record["paths"]
         self.assertEqual((fitted["use"], unseen["use"]), ("fit", "predict"))
