@@ -16,6 +16,7 @@ from diptych import Campaign, SceneError, benchmarks_dir
 from diptych.campaigns import levels
 from diptych.campaigns.level_runs import PairedPoint, add_summary, read_levels
 from diptych.campaigns.points import RunResult
+from diptych.campaigns.statistics import paired
 from diptych.campaigns.study_file import quantity
 
 TRUTH, BIAS, RATIO, SCATTER, NOISE = 0.37, 0.013, 0.25, 0.012, 0.004  # as measured in benchmarks/rigid_limit
@@ -95,23 +96,35 @@ def test_pairs_follow_from_scatter_and_quantities_without_a_rule_have_no_limit()
     assert np.isnan(same_step.ratio) and same_step.pairs_wanted() == 0
 
 
-@pytest.mark.parametrize("wrong", ["on", "0.05", "0.01,0.05", "0.05,0.05", "0.1,0.01", "0.05,0.0001", "0.05,0.02,0.01"])
+@pytest.mark.parametrize("wrong", ["on", "0.05", "0.01,0.05", "0.05,0.04", "0.1,0.01", "0.05,0.0001", "0.05,0.02,0.01"])
 def test_wrong_levels_are_refused(wrong):
     with pytest.raises(SceneError, match="--levels"):
-        read_levels(wrong)
-    assert read_levels("") is None and read_levels("auto") == (levels.CHEAP, levels.FINE)
-    assert read_levels("0.04,0.005") == (0.04, 0.005)
+        read_levels(wrong, 8)
+    assert read_levels("", 1) is None and read_levels("auto", 2) == (levels.CHEAP, levels.FINE)
+    assert read_levels("0.04,0.005", 8) == (0.04, 0.005)
+    with pytest.raises(SceneError, match="at least two samples"):
+        read_levels("auto", 1)
 
 
 def test_an_ensemble_gets_rows_in_the_limit():
-    """With all samples paired, the limits are means of extrapolated samples, and so is continuum minus grains."""
+    """With all samples paired, the limits are means of extrapolated samples, and so is continuum minus grains. The verdict is
+    that of the extrapolated samples, and errors of the continuum take it away."""
     x, y = drawn(np.random.default_rng(4), 8, 8)
     continuum = 0.36 + 0.001 * np.arange(8)
-    record = {"verdicts": [{"discrete": x.tolist(), "continuum": continuum.tolist()}],
-              "summary": [{"quantity": "peak t/s", "continuum": (0.3635, 0.361, 0.366)}]}
-    add_summary(record, {"quantities": [{"quantity": "peak t/s", "unit": "-", "ratio": RATIO, "fine": y.tolist()}]})
-    row, limit = record["summary"][-1], x - (x - y) / (1 - RATIO)
-    assert row["quantity"] == "peak t/s, limit of short steps" and "8 pairs" in row["verdict"]
+    verdict = {"discrete": x.tolist(), "continuum": continuum.tolist(), "n": 8, "relative": True, "margin": 0.0}
+    record = {"verdicts": [verdict], "summary": [{"quantity": "peak t/s", "continuum": (0.3635, 0.361, 0.366)}],
+              "validation": [{"parts": {"mesh": np.nan, "load_step": 0.0}, "u_input": np.nan}],
+              "continuum_runs": {"values": []}}
+    limit = x - (x - y) / (1 - RATIO)
+    rows = {"quantities": [{"quantity": "peak t/s", "unit": "-", "ratio": RATIO, "fine": y.tolist()}]}
+    ends = paired(limit, continuum, "relative").difference_90
+    verdict["margin"] = 1.1 * max(-ends.low, ends.high)  # the order widens the interval by less
+    add_summary(record, rows)
+    row = record["summary"][-1]
+    assert row["quantity"] == "peak t/s, limit of short steps" and row["verdict"].startswith("equivalent within")
+    record["validation"][0]["parts"]["mesh"] = verdict["margin"] * TRUTH
+    add_summary(record, rows)
+    assert record["summary"][-1]["verdict"].startswith("cannot tell")
     assert row["grains"].value == pytest.approx(limit.mean())
     assert row["difference"].value == pytest.approx((continuum - limit).mean())
 
@@ -130,4 +143,5 @@ def test_a_study_gives_means_in_the_limit(tmp_path):
         assert limit["low"] < limit["mean"] < limit["high"] and limit["n"] == found.numbers["levels"]["pairs"] >= 6
         assert 0 < abs(limit["mean"] / usual["mean"] - 1) < 0.2
     assert {"peak t/s, limit of short steps"} <= set(found.changes.quantity)
+    assert found.cost["runs"] == 14 + 2 * found.numbers["levels"]["pairs"]
     assert "limit of short steps" in (tmp_path / "out/report.html").read_text()

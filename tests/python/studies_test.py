@@ -108,7 +108,7 @@ def test_orders_are_fitted_along_axes_that_converge():
 
 def cost(n, results, study=None, points=None):
     study, points = study or study_of(n), points or points_on(n)
-    return evaluation.cost_of(study, points, results, evaluation.evaluate(study, points, results))
+    return evaluation.cost_of(study, points, results, evaluation.evaluate(study, points, results), {})
 
 
 def test_the_cheapest_right_point_is_found_and_the_reference_does_not_compete():

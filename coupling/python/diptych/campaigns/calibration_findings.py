@@ -185,8 +185,10 @@ def summary(record: dict[str, Any], cpu_s: float) -> str:
         lines.append(f"  {p['key']} = {p['value']:.4g} {share}[{p['number_low']:.4g}, {p['number_high']:.4g}]"
                      f"{'' if p['is_identified'] else ', not identified'}")
     for path in record["paths"]:
-        lines += [f"  {path['name']} ({path['use']}): {one['quantity']} {one['data']:.4g}, before {one['before']:.4g}, "
-                  f"after {one['after']:.4g}: {one['verdict']}" for one in path["predictions"]]
+        for one in path["predictions"]:
+            data, before, after = (f"{x:.4g}" if np.isfinite(x) else "-" for x in (one["data"], one["before"], one["after"]))
+            lines.append(f"  {path['name']} ({path['use']}): {one['quantity']} {data}, before {before}, "
+                         f"after {after}: {one['verdict']}")
     return "\n".join(lines + ["  " + words for words in record["words"]])
 
 

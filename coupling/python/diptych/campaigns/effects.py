@@ -139,8 +139,8 @@ def effects_table(study: Study, points: Sequence[Point], records: Sequence[dict[
 
 def _shown(found: dict[str, Any]) -> str:
     """ "0.352 +- 0.013" """
-    if not found["n"]:
-        return "none"
+    if math.isnan(found["mean"]):
+        return "-"
     return f"{found['mean']:.4g}" + ("" if math.isnan(found["high"]) else f" +- {found['high'] - found['mean']:.2g}")
 
 

@@ -242,7 +242,8 @@ def _origin(text: str) -> str:
 
 def run_ensemble(line: argparse.Namespace, options: Options) -> int:
     """diptych run SCENE --seeds LIST. line: target, seeds, levels, output, set, set_file. Returns the exit code."""
-    scene_file, seeds, levels = line.target, read_seeds(line.seeds), read_levels(line.levels)
+    scene_file, seeds = line.target, read_seeds(line.seeds)
+    levels = read_levels(line.levels, len(seeds))
     settings = settings_of(line.set, line.set_file)
     if levels:
         settings.append(levels.setting("cheap"))

@@ -27,11 +27,16 @@ def _row(quantity: str, unit: str, verdict: dict[str, Any], validation: dict[str
     window, _, key = verdict["quantity"].rpartition(" band ")
     of = [quantities.get(f"{window} {panel} band {key}" if window else f"{panel}_summary {key}") for panel in _PANELS]
     grains, continuum = (Interval(q["mean"], q["low"], q["high"]) if q else Interval(*[math.nan] * 3) for q in of)
+    return {"quantity": quantity, "unit": unit, "grains": grains, "continuum": continuum, "difference": validation["E"],
+            "verdict": words_of(verdict)}
+
+
+def words_of(verdict: dict[str, Any]) -> str:
+    """A verdict of ensemble.json with its margin, such as "equivalent within 5 %"."""
     margin = f"{100 * verdict['margin']:g} %" if verdict["relative"] else f"{verdict['margin']:g}"
     words = {"equivalent": f"equivalent within {margin}", "different": f"different by more than {margin}",
              "cannot tell": f"cannot tell (margin {margin})"}[verdict["verdict"]]
-    return {"quantity": quantity, "unit": unit, "grains": grains, "continuum": continuum, "difference": validation["E"],
-            "verdict": words if verdict["n"] else "not in both panels"}
+    return words if verdict["n"] else "not in both panels"
 
 
 def text_of(rows: Sequence[dict[str, Any]]) -> str:
@@ -45,4 +50,4 @@ def text_of(rows: Sequence[dict[str, Any]]) -> str:
 
 def _with_ends(number: Interval) -> str:
     ends = f" [{number.low:.4g}, {number.high:.4g}]" if math.isfinite(number.low) else ""
-    return f"{number.value:.4g}{ends}" if math.isfinite(number.value) else "none"
+    return f"{number.value:.4g}{ends}" if math.isfinite(number.value) else "-"

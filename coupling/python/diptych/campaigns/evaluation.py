@@ -160,11 +160,13 @@ def _cheapest(study: Study, records: Sequence[dict[str, Any]], rivals: list[dict
     return result
 
 
-def cost_of(study: Study, points: Sequence[Point], results: Results, records: Sequence[dict[str, Any]]) -> dict[str, Any]:
-    """study_cost.json: CPU times of finished points, Pareto fronts and cheapest points. References do not compete."""
+def cost_of(study: Study, points: Sequence[Point], results: Results, records: Sequence[dict[str, Any]],
+            more: dict[str, RunResult]) -> dict[str, Any]:
+    """study_cost.json: CPU times of finished points, Pareto fronts and cheapest points. References do not compete. more: runs by
+    name that count only in the total."""
     counts: Callable[[str], bool] = lambda name: name in study.cost if study.cost else name != "report"
     pairs = [(run.name, result) for point, row in zip(points, results) for run, result in zip(point.runs, row)]
-    ended = list({name: result for name, result in reversed(pairs)}.values())  # points may share runs
+    ended = list(({name: result for name, result in reversed(pairs)} | more).values())  # points may share runs
     everything = [phase for result in ended for phase in result.phases]
     costs = [_mean_cost(counts, results[k], k) for k in range(len(points)) if is_finished(results[k])]
     cheapest = []

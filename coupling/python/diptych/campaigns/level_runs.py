@@ -15,16 +15,18 @@ import numpy as np
 from .. import _diptych
 from ..errors import SceneError, Stopped
 from .engine import Options, say
+from .ensemble_summary import words_of
 from .folders import Runs, SceneRun, read_json
 from .input_file import Setting
 from .key_numbers import FORCE, PEAK, STRENGTH, VOLUME
 from .levels import CHEAP, FINE, LEAST_PAIRS, MOST_RATIO, Limit, limit_of, variances, weight_of
 from .points import RunResult, on_sample, points_of, result_of, scene_run
-from .statistics import known
+from .statistics import Difference, Interval, known
 from .study_file import Study, quantity
 
 NAMES = ((PEAK, "-"), (STRENGTH, "-"), (FORCE, "P d"), (VOLUME, "-"))  # of the grains, in the order of the verdicts
 IN_THE_LIMIT = ", limit of short steps"
+CLOSEST = 0.75  # second accuracy / first; their expected errors must then differ by MOST_RATIO
 
 
 class Levels(NamedTuple):
@@ -38,17 +40,19 @@ class Levels(NamedTuple):
         return Setting("discrete", "accuracy", _diptych.text_of_number(getattr(self, of)), "--levels")
 
 
-def read_levels(text: str) -> Levels | None:
-    """--levels: "auto" or two accuracies such as "0.05,0.01"; None without it. Raises SceneError."""
+def read_levels(text: str, n_samples: int) -> Levels | None:
+    """--levels: "auto" or two accuracies such as "0.05,0.01"; None without it. Raises SceneError, also for a single sample."""
+    if text and n_samples < 2:
+        raise SceneError(f"--levels {text} needs at least two samples, for example --seeds 1-16", "--levels")
     if text in ("", "auto"):
         return Levels(CHEAP, FINE) if text else None
     try:
         cheap, fine = map(float, text.split(","))
     except ValueError:
         cheap = fine = math.nan
-    if not 0.001 <= fine < cheap <= 0.05:
+    if not (0.001 <= fine <= CLOSEST * cheap and cheap <= 0.05):
         raise SceneError(f"--levels {text} is not allowed; write auto, or two values of discrete/accuracy from 0.05 to 0.001, "
-                         "the larger one first, such as 0.05,0.01", "--levels")
+                         f"the second at most {CLOSEST} times the first, such as 0.05,0.01", "--levels")
     return Levels(cheap, fine)
 
 
@@ -118,8 +122,12 @@ def paired_points(runs: Runs, fine: Sequence[Sequence[SceneRun]], cheap: Sequenc
         results = [[result_of(runs, run, quantities) for run in of_point[:pairs]] for of_point in fine]
         points = [PairedPoint(*both, quantities) for both in zip(cheap, results)]
         if all(math.isnan(point.ratio) for point in points):
-            raise SceneError("--levels: both accuracies give nearly the same step (step and step_bound in provenance.json), or "
-                             "no run finished. Give a finer second accuracy, or leave --levels out", "--levels")
+            ended = [run for of_point in results for run in of_point]
+            if not any(run.known and run.exit_code == 0 for run in ended):
+                raise SceneError("--levels: no run with the fine step finished; the first ended with: "
+                                 + ended[0].words, "--levels")
+            raise SceneError("--levels: both accuracies give nearly the same step (step and step_bound in provenance.json). "
+                             "Give a finer second accuracy, or leave --levels out", "--levels")
         wanted = min(n, max(point.pairs_wanted() for point in points))
         if wanted <= pairs:
             say(options, f"limit of short steps: {pairs} of {n} samples also with the fine step")
@@ -153,30 +161,50 @@ def ensemble_levels(levels: Levels, seeds: Sequence[int], point: PairedPoint) ->
     n = len(seeds)
     return {**levels._asdict(), "seeds": list(seeds[:len(point.fine)]),
             "quantities": [{"quantity": point.quantities[q]["name"], "unit": point.quantities[q]["unit"], **vars(limit),
+                            "relative_bias": limit.cheap / limit.limit.value - 1,
                             "fine": _column(point.fine, q, n)} for q, (limit, _) in point.limits().items()]}
 
 
 def add_summary(record: dict[str, Any], levels: dict[str, Any]) -> None:
-    """Adds the entry `levels` and its rows of the summary to the record of an ensemble. Both panels share the samples, so the
-    limit of continuum minus grains has its own interval."""
+    """Adds the entry `levels` and its rows of the summary to the record of an ensemble, with the margins of the verdicts."""
     record["levels"] = levels
     cells = {row["quantity"]: row["continuum"] for row in record["summary"]}
-    for found, verdict in zip(levels["quantities"], record["verdicts"]):
-        continuum, cheap, fine = (np.array(values, float)
-                                  for values in (verdict["continuum"], verdict["discrete"], found["fine"]))
-        grains = limit_of(cheap, fine, found["ratio"])
-        record["summary"].append({
-            "quantity": found["quantity"] + IN_THE_LIMIT, "unit": found["unit"], "grains": grains.limit,
-            "continuum": cells[found["quantity"]],
-            "difference": limit_of(continuum - cheap, continuum - fine, found["ratio"]).limit,
-            "verdict": f"bias of {100 * (grains.cheap / grains.limit.value - 1):+.2g} % removed ({grains.pairs} pairs)"})
+    n_draws = len(record["continuum_runs"]["values"]) - 1
+    for found, verdict, row in zip(levels["quantities"], record["verdicts"], record["validation"]):
+        parts = [(row["parts"]["mesh"], math.inf), (row["parts"]["load_step"], math.inf), (row["u_input"], n_draws - 1)]
+        grains, difference, words = _compared(found, verdict, [part for part in parts if math.isfinite(part[0])])
+        record["summary"].append({"quantity": found["quantity"] + IN_THE_LIMIT, "unit": found["unit"], "grains": grains,
+                                  "continuum": cells[found["quantity"]], "difference": difference,
+                                  "verdict": words_of({**verdict, "verdict": words})})
+
+
+def _compared(found: dict[str, Any], verdict: dict[str, Any],
+              errors: Sequence[tuple[float, float]]) -> tuple[Interval, Interval, str]:
+    """The limit, continuum minus limit, and its verdict. errors: those of the continuum, as Difference.with_errors() has them.
+
+    Both panels share the samples, so continuum - factor x grains has a limit of its own. With the factor q = continuum / limit
+    it is 0. Its interval divided by the limit is that of the relative difference q - 1, with the scatter of the grains."""
+    continuum, cheap, fine = (np.array(values, float) for values in (verdict["continuum"], verdict["discrete"], found["fine"]))
+
+    def difference(factor: float) -> Difference:
+        both = [limit_of(continuum - factor * cheap, continuum - factor * fine, found["ratio"], confidence).limit
+                for confidence in (0.95, 0.90)]
+        return Difference(verdict["n"], *both).with_errors(errors)
+
+    grains, absolute = limit_of(cheap, fine, found["ratio"]).limit, difference(1.0)
+    if not verdict["relative"]:
+        return grains, absolute.difference, absolute.verdict(verdict["margin"])
+    factor = 1 + absolute.difference.value / grains.value
+    at_zero, scale = difference(factor), abs(grains.value)
+    relative = [Interval(*(factor - 1 + end / scale for end in one)) for one in (at_zero.difference, at_zero.difference_90)]
+    return grains, absolute.difference, Difference(verdict["n"], *relative).verdict(verdict["margin"])
 
 
 def study_levels(study: Study, results: Sequence[Sequence[RunResult]], levels: Levels, runs: Runs,
-                 options: Options) -> tuple[list[list[RunResult]], list[list[Limit]]]:
+                 options: Options) -> tuple[list[list[RunResult]], list[list[Limit]], dict[str, RunResult]]:
     """Runs the pairs of a study without a reference. Each quantity that has a rule gets a second one, in the limit. Its values
-    are the pairs, extrapolated sample by sample. Returns copies of the results with these values, and the limits
-    [point][new quantity]."""
+    are the pairs, extrapolated sample by sample. Returns copies of the results with these values, the limits
+    [point][new quantity], and the fine runs by name."""
     fine = points_of(replace(study, settings=[*study.settings, levels.setting("fine")], command="discrete"))
     paired = paired_points(runs, [point.runs for point in fine], results, study.quantities, options)
     found = [point.limits() for point in paired]
@@ -184,4 +212,5 @@ def study_levels(study: Study, results: Sequence[Sequence[RunResult]], levels: L
     study.quantities += [{**study.quantities[q], "name": study.quantities[q]["name"] + IN_THE_LIMIT} for q in found[0]]
     longer = [[replace(run, values=[*run.values[:n], *(values[k] for _, values in limits.values())])
                for k, run in enumerate(of_point)] for of_point, limits in zip(results, found)]
-    return longer, [[limit for limit, _ in limits.values()] for limits in found]
+    pairs = {run.name: result for point, both in zip(fine, paired) for run, result in zip(point.runs, both.fine)}
+    return longer, [[limit for limit, _ in limits.values()] for limits in found], pairs

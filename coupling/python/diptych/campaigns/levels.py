@@ -32,7 +32,6 @@ LEAST_PAIRS = 6  # of the pilot and of every estimate; four leave too many inter
 MOST_RATIO = 0.8  # of the expected errors: closer settings leave too much to the extrapolation
 # Standard deviation of the order of the bias in the step / the order: 0.5 +- 0.1 (benchmarks/rigid_limit).
 ORDER_DEVIATION = 0.2
-_NORMAL = 1.959963984540054  # 97.5 % quantile
 
 
 def weight_of(ratio: float) -> float:
@@ -67,13 +66,14 @@ class Variances(NamedTuple):
         return _half_interval((of_pairs, n_pairs), (of_rest, n_cheap), self.order)
 
 
-def _half_interval(pairs: tuple[float, int], rest: tuple[float, int], order: float) -> float:
+def _half_interval(pairs: tuple[float, int], rest: tuple[float, int], order: float, confidence: float = 0.95) -> float:
     """pairs, rest: (variance of their part, number of samples that tell it). Degrees of freedom by Welch and Satterthwaite."""
-    square = pairs[0] + rest[0]
+    square, probability = pairs[0] + rest[0], (1 + confidence) / 2
+    of_order = student_quantile(probability, math.inf) * order
     if square == 0:
-        return _NORMAL * order
+        return of_order
     freedom = square**2 / sum(variance**2 / (n - 1) for variance, n in (pairs, rest))
-    return math.hypot(student_quantile(0.975, freedom) * math.sqrt(square), _NORMAL * order)
+    return math.hypot(student_quantile(probability, freedom) * math.sqrt(square), of_order)
 
 
 def _pairs(cheap: Sequence[float], fine: Sequence[float]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -119,12 +119,12 @@ class Limit:
     ratio: float
     cheap: float  # mean of the cheap samples
     difference: float  # mean of cheap - fine over the pairs
-    limit: Interval  # with its 95 % interval
+    limit: Interval  # with its interval
     error_samples: float  # scatter of samples and differences
     error_order: float
 
 
-def limit_of(cheap: Sequence[float], fine: Sequence[float], ratio: float) -> Limit:
+def limit_of(cheap: Sequence[float], fine: Sequence[float], ratio: float, confidence: float = 0.95) -> Limit:
     """The two-level mean. cheap, fine: values whose entries k belong to one sample; NaN where a sample has none.
 
     The interval holds the scatter of the samples, that of the differences with its weight, their covariance and the order. NaN
@@ -140,6 +140,6 @@ def limit_of(cheap: Sequence[float], fine: Sequence[float], ratio: float) -> Lim
     value = cheap_mean - w * difference
     of_pairs, of_rest = m * float(z.var(ddof=1)), (n - m) * float(known.var(ddof=1)) / n**2
     order = order_error(ratio, difference)
-    half = _half_interval((of_pairs, m), (of_rest, n), order)
+    half = _half_interval((of_pairs, m), (of_rest, n), order, confidence)
     limit = Interval(value, value - half, value + half)
     return Limit(n, m, ratio, cheap_mean, difference, limit, math.sqrt(of_pairs + of_rest), order)

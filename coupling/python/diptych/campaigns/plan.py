@@ -138,7 +138,10 @@ def write_plan(directory: str, question: Question, plan: Plan) -> None:
     """plan.json and planned.prm: the scene with the chosen settings."""
     write_json(directory + "/plan.json", plan.record())
     scene = _diptych.read_changed_scene(question.scene, [*question.changes, *plan.settings], False)
-    write_text(directory + "/planned.prm", scene.in_folder("", scene.name, scene.dict()["sample"]["seed"]).text())
+    lines = [f"# The first of two levels. For both: diptych run planned.prm --seeds {panel.seeds[0]}-{panel.seeds[-1]} "
+             f"--levels {panel.levels['cheap']:g},{panel.levels['fine']:g}\n" for panel in plan.panels if panel.levels]
+    text = scene.in_folder("", scene.name, scene.dict()["sample"]["seed"]).text()
+    write_text(directory + "/planned.prm", "".join(lines) + text)
 
 
 def main_plan(args: argparse.Namespace, options: Options) -> int:

@@ -107,7 +107,6 @@ def _write(directory: str, study: Study, points: Sequence[Point], results: Resul
         name, table = (("sensitivity", sensitivity_table(record["sensitivity"])) if study.ranges
                        else ("effects", effects_table(study, points, records)))
         write_text(os.path.join(directory, name + ".csv"), table.to_csv(index=False, lineterminator="\n"))
-    write_json(os.path.join(directory, "study_cost.json"), cost_of(study, points, results, records))
     write_curves(directory, study, points, results)
 
 
@@ -158,15 +157,16 @@ def run_study(line: argparse.Namespace, options: Options) -> int:
         read = {run.name: result_of(runs, run, study.quantities)  # each different run once
                 for run in {run.name: run for point in points for run in point.runs}.values()}
         results = [[read[run.name] for run in point.runs] for point in points]
-        left, limits = sum(outcome.interrupted for outcome in outcomes), None
+        left, limits, pairs = sum(outcome.interrupted for outcome in outcomes), None, {}
         if levels and not left:
-            results, limits = study_levels(study, results, levels, runs, options)
+            results, limits, pairs = study_levels(study, results, levels, runs, options)
         record = study_record(study, points, evaluate(study, points, results, limits))
         if limits:
             record["levels"] = {**levels._asdict(), "pairs": max(one.pairs for of_point in limits for one in of_point)}
         if study.ranges:
             record["sensitivity"] = sensitivity_of(study, results, record["points"])
         _write(directory, study, points, results, record)
+        write_json(os.path.join(directory, "study_cost.json"), cost_of(study, points, results, record["points"], pairs))
         if not left:
             draw(options, "study", directory)
         say(options, f"{_conclude(study, points, record, options)}; tables: {directory}/study.json, study.csv"

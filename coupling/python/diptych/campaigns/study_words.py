@@ -45,9 +45,11 @@ def _axis(text: str) -> dict[str, Any]:
 
 def levels_of_words(line: argparse.Namespace, study: Study) -> Levels | None:
     """--levels, whose cheap accuracy becomes a setting of all points. Raises SceneError if this study can have no levels."""
-    levels = read_levels(line.levels)
-    if levels and (study.ranges or study.reference is not None or not study.seeds or study.command not in ("run", "discrete")):
-        raise SceneError(f"--levels {line.levels} gives means of grains over samples: it needs seeds, grains, axes and no reference")
+    wrong = {"has no grains (--panels continuum)": study.command not in ("run", "discrete"),
+             "has ranges; give axes": study.ranges, "has a reference; remove it": study.reference is not None}
+    for words in [words for words, applies in wrong.items() if applies and line.levels]:
+        raise SceneError(f"--levels {line.levels} gives means of grains over samples, and this study {words}", "--levels")
+    levels = read_levels(line.levels, len(study.seeds))
     study.settings += [levels.setting("cheap")] if levels else []
     return levels
 

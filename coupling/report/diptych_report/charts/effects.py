@@ -1,6 +1,8 @@
 # diptych: charts of a study without a reference: quantities over parameters
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
+import textwrap
+
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator
@@ -23,8 +25,8 @@ def over_parameter(study, family, places, label):
     below = 0.5 if _are_numbers(across) else 0.45 + 0.033 * max(len(p["label"]) for p in across["points"])  # inches, for long names
     height = 2.8 + below
     figure = Figure(figsize=(5.2, height))
-    axes = ruled(figure.add_axes([0.155, below / height, 0.825, 2.67 / height]))
-    place_labels(axes, 0.03, 0.13 / height)
+    axes = ruled(figure.add_axes([0.17, below / height, 0.81, 2.67 / height]))
+    place_labels(axes, 0.004, 0.13 / height)
     drawn = [(panel, k, name, points) for panel, k in places.items() for name, points in lines.items()
              if any(point["quantities"][k]["mean"] is not None for _, point in points)]
     if not drawn:
@@ -47,7 +49,8 @@ def over_parameter(study, family, places, label):
               ", ".join(text for text in (word, name) if text))
     if list(places) == ["difference"]:
         axes.axhline(0, color=FAINT, linewidth=0.9)
-    axes.set(xlabel=across["name"], ylabel=label)
+    axes.set(xlabel=across["name"])
+    axes.set_ylabel(textwrap.fill(label, 40), va="top")  # a second line goes to the right
     if len(drawn) > 1:
         axes.legend(loc="best", fontsize=7.5, handlelength=2.2)
     _set_limits(axes, positions, [point["quantities"][k] for _, k, _, points in drawn for _, point in points])
