@@ -4,15 +4,17 @@
 """levels.py [--figure FILE]
 
 Evaluates the runs of dense_biaxial at I = 1.13e-3 that order.csv holds: forty samples, each with several steps. Checks the interval
-of two-level means against all forty samples at the finest step, and compares what methods cost. Needs numpy, pandas and the
-package diptych (PYTHONPATH), the figure matplotlib."""
+of two-level means against all forty samples at the finest step, and compares what methods cost. Needs h5py, numpy,
+pandas, scipy and the package diptych (PYTHONPATH), the figure matplotlib."""
 import argparse
 import os
 
 import numpy
 import pandas
 
+import order
 from diptych.campaigns import levels
+from order import SPRINGS
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 TABLE = os.path.join(HERE, "order.csv")
@@ -21,8 +23,6 @@ CHEAP, FINEST = "accuracy=0.05", FIXED[-1]
 FINE = ("accuracy=0.01", "accuracy=0.005", FINEST)
 ONE_LEVEL = (CHEAP, "accuracy=0.02", *FINE)
 TARGETS = (1.0, 0.5, 0.35)  # errors of the mean [%]
-SPRINGS = {"penalty=1e4": "penalty, kn/P = 1e4", "penalty=1e5": "penalty, 1e5", "lammps=1e4": "LAMMPS, kn/P = 1e4",
-           "lammps=1e5": "LAMMPS, 1e5"}
 
 
 class Runs:
@@ -34,12 +34,11 @@ class Runs:
         mean = table.groupby("point")[["step", "cpu_s"]].mean()
         self.step, self.cpu_s = mean["step"], mean["cpu_s"]
         values = table.pivot(index="seed", columns="point", values=quantity)
-        # T/S = a (1 + b sqrt(h)) by least squares, sample by sample: the limit of each sample and the coefficient of all.
-        steps = numpy.sqrt(self.step[list(FIXED)])
-        fit = numpy.linalg.lstsq(numpy.c_[numpy.ones(len(FIXED)), steps], values[list(FIXED)].T.to_numpy(), rcond=None)[0]
-        self.limit = fit[0].mean()
-        self.values, self.of_sample = 100 * values / self.limit, 100 * pandas.Series(fit[0] / self.limit, values.index)
-        self.coefficient = 100 * fit[1].mean() / self.limit
+        # T/S = a (1 + b sqrt(h)), fitted as in order.py: the limit of each sample and the coefficient of all.
+        fit = order.Fit(values[list(FIXED)].dropna(), self.step[list(FIXED)])
+        limits = values[list(FIXED)].to_numpy() @ fit.limit_weights()
+        self.limit, self.coefficient = limits.mean(), 100 * fit.at(0.5)[2]
+        self.values, self.of_sample = 100 * values / self.limit, 100 * pandas.Series(limits / self.limit, values.index)
 
     def bias(self, point):
         """Of an NSCD setting by the fit; of springs the measured one [%], which counts as 0 below two standard errors."""
@@ -59,9 +58,9 @@ class Runs:
 
 def one_level(runs, seconds):
     """Error [%] with the best step for each CPU time; the cost of steps between those that ran is interpolated."""
-    order = sorted(ONE_LEVEL, key=lambda point: runs.step[point])
-    h = numpy.geomspace(runs.step[order[0]], runs.step[order[-1]], 200)
-    cost = numpy.exp(numpy.interp(numpy.log(h), numpy.log(runs.step[order]), numpy.log(runs.cpu_s[order])))
+    by_step = sorted(ONE_LEVEL, key=lambda point: runs.step[point])
+    h = numpy.geomspace(runs.step[by_step[0]], runs.step[by_step[-1]], 200)
+    cost = numpy.exp(numpy.interp(numpy.log(h), numpy.log(runs.step[by_step]), numpy.log(runs.cpu_s[by_step])))
     return numpy.sqrt((runs.coefficient**2 * h + runs.scatter()**2 * cost / numpy.maximum(seconds[:, None], cost)).min(axis=1))
 
 
@@ -70,9 +69,9 @@ def two_levels(runs, seconds, fine):
     s, cost = runs.values[[CHEAP, fine]].dropna(), (runs.cpu_s[CHEAP], runs.cpu_s[fine])
     v, d = levels.variances(s[CHEAP], s[fine], runs.ratio(fine)), s[CHEAP] - s[fine]
     v = v._replace(many=s[CHEAP].var() - 2 * levels.weight_of(runs.ratio(fine)) * s[CHEAP].cov(d))  # forty pairs know it
-    order, bias = (0, runs.bias(fine)) if fine in SPRINGS else (v.order, 0)
+    of_order, bias = (0, runs.bias(fine)) if fine in SPRINGS else (v.order, 0)
     share = v.share(cost)
-    error = (v.many + v.pairs / share) * (cost[0] + share * cost[1]) / seconds + order**2 + bias**2
+    error = (v.many + v.pairs / share) * (cost[0] + share * cost[1]) / seconds + of_order**2 + bias**2
     least = levels.LEAST_PAIRS * (cost[1] + cost[0] / share)  # below it there are too few pairs
     return numpy.where(seconds >= least, numpy.sqrt(error), numpy.nan), share
 
@@ -149,7 +148,7 @@ def draw(seconds, curves, path):
     axis.set(xscale="log", yscale="log", xlim=(1, 3000), ylim=(0.2, 6), ylabel="error of the mean strength (%)",
              xlabel="CPU seconds for all samples, 1000 discs to 4 % strain",
              title="I = 1.13e-3: root of bias² + variance of the mean T/S over 0.5-4 %")
-    axis.set_yticks([0.2, 0.5, 1, 2, 5], ["0.2", "0.5", "1", "2", "5"])
+    axis.set_yticks([0.2, 0.3, 0.4, 0.5, 1, 2, 5], ["0.2", "0.3", "0.4", "0.5", "1", "2", "5"])
     axis.title.set_fontsize(10)
     axis.grid(alpha=0.3, which="both")
     axis.legend(fontsize=8)

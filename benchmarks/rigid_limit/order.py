@@ -24,7 +24,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 STORED = os.path.join(HERE, "order.csv")
 STEPS = (0.4, 0.1, 0.025)
 ACCURACIES = tuple(f"accuracy={a:g}" for a in (0.05, 0.02, 0.01, 0.005))
-SPRINGS = ("penalty=1e4", "penalty=1e5", "lammps=1e4", "lammps=1e5")
+SPRINGS = {"penalty=1e4": "penalty, kn/P = 1e4", "penalty=1e5": "penalty, 1e5", "lammps=1e4": "LAMMPS, 1e4", "lammps=1e5": "LAMMPS, 1e5"}
 RESTITUTION = ("e_n=0.5", "e_n=0.8")
 DENSE = (rigid_limit.SCENE, "loading/axial_strain=0.04")
 OBLIQUE = (os.path.join(HERE, "../moreau_quick/scene.prm"), "loading/axial_strain=0.03")
@@ -128,6 +128,16 @@ class Fit:
         self.p = grid[misfit.argmin()], inside[0], inside[-1]
         self.misfit = {p: self.at(p)[0] for p in (self.p[0], 0.5, 1)}
 
+    def limit_weights(self):
+        """Weights of the steps whose sum gives a for p = 1/2, for the mean or for one sample."""
+        shape = numpy.stack([numpy.ones_like(self.h), self.h ** 0.5], 1)
+        return (numpy.linalg.inv(shape.T @ self.weight @ shape) @ shape.T @ self.weight)[0]
+
+    def interval_of_p(self):
+        """As text; an end of the grid is no bound."""
+        low, high = ("" if end in (0.05, 2) else f"{end:.2f}" for end in numpy.round(self.p[1:], 2))
+        return f"p in [{low}, {high}]" if low and high else f"p below {high}" if high else "p unknown"
+
     def at(self, p):
         """(chi^2, a, b, standard errors of a and b)."""
         shape = numpy.stack([numpy.ones_like(self.h), self.h ** p], 1)
@@ -148,9 +158,7 @@ def against_limit(table, name, quantity, point):
     weighted sum of the runs with a given step whose mean is a."""
     case = CASES[name]
     steps = [f"h={h:g}" for h in case.steps]
-    fit = Fit(wide(table, name, quantity, steps), case.steps)
-    shape = numpy.stack([numpy.ones_like(fit.h), fit.h ** 0.5], 1)
-    weights = (numpy.linalg.inv(shape.T @ fit.weight @ shape) @ shape.T @ fit.weight)[0]
+    weights = Fit(wide(table, name, quantity, steps), case.steps).limit_weights()
     values = wide(table, name, quantity, [*steps, *([] if point in steps else [point])])
     limit = values[steps].to_numpy() @ weights
     mean, error = rigid_limit.claims.mean_and_error(values[point].to_numpy() - limit)
@@ -189,9 +197,13 @@ def draw(table, path):
             _, a, b, a_error, _ = fit.at(0.5)
             found = [against_limit(table, name, quantity, point) for point in steps]
             axis.errorbar(fit.h ** 0.5 + shift, [100 * m for m, _ in found], [100 * e for _, e in found], fmt="o", color=colour, capsize=3,
-                          label=f"{name}, I = {case.inertial:g}, {fit.n} samples: p in [{fit.p[1]:.2f}, {fit.p[2]:.2f}]")
+                          label=f"{name}, I = {case.inertial:g}, {fit.n} samples: {fit.interval_of_p()}")
             axis.plot(h ** 0.5, 100 * b * h ** 0.5, "-", color=colour, linewidth=1)
             axis.set(xlabel=r"root of the step, $\sqrt{h\,/\,(d\sqrt{\rho/P})}$", ylabel=f"{quantity} against the limit (%)")
+            for k, point in enumerate(SPRINGS if name == "dense" else ()):
+                mean, error = against_limit(table, name, quantity, point)
+                axis.errorbar(-0.025 - 0.02 * k, 100 * mean, 100 * error, fmt="s^"[k // 2], color="#777777", capsize=3, markersize=4,
+                              markerfacecolor="white" if k % 2 == 0 else None, label=SPRINGS[point] if quantity == "strength" else None)
         bias = [(100 * table[(table.case == name) & (table.point == p)].impact_share.mean(), 100 * against_limit(table, name, "strength", p)[0])
                 for p in (*steps, *ACCURACIES) if len(table[(table.case == name) & (table.point == p)])]
         n = len(steps)
@@ -202,7 +214,9 @@ def draw(table, path):
     for axis in axes:
         axis.axhline(0, color="black", linewidth=0.7)
         axis.grid(alpha=0.3)
-        axis.legend(fontsize=7.5)
+        axis.legend(fontsize=7.5, loc="upper left")
+    axes[0].set_ylim(top=6.6)
+    axes[1].set_ylim(top=13)
     figure.savefig(path, dpi=110)
 
 

@@ -93,9 +93,10 @@ def corner(calibration):
     entries, n = calibration.parameters, len(calibration.parameters)
     draws = [np.log10(p["draws"]) if p["coordinate"] == "logarithm" else numbers(p["draws"]) for p in entries]
     ends = [np.log10([p["low"], p["start"], p["high"]]) if p["coordinate"] == "logarithm" else numbers([p["low"], p["start"], p["high"]]) for p in entries]
-    figure = Figure(figsize=(max(3.2, 1.25 * n + 0.6),) * 2)
+    size = 1.45 * n + 1.2
+    figure = Figure(figsize=(size, size))
     grid = figure.subplots(n, n, squeeze=False)
-    figure.subplots_adjust(left=0.6 / (n + 0.5), bottom=0.6 / (n + 0.5), right=0.99, top=0.99, wspace=0.08, hspace=0.08)
+    figure.subplots_adjust(left=1.05 / size, bottom=0.8 / size, right=0.99, top=0.99, wspace=0.08, hspace=0.08)
     for i, j in np.ndindex(n, n):
         axes = grid[i, j]
         low, start, high = ends[j]
@@ -116,8 +117,8 @@ def corner(calibration):
             if shown:
                 name = label(entries[k]).replace("_", " ").replace(" angle", "\nangle").replace(" length", "\nlength")
                 name = name.replace(" modulus", "\nmodulus").replace(" strain", "\nstrain")
-                axis.set_label_text(name + {"share_of": ", share", "drop_from": ", drop"}.get(entries[k]["coordinate"], ""), fontsize=7)
-                axis.set_ticks([ends[k][0], ends[k][2]], [f"{entries[k][end]:g}" for end in ("low", "high")], fontsize=6)
+                axis.set_label_text(name + {"share_of": ", share", "drop_from": ", drop"}.get(entries[k]["coordinate"], ""))
+                axis.set_ticks([ends[k][0], ends[k][2]], [f"{entries[k][end]:g}" for end in ("low", "high")])
                 for text, side in zip(axis.get_ticklabels(), (("left", "right"), ("bottom", "top"))[axis is axes.yaxis]):
                     text.set(**{"verticalalignment" if axis is axes.yaxis else "horizontalalignment": side})
     return svg(figure, "Posterior of the parameters: histograms with the prior, draws of every pair, correlations.")

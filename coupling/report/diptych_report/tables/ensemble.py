@@ -7,6 +7,7 @@ from diptych_report.data.ensemble import MOST_CURVES
 from diptych_report.data.panels import PANEL_NAMES
 from diptych_report.tables.wording import DECIMALS, UNBROKEN, ending, fixed, number, rounded, shown_unit
 
+NUMERICAL = ("grains_step", "mesh", "load_step")  # parts of u_num
 AXIS_UNITS = {"": "", "%": " (%)", "°": " (°)", " d": " (d)"}
 
 
@@ -78,12 +79,14 @@ def validation_table(results):
         label = text_of(results, verdict) + (f" [{unit.strip()}]" if unit else "")
         factor = 100 if unit == "%" else 1
         cells = [_digits(value, factor, 3) for value in (one["S"], one["D"], one["E"]["value"])]
-        cells.append(_digits(one["u_num"], factor, 2, "≥ " if None in one["parts"].values() else ""))
-        cells += [_digits(one[key], factor, 2) for key in ("u_input", "u_D")]
-        cells += [_digits(one["u_val"], factor, 2, "≥ " if missing else ""), _digits(one["ratio"], 1, 2, "≤ " if missing else "")]
+        uncertainties = [one["parts"][name] for name in NUMERICAL] + [one["u_input"], one["u_D"]]
+        cells += [_digits(u, factor, 2) for u in uncertainties]
+        cells.append(_digits(one["u_val"], factor, 2, "≥ " if missing else ""))
+        cells.append(_digits(one["ratio"], 1, 2, "≤ " if missing else ""))
         rows.append([label, *cells, one["verdict"] + (f" (without {', '.join(missing)})" if missing else "")])
-    return {"head": ["", ("S", "continuum"), ("D", "grains"), ("E", "S − D"), ("u_num", "methods"), ("u_input", "parameters"),
-                     ("u_D", "samples"), ("u_val", "together"), ("|E| / u_val", ""), "verdict"], "rows": rows}
+    return {"head": ["", ("S", "continuum"), ("D", "grains"), ("E", "S − D"), ("u_num", "grains’ step"), ("u_num", "mesh"),
+                     ("u_num", "load step"), ("u_input", "parameters"), ("u_D", "samples"), ("u_val", "together"),
+                     "|E| / u_val", "verdict"], "rows": rows}
 
 
 def _digits(value, factor, digits, before=""):
