@@ -40,7 +40,7 @@ class Case:
 
 
 CASES = {"dense": Case(1.13e-3, range(11, 51), DENSE, 0.008, (*STEPS, 0.00625, 0.0015625), (*SPRINGS, *RESTITUTION)),
-         "slow": Case(1.13e-4, range(11, 31), DENSE, 0.02),
+         "slow": Case(1.13e-4, range(11, 51), DENSE, 0.02),
          "oblique": Case(1e-3, range(1, 41), OBLIQUE, 0.008)}
 
 
