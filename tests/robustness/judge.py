@@ -64,8 +64,12 @@ def digest(root):
     for folder, names, files in os.walk(root):
         for name in names + files:
             path = os.path.join(folder, name)
-            found[os.path.relpath(path, root)] = "-> " + os.readlink(path) if os.path.islink(path) else "folder" if os.path.isdir(
-                path) else hashlib.blake2b(read(path), digest_size=16).hexdigest()
+            try:
+                found[os.path.relpath(path, root)] = "-> " + os.readlink(path) if os.path.islink(path) else "folder" if os.path.isdir(
+                    path) else hashlib.blake2b(read(path), digest_size=16).hexdigest()
+            except FileNotFoundError:
+                if not LOCK.search(name):  # a worker of a killed run removes its lock while it ends
+                    raise
     return found
 
 
