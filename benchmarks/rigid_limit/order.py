@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """order.py [PROGRAM --output DIR [--cases dense,slow,oblique] [--jobs 1]] [--figure FILE]
 
-Prints and draws the results stored in order.csv. With PROGRAM it first makes the runs (about two hours of CPU time; those in DIR are
-kept) and stores them again. Needs h5py, numpy, pandas and scipy, the figure matplotlib, the runs of LAMMPS lmp."""
+Prints and draws the results stored in order.csv. With PROGRAM it first makes the runs (80 minutes of CPU time for the loadings; those
+in DIR are kept) and stores them again. Needs h5py, numpy, pandas and scipy, the figure matplotlib, the runs of LAMMPS lmp."""
 import argparse
 import concurrent.futures
 import functools
@@ -116,8 +116,8 @@ def wide(table, name, quantity, points):
 
 
 class Fit:
-    """Least squares of the mean over samples to a (1 + b h^p), weighted by the covariance of the mean. a, b: for the best p and for
-    p = 1/2 (with standard errors). p: best value and 95 % interval, on a grid from 0.05 to 2."""
+    """Fits a (1 + b h^p) to the mean over samples by least squares, weighted by the covariance of the mean. p: best value and ends
+    of the 95 % interval, on a grid from 0.05 to 2."""
 
     def __init__(self, values, steps):
         self.h, self.mean, self.n = numpy.array(steps), values.mean().to_numpy(), len(values)

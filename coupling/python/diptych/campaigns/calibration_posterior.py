@@ -34,9 +34,9 @@ FARTHEST, LARGE = 6.0, 1e30  # ln of a factor of a variance: two samples bound i
 
 @dataclass
 class Draws:
-    """Thinned draws of the posterior: points (draws, parameters); sizes (draws, 3): factors of the tolerance of t/s and of
-    volume, correlation strain. strain: the last of these before the data. curve (2, observables): discrepancy, model - truth,
-    and its deviation; NaN where an observable does not count. autocorrelation: in steps."""
+    """Thinned draws of the posterior. points: (draws, parameters). sizes: (draws, 3), the factors of the tolerance of t/s and of
+    volume, and the correlation strain. strain: correlation strain before the data. curve: (2, observables), the discrepancy
+    model - truth and its deviation; NaN where an observable does not count. autocorrelation: in steps."""
 
     points: Array
     sizes: Array

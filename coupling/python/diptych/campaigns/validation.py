@@ -40,8 +40,8 @@ NO_RUNS: dict[str, Any] = {"seed": None, "scenes": [], "quantities": [], "values
 
 @dataclass
 class Responses:
-    """How the continuum answers to changes. coarse: values of every member on the coarse mesh. base, half_step and draws: values
-    of one sample on that mesh as it is, with half the load step, and with draws of the parameters."""
+    """How the continuum answers to changes. coarse: values of every member on the coarse mesh. The others are values of one sample
+    on that mesh. base: unchanged. half_step: with half the load step. draws: with draws of the parameters."""
 
     coarse: Sequence[Mapping[str, float]] = ()
     size_ratio: float = math.nan  # element size of the coarse mesh / that of the members
