@@ -67,8 +67,9 @@ class Rectangle:
         return held, numpy.column_stack((numpy.where(x > right - EDGE, -self.pressure, 0), 0 * y)), platen
 
     def grid(self, n):
-        """Coordinates of the grid lines of the quarter: n rows, finest at the corner."""
-        columns = max(1, round(n * self.width_over_height))
+        """Coordinates of the grid lines of the quarter, finest at the corner: n rows, a multiple of 4, and columns of about equal size, so
+        many that twice n gives twice the columns."""
+        columns = n // 4 * round(4 * self.width_over_height)
         return tuple(end * (1 - numpy.linspace(1, 0, k + 1)**2) for end, k in zip(self.corner, (columns, n)))
 
     def area(self):

@@ -51,17 +51,20 @@ def sparse_solver(G):
     return factor
 
 
-def largest(objective, A, b, soil):
+def largest(objective, A, b, soil, margin=0.0):
     """Stress (9 m,) with the largest objective.stress subject to A stress = b and Mohr-Coulomb's condition for each three components, the
     multipliers of the equations, and the number of iterations.
 
     In terms of z = ((2 c cot(phi) - s_xx - s_yy) sin(phi), s_xx - s_yy, 2 s_xy) the condition is z_0 >= |(z_1, z_2)|, a cone. The stresses
-    are the variables of cvxopt's dual problem, so its primal variables are the multipliers."""
+    are the variables of cvxopt's dual problem, so its primal variables are the multipliers. The cone that holds the strain rates of the
+    multipliers is narrowed by `margin`, which adds at most margin x sum of z_0 to the result."""
     n = A.shape[1] // 3
     back = scipy.sparse.kron(scipy.sparse.identity(n), [[-0.5 / soil.sine, 0.5, 0], [-0.5 / soil.sine, -0.5, 0], [0, 0, 0.5]]).tocsr()
     apex = numpy.tile((soil.apex, soil.apex, 0.0), n)  # stress = apex + back z
     G = (A @ back).T.tocsr()
+    strain = -(back.T @ objective)
+    strain[0::3] -= margin
     options = {"show_progress": False, "abstol": 1e-30, "reltol": TOLERANCE, "feastol": TOLERANCE, "maxiters": 100, "refinement": 2}
-    found = cvxopt.solvers.conelp(cvxopt.matrix(A @ apex - b), to_cvxopt(G), cvxopt.matrix(-(back.T @ objective)), {"l": 0, "q": [3] * n, "s": []},
+    found = cvxopt.solvers.conelp(cvxopt.matrix(A @ apex - b), to_cvxopt(G), cvxopt.matrix(strain), {"l": 0, "q": [3] * n, "s": []},
                                   kktsolver=sparse_solver(G), options=options)
     return apex + back @ numpy.array(found["z"]).ravel(), numpy.array(found["x"]).ravel(), found["iterations"]

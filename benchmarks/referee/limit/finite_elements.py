@@ -56,3 +56,10 @@ def collapse_load(program, shape, soil, n, folder):
     strain, load = (numpy.array([row[key] for row in rows]) for key in ("axial_strain", "upper_fy"))
     load /= -2 * shape.platen_width
     return load[-1], 1 - numpy.interp(0.9 * strain[-1], strain, load) / load[-1], int(rows[-1]["n_cells"])
+
+
+def limit(loads):
+    """Limit of the loads of four meshes, each with half the element size of the one before, and its doubt. The differences of the last
+    three loads are continued as a geometric series (Aitken). The doubt is the change since the first three."""
+    first, last = (c - (c - b)**2 / ((c - b) - (b - a)) for a, b, c in (loads[:3], loads[1:]))
+    return last, abs(last - first)
