@@ -59,7 +59,8 @@ def collapse_load(program, shape, soil, n, folder):
 
 
 def limit(loads):
-    """Limit of the loads of four meshes, each with half the element size of the one before, and its doubt. The differences of the last
-    three loads are continued as a geometric series (Aitken). The doubt is the change since the first three."""
-    first, last = (c - (c - b)**2 / ((c - b) - (b - a)) for a, b, c in (loads[:3], loads[1:]))
-    return last, abs(last - first)
+    """Limit of the loads of meshes, each with half the element size of the one before, and its doubt. The differences of the last three
+    loads are continued as a geometric series (Aitken). The doubt is a quarter of this correction (Roache 1994: safety factor 1.25)."""
+    a, b, c = loads[-3:]
+    correction = (c - b)**2 / ((c - b) - (b - a))
+    return c - correction, 0.25 * abs(correction)
