@@ -108,7 +108,6 @@ namespace diptych::continuum
 
     KeptPreconditioner kept   = driver.linear_solver().kept();
     c.preconditioner_is_stale = kept.is_stale;
-    c.analysed_matrix         = std::move(kept.analysed);
     c.factorised_matrix       = std::move(kept.factorised);
     c.rigid_modes             = std::move(kept.rigid_modes);
     return c;
@@ -155,7 +154,7 @@ namespace diptych::continuum
     state.count     = {c.steps, c.cut_backs, c.newton_iterations, c.refinements};
     driver.restart(std::move(state));
     auto &solver = driver.linear_solver();
-    require(solver.take_up({c.preconditioner_is_stale, c.analysed_matrix, c.factorised_matrix, c.rigid_modes},
+    require(solver.take_up({c.preconditioner_is_stale, c.factorised_matrix, c.rigid_modes},
                            problem.tangent_matrix()),
             "the matrices of the checkpoint belong to another mesh or loading");
     solver.go_on_counting(c.linear_iterations, c.factorisations, c.solve_cpu_s);
