@@ -81,7 +81,7 @@ namespace diptych::coupling
     visitor(
       "coarse_element_size", o.coarse_element_size, "mean diameters", {0., 100.},
       "element size, at least 0.1, of a second continuum run that shows the effect of the mesh; 0: no such run. Twice "
-      "element_size costs a fifth of the first run");
+      "element_size costs about a quarter of the first run");
     visitor("averaging_strain", o.averaging_strain, "strain", {1e-9, 0.5},
             "last part of a stage over which stress ratio and platen forces are averaged, in both panels; mode time: the whole "
             "stage");
