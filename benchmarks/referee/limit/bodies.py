@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A body is a triangle mesh with conditions on its edges. Symmetry leaves one quarter of a rectangle and one half of a footing.
 
-Lower bounds use meshes of rays from the singular corner, upper bounds crossed diagonals in a grid that is graded towards it. Any mesh
-gives a strict bound; these meshes make both bounds close."""
+Lower bounds use meshes of rays from the singular corner, upper bounds crossed diagonals in a grid that is graded towards it.
+Any mesh gives a strict bound; these meshes make both bounds close."""
 from dataclasses import dataclass
 
 import numpy
@@ -16,16 +16,16 @@ class Body:
     """Triangles (m, 3), counter-clockwise, between points (n, 2), and what acts on the edges of the boundary.
 
     `edges(middles)` gives for points (k, 2) in the middle of boundary edges: held (k, 2), where a velocity component is given;
-    traction (k, 2) on the other components, positive along the axes; platen (k,), where the given vertical velocity is -1. Elsewhere
-    a given velocity is 0. `platen_width` is the part of the platen's width that the mesh holds."""
+    traction (k, 2) on the other components, positive along the axes; platen (k,), where the given vertical velocity is -1.
+    Elsewhere a given velocity is 0. `platen_width` is the part of the platen's width that the mesh holds."""
     points: numpy.ndarray
     triangles: numpy.ndarray
     edges: callable
     platen_width: float
 
     def sides(self):
-        """Edges as pairs of points (k, 2) in ascending order; first and second triangle (k,), the second is -1 on the boundary; number of
-        the edge opposite to each corner (m, 3)."""
+        """Edges as pairs of points (k, 2) in ascending order; first and second triangle (k,), the second is -1 on the
+        boundary; number of the edge opposite to each corner (m, 3)."""
         pairs = numpy.sort(self.triangles[:, [[1, 2], [2, 0], [0, 1]]].reshape(-1, 2), axis=1)
         pairs, first, number = numpy.unique(pairs, axis=0, return_index=True, return_inverse=True)
         number = number.ravel()
@@ -67,8 +67,8 @@ class Rectangle:
         return held, numpy.column_stack((numpy.where(x > right - EDGE, -self.pressure, 0), 0 * y)), platen
 
     def grid(self, n):
-        """Coordinates of the grid lines of the quarter, finest at the corner: n rows, a multiple of 4, and columns of about equal size, so
-        many that twice n gives twice the columns."""
+        """Coordinates of the grid lines of the quarter, finest at the corner: n rows, a multiple of 4, and columns of about
+        equal size, so many that twice n gives twice the columns."""
         columns = n // 4 * round(4 * self.width_over_height)
         return tuple(end * (1 - numpy.linspace(1, 0, k + 1)**2) for end, k in zip(self.corner, (columns, n)))
 
@@ -78,8 +78,8 @@ class Rectangle:
 
 @dataclass
 class Footing:
-    """A rough strip of width 2 on the upper edge y = 0 of a box of weightless ground: half width and depth in half strips. The base is
-    rough, the side walls are smooth, the surface beside the strip is free."""
+    """A rough strip of width 2 on the upper edge y = 0 of a box of weightless ground: half width and depth in half strips. The
+    base is rough, the side walls are smooth, the surface beside the strip is free."""
     half_width: float
     depth: float
     pressure = 0.0
@@ -106,7 +106,8 @@ class Footing:
 
 
 def crossed(points, quads):
-    """Triangles between the points and the crossing points of the diagonals of quadrilaterals (m, 4): all points, triangles (4 m, 3)."""
+    """Triangles between the points and the crossing points of the diagonals of quadrilaterals (m, 4): all points, triangles
+    (4 m, 3)."""
     a, b, c, d = (points[quads[:, k]] for k in range(4))
     p, q, r = c - a, d - b, b - a
     share = (r[:, 0] * q[:, 1] - r[:, 1] * q[:, 0]) / (p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0])
@@ -147,4 +148,5 @@ def ray_body(shape, n):
     points = (shape.corner + share[:, None, None] * (ends - shape.corner)).reshape(-1, 2)
     points, triangles = crossed(points, quads_of(rings - 1, k - 1))
     tips = numpy.column_stack((numpy.full(k - 1, len(points)), numpy.arange(k - 1), numpy.arange(1, k)))
-    return Body(numpy.concatenate((points, shape.corner[None])), numpy.concatenate((triangles, tips)), shape.edges, shape.platen_width)
+    points, triangles = numpy.concatenate((points, shape.corner[None])), numpy.concatenate((triangles, tips))
+    return Body(points, triangles, shape.edges, shape.platen_width)

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # diptych: figure of the bounds, the finite elements between them, and two mechanisms
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""draw.py results.json figure.png: draws the results that limit_analysis.py --output keeps. Two upper bounds are computed again."""
+"""draw.py results.json figure.png: draws the results that limit_analysis.py --output keeps. Two upper bounds are computed
+again."""
 import json
 import sys
 
@@ -21,9 +22,11 @@ COLOURS = ("#0072b2", "#d55e00", "#009e73")
 
 
 def mechanism(axis, shape, soil, level, title):
-    """Left: mesh of the lower bound. Right: mesh of the upper bound, moved with its velocity, coloured by the rate of dissipation."""
+    """Left: mesh of the lower bound. Right: mesh of the upper bound, moved with its velocity, coloured by the rate of
+    dissipation."""
     body = ray_body(shape, level)
-    axis.add_collection(PolyCollection(body.points[body.triangles] * (-1, 1), facecolors="white", edgecolors="0.45", linewidths=0.3))
+    left = body.points[body.triangles] * (-1, 1)
+    axis.add_collection(PolyCollection(left, facecolors="white", edgecolors="0.45", linewidths=0.3))
     body = grid_body(shape, level)
     bound = upper_bound(body, soil)
     moved = body.points + 0.12 * shape.platen_width * bound.velocity[:len(body.points)]
@@ -33,7 +36,8 @@ def mechanism(axis, shape, soil, level, title):
     cells.set_clim(-3, 0)
     axis.add_collection(cells)
     (right, top), step = shape.corner, 0.12 * shape.platen_width
-    axis.plot((-right, 0, numpy.nan, 0, right), (top, top, numpy.nan, top - step, top - step), color="black", linewidth=3, solid_capstyle="butt")
+    axis.plot((-right, 0, numpy.nan, 0, right), (top, top, numpy.nan, top - step, top - step), color="black", linewidth=3,
+              solid_capstyle="butt")
     axis.set(title=title, aspect="equal", xlabel="x")
     return cells
 
@@ -48,19 +52,20 @@ def prandtl_outline(friction_angle):
 
 
 def convergence(axis, results, title):
-    """Lower and upper bounds and finite elements of some cases over the mean element size, relative to the middle of the best bounds."""
+    """Lower and upper bounds and finite elements of some cases over the mean element size, relative to the middle of the best
+    bounds."""
     for colour, (name, rows) in zip(COLOURS, results.items()):
         middle = 0.5 * (rows["lower"][-1]["value"] + rows["upper"][-1]["value"])
         low, high = (100 * (rows[kind][-1]["value"] / middle - 1) for kind in ("lower", "upper"))
         axis.axhspan(low, high, color=colour, alpha=0.2, linewidth=0)
         for kind, style in (("lower", "^--"), ("upper", "v--"), ("elements", "o-")):
-            axis.plot([row["size"] for row in rows[kind]], [100 * (row["value"] / middle - 1) for row in rows[kind]], style, color=colour,
-                      markersize=5, linewidth=1)
+            errors = [100 * (row["value"] / middle - 1) for row in rows[kind]]
+            axis.plot([row["size"] for row in rows[kind]], errors, style, color=colour, markersize=5, linewidth=1)
         if rows["closed_form"]:
             axis.axhline(100 * (rows["closed_form"] / middle - 1), color=colour, linestyle=":", linewidth=1.5)
         tends_to, doubt = limit([row["value"] for row in rows["elements"]])
-        axis.errorbar(0, 100 * (tends_to / middle - 1), 100 * doubt / middle, color=colour, marker="o", markerfacecolor="white", capsize=3,
-                      clip_on=False)
+        axis.errorbar(0, 100 * (tends_to / middle - 1), 100 * doubt / middle, color=colour, marker="o", markerfacecolor="white",
+                      capsize=3, clip_on=False)
         axis.plot([], [], color=colour, linewidth=4, label=name.split(" ", 1)[1])
     axis.set(title=title, xlabel="mean element size / platen width", xlim=(0, None), ylim=(-4, 14))
     axis.grid(alpha=0.3)
@@ -80,13 +85,15 @@ def draw(results, path):
     bar = figure.colorbar(cells, ax=right, ticks=range(-3, 1), shrink=0.7)
     bar.ax.set_yticklabels(["$\\leq 10^{-3}$", "$10^{-2}$", "$10^{-1}$", "1"])
     bar.set_label("rate of dissipation")
-    for k, (word, title) in enumerate((("W/H", "rectangles, φ = 20°"), ("W/H", "rectangles, φ = 30°"), ("footing", "strip footings"))):
-        angle = ("phi 20", "phi 30", "phi")[k]
+    groups = (("W/H", "phi 20", "rectangles, φ = 20°"), ("W/H", "phi 30", "rectangles, φ = 30°"),
+              ("footing", "phi", "strip footings"))
+    for k, (word, angle, title) in enumerate(groups):
         axis = figure.add_subplot(grid[1, k])
         convergence(axis, {name: rows for name, rows in results.items() if word in name and angle in name}, title)
         if k == 0:
             axis.set_ylabel("load / middle of the finest bounds - 1  [%]")
-    styles = (("^--", "lower bound"), ("v--", "upper bound"), ("o-", "finite elements (q2)"), ("o", "their limit"), (":", "closed form"))
+    styles = (("^--", "lower bound"), ("v--", "upper bound"), ("o-", "finite elements (q2)"), ("o", "their limit"),
+              (":", "closed form"))
     lines = [axis.plot([], [], style, color="black", label=label)[0] for style, label in styles]
     lines[3].set_markerfacecolor("white")
     lines.append(matplotlib.patches.Patch(color="black", alpha=0.2, label="between the finest bounds"))

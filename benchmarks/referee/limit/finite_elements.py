@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 import csv
 import os
+import shutil
 import subprocess
 
 import numpy
@@ -25,9 +26,11 @@ def write_mesh(path, shape, n):
     quads = quads_of(len(x) - 1, len(y) - 1) + 1
     cells = quads.reshape(len(x) - 1, len(y) - 1, 4)
     beside = numpy.abs(x[:-1] + x[1:]) / 2 > shape.corner[0] - EDGE
-    edges = [(1, *cell[[0, 1]]) for cell in cells[:, 0]] + [(5 if free else 2, *cell[[2, 3]]) for free, cell in zip(beside, cells[:, -1])]
+    edges = [(1, *cell[[0, 1]]) for cell in cells[:, 0]]
+    edges += [(5 if free else 2, *cell[[2, 3]]) for free, cell in zip(beside, cells[:, -1])]
     edges += [(3, *cell[[3, 0]]) for cell in cells[0]] + [(4, *cell[[1, 2]]) for cell in cells[-1]]
-    elements = [f"1 2 {line} {line} {a} {b}" for line, a, b in edges] + [f"3 2 6 6 {' '.join(map(str, quad))}" for quad in quads]
+    elements = [f"1 2 {line} {line} {a} {b}" for line, a, b in edges]
+    elements += [f"3 2 6 6 {' '.join(map(str, quad))}" for quad in quads]
     places = [f"{a:.17g} {b:.17g} 0" for a in x for b in y - y[0]]
     with open(path, "w") as file:
         file.write(f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{len(LINES)}\n")
@@ -39,15 +42,16 @@ def write_mesh(path, shape, n):
 
 
 def collapse_load(program, shape, soil, n, folder):
-    """Mean vertical stress under the platen at the end of the run, its relative growth over the last tenth of the settlement, and the
-    number of elements. Throws RuntimeError if the run fails."""
+    """Mean vertical stress under the platen at the end of the run, its relative growth over the last tenth of the settlement,
+    and the number of elements. Throws RuntimeError if the run fails."""
     os.makedirs(folder, exist_ok=True)
     mesh, result = os.path.join(folder, "mesh.msh"), os.path.join(folder, "run")
+    shutil.rmtree(result, ignore_errors=True)
     write_mesh(mesh, shape, n)
     angles = [f"continuum/{key}_angle_peak={soil.friction_angle}" for key in ("friction", "dilatancy")]
     words = [word for setting in (f"continuum/mesh={mesh}", *angles) for word in ("--set", setting)]
     scene = os.path.join(HERE, "footing.prm" if isinstance(shape, Footing) else "rectangle.prm")
-    done = subprocess.run([program, "continuum", scene, "--output", result, "--overwrite", "--quiet", *words], env=ENVIRONMENT,
+    done = subprocess.run([program, "continuum", scene, "--output", result, "--quiet", *words], env=ENVIRONMENT,
                           capture_output=True, text=True)
     if done.returncode != 0:
         raise RuntimeError(f"{result} ended with exit code {done.returncode}: {done.stderr.strip()}")
@@ -59,8 +63,9 @@ def collapse_load(program, shape, soil, n, folder):
 
 
 def limit(loads):
-    """Limit of the loads of meshes, each with half the element size of the one before, and its doubt. The differences of the last three
-    loads are continued as a geometric series (Aitken). The doubt is a quarter of this correction (Roache 1994: safety factor 1.25)."""
+    """Limit of the loads of meshes, each with half the element size of the one before, and its doubt. The differences of the
+    last three loads are continued as a geometric series (Aitken). The doubt is a quarter of this correction (Roache 1994:
+    safety factor 1.25)."""
     a, b, c = loads[-3:]
     correction = (c - b)**2 / ((c - b) - (b - a))
     return c - correction, 0.25 * abs(correction)

@@ -3,13 +3,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """limit_analysis.py PROGRAM [--only WORD] [--output DIR [--reuse]] [--figure figure.png]
 
-Bounds the collapse loads of rough rectangles and of strip footings, runs `PROGRAM continuum` on four meshes of each, and judges:
-bounds within 2 %, closed forms between them, the limit of fine meshes between them. --only: cases whose name contains WORD. --output
-keeps results.json and the runs, --reuse takes numbers from it. Exit code 1: a claim fails; 2: a run failed. Needs python3-cvxopt, python3-scipy, the figure matplotlib."""
+Bounds the collapse loads of rough rectangles and of strip footings, runs `PROGRAM continuum` on four meshes of each, and
+judges: bounds within 2 %, closed forms between them, the limit of fine meshes between them. --only: cases whose name contains
+WORD. --output keeps results.json and the runs, --reuse takes numbers from it. Exit code 1: a claim fails; 2: a run failed.
+Needs python3-cvxopt, python3-scipy, the figure matplotlib."""
 import argparse
 import json
 import math
 import os
+import re
 import sys
 import tempfile
 
@@ -37,8 +39,8 @@ def prandtl(soil):
 
 
 def cases():
-    """(name, shape, soil, closed form or None). Two rigid wedges under the platens fit into a slender rectangle without touching, so its
-    strength is that of a homogeneous sample."""
+    """(name, shape, soil, closed form or None). Two rigid wedges under the platens fit into a slender rectangle without
+    touching, so its strength is that of a homogeneous sample."""
     for angle in ANGLES:
         soil, steep = Soil(angle, 0.5), math.tan(math.radians(45 + angle / 2))
         for ratio in RATIOS:
@@ -59,7 +61,8 @@ def computed(kind, shape, soil, n, place):
         value, error, count = collapse_load(place[0], shape, soil, n, f"{place[1]}_{n}")
         count /= 2 if isinstance(shape, Footing) else 4
     else:
-        bound = lower_bound(ray_body(shape, n), soil, shape.pressure) if kind == "lower" else upper_bound(grid_body(shape, n), soil)
+        low = kind == "lower"
+        bound = lower_bound(ray_body(shape, n), soil, shape.pressure) if low else upper_bound(grid_body(shape, n), soil)
         value, error, count = bound.value, bound.error, bound.n_triangles
     size = math.sqrt(shape.area() / count) / (2 * shape.platen_width)
     return {"n": n, "value": value, "error": error, "elements": count, "size": size, "seconds": seconds() - before}
@@ -90,7 +93,8 @@ def judged(name, rows, closed_form):
     loads = [row["value"] for row in rows["elements"]]
     tends_to, doubt = limit(loads)
     errors = [row["error"] for kind in ("lower", "upper") for row in rows[kind]]
-    claims = {"equilibrium and flow rule": max(errors) <= SOLVER, "bounds within 2 %": 0 <= high / low - 1 <= GAP, "elements above the lower bound": min(loads) >= low,
+    claims = {"equilibrium and flow rule": max(errors) <= SOLVER, "bounds within 2 %": 0 <= high / low - 1 <= GAP,
+              "elements above the lower bound": min(loads) >= low,
               "limit of the elements between the bounds": low - doubt <= tends_to <= high + doubt}
     if closed_form:
         claims["closed form between them"] = low * (1 - SOLVER) <= closed_form <= high * (1 + SOLVER)
@@ -122,7 +126,7 @@ def main():
         for name, shape, soil, closed_form in cases():
             if options.only not in name:
                 continue
-            place = os.path.abspath(options.program), os.path.join(folder, name.replace(",", "").replace("/", "").replace(" ", "_"))
+            place = os.path.abspath(options.program), os.path.join(folder, re.sub(r"[^\w.]+", "_", name))
             try:
                 results[name] = levels_of((shape, soil), place, kept.get(name, {}))
             except RuntimeError as failure:
