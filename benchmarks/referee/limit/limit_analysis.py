@@ -23,7 +23,7 @@ GAP = 0.02  # allowed between the bounds
 SOLVER = 1e-5  # relative accuracy of a bound that meets its closed form, unbalanced tractions, violation of the flow rule
 RATIOS, ANGLES = (0.5, 0.7, 1.0), (20, 30)
 LEVELS = {"rectangle": {"lower": (8, 16, 32), "upper": (8, 16, 24), "elements": (4, 8, 16, 32)},
-          "footing": {"lower": (12, 24, 36), "upper": (10, 20, 40), "elements": (5, 10, 20, 40)}}
+          "footing": {"lower": (12, 24, 36), "upper": (10, 20, 40), "elements": (5, 10, 20)}}
 
 
 def rankine(soil):
