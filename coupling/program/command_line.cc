@@ -218,8 +218,16 @@ namespace diptych::coupling
         add_quiet(continuum);
 
         CLI::App *point = add(Command::material_point,
-                              "compute the continuum's law at one point along the biaxial path: material_point.csv");
+                              "compute the continuum's law at one point along a loading path: material_point.csv");
         add_scene_output_set(point);
+        point
+          ->add_option("--path", line.path,
+                       discrete::listed(choices_of(continuum::NamedPath())) +
+                         " (default: drained), or a table .csv of strains and stresses: three columns of " +
+                         discrete::listed(choices_of(continuum::Control())) +
+                         ", the first row for the start; column progress for viscosity")
+          ->check(path_or_table)
+          ->type_name("PATH");
         add_overwrite(point);
         add_quiet(point);
       }

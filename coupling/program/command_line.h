@@ -63,10 +63,11 @@ namespace diptych::coupling
   struct CommandLine : RunOptions, SceneOptions
   {
     Command       command = Command::explain;
-    std::string   target;              // scene or problem file, result folder, section or shell
-    std::string   output;              // --output
-    std::string   word;                // explain results WORD
-    bool          draws_movie = false; // report: --movie
+    std::string   target;                  // scene or problem file, result folder, section or shell
+    std::string   output;                  // --output
+    std::string   word;                    // explain results WORD
+    std::string   path        = "drained"; // material-point: --path
+    bool          draws_movie = false;     // report: --movie
     SolveOptions  solve;
     ExportOptions exported;
     bool          prints_warnings = true; // true on the first of several processes
