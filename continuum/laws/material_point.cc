@@ -24,7 +24,7 @@ namespace diptych::continuum
     {
       MaterialState   state;
       Eigen::Vector3d strain  = Eigen::Vector3d::Zero(); // e_xx, e_yy, gamma_xy since the start
-      Verdict         verdict = Verdict::reliable;       // the worst since the last row
+      PointVerdict    verdict = PointVerdict::reliable;  // the worst since the last row
     };
 
     struct Trial
@@ -73,7 +73,7 @@ namespace diptych::continuum
       {
         const double length = path.progress_at(row) - path.progress_at(row - 1);
         double       share = 0, size = 1;
-        now.verdict = Verdict::reliable;
+        now.verdict = PointVerdict::reliable;
         while (share < 1 && size >= 1. / 1024)
           {
             const double end = std::min(1., share + size), d_progress = (end - share) * length;
@@ -207,12 +207,13 @@ namespace diptych::continuum
         note(trial.update.verdict);
       }
 
-      // Adds a verdict to the worst since the last row. The law that judges knows where sigma_zz leaves the yield surface.
+      // Adds the law's verdict, and that of the law that judges sigma_zz, to the worst since the last row.
       void note(const Verdict verdict)
       {
-        now.verdict = std::max(now.verdict, verdict);
+        if (verdict == Verdict::unreliable)
+          now.verdict = PointVerdict::unreliable;
         if (judge && judge->yield_function(now.state) - now.state.overstress > 1e-8 * std::abs(judge->shear_strength(now.state)))
-          now.verdict = std::max(now.verdict, Verdict::zz_outside);
+          now.verdict = std::max(now.verdict, PointVerdict::zz_outside);
       }
 
       MaterialPointRow row_since(const Point &before, const double progress) const

@@ -55,15 +55,13 @@ namespace diptych::continuum
         }
     }
 
-    int steps_between(const PointPath &path, const std::size_t row, const double strain_step)
+    double steps_between(const PointPath &path, const std::size_t row, const double strain_step)
     {
       double most = 1;
       for (int k = 0; k < 3; ++k)
         most = std::max(most, std::abs(path.values[row][k] - path.values[row - 1][k]) /
                                 (is_stress(path.controls[k]) ? 0.01 * path.pressure : strain_step));
-      if (!(most < 1e6))
-        throw WrongPath(row, "needs more than 1000000 steps; are its stresses in the unit of the pressure?");
-      return int(std::ceil(most - 1e-9));
+      return std::ceil(most - 1e-9);
     }
   } // namespace
 
@@ -137,10 +135,14 @@ namespace diptych::continuum
     fine.progress = {path.progress_at(0)};
     for (std::size_t row = 1; row < path.values.size(); ++row)
       {
-        const int n = steps_between(path, row, strain_step);
+        const double n = steps_between(path, row, strain_step);
+        if (!(double(fine.values.size()) + n < 1e6))
+          throw WrongPath(row,
+                          "the path needs more than a million steps; are its stresses in the unit of the pressure, and is the "
+                          "step long enough?");
         for (int k = 1; k <= n; ++k)
           {
-            const double share = double(k) / n;
+            const double share = k / n;
             fine.values.push_back((1 - share) * path.values[row - 1] + share * path.values[row]);
             fine.progress.push_back((1 - share) * path.progress_at(row - 1) + share * path.progress_at(row));
           }

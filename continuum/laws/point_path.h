@@ -83,7 +83,7 @@ namespace diptych::continuum
   PointPath named_path(NamedPath name, const PathSize &size);
 
   // Divides the way between two rows into equal steps: at most `strain_step` in a strain and 1 % of the pressure in a stress. The
-  // progress of a path without one is the number of the row. Throws WrongPath if a row needs more than a million steps.
+  // progress of a path without one is the number of the row. Throws WrongPath at the row that reaches a million steps.
   PointPath refined(const PointPath &path, double strain_step);
 
   // A wrong row of a path; the message has the column and its value.

@@ -93,7 +93,7 @@ namespace diptych::coupling
       text << "peak stress ratio " << peak->stress_ratio << " at " << at(*peak) << ", " << rows.back().stress_ratio << " at "
            << at(rows.back());
       const auto outside = std::find_if(rows.begin(), rows.end(),
-                                        [](const auto &row) { return row.verdict == continuum::Verdict::zz_outside; });
+                                        [](const auto &row) { return row.verdict == continuum::PointVerdict::zz_outside; });
       if (outside != rows.end())
         text << "\n  from " << at(*outside)
              << " on sigma_zz is beyond the yield surface, which this law ignores: its answer is not "

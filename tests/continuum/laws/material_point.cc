@@ -170,7 +170,7 @@ namespace
     options.softening_strain        = 1e-4;
     const auto report = drive_material_point(LawKind::mohr_coulomb, options, {}, named_path(NamedPath::drained, {1, 0.05, 1e-3}));
     const bool doubted = std::any_of(report.rows.begin(), report.rows.end(),
-                                     [](const auto &row) { return row.verdict == Verdict::unreliable; });
+                                     [](const auto &row) { return row.verdict == PointVerdict::unreliable; });
     EXPECT_TRUE(doubted || report.status != MaterialPointStatus::finished);
   }
 

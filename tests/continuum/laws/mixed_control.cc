@@ -95,7 +95,7 @@ namespace
           EXPECT_NEAR((rows.back().sxx + rows.back().syy) / 2, 1, 1e-9) << name_of(law);
           EXPECT_NEAR((rows.back().syy - rows.back().sxx) / 2, 0.586603, 1e-6) << name_of(law);
           EXPECT_NEAR(rows.back().dilatancy_angle, dilatancy, 1e-3) << name_of(law);
-          EXPECT_EQ(rows.back().verdict, Verdict::reliable);
+          EXPECT_EQ(rows.back().verdict, PointVerdict::reliable);
         }
   }
 
@@ -169,13 +169,13 @@ namespace
     const LawOptions options = constant(20, 5, 0.01);
     const PointPath  path    = refined(path_of({Control::exx, Control::eyy, Control::exy}, {{0, 0, 0}, {0.05, 0.05, 0}}), 1e-3);
     const auto       flat    = rows_of(LawKind::cosserat_mohr_coulomb, options, path);
-    EXPECT_EQ(flat[1].verdict, Verdict::reliable);
-    EXPECT_EQ(flat.back().verdict, Verdict::zz_outside);
+    EXPECT_EQ(flat[1].verdict, PointVerdict::reliable);
+    EXPECT_EQ(flat.back().verdict, PointVerdict::zz_outside);
     EXPECT_EQ(flat.back().equivalent_plastic_strain, 0);
     for (const LawKind law : {LawKind::mohr_coulomb, LawKind::cosserat_drucker_prager})
       {
         const auto rows = rows_of(law, options, path);
-        EXPECT_EQ(rows.back().verdict, Verdict::reliable) << name_of(law);
+        EXPECT_EQ(rows.back().verdict, PointVerdict::reliable) << name_of(law);
         EXPECT_GT(rows.back().equivalent_plastic_strain, 1e-3) << name_of(law);
       }
   }
