@@ -221,11 +221,10 @@ namespace diptych::coupling
                               "compute the continuum's law at one point along a loading path: material_point.csv");
         add_scene_output_set(point);
         point
-          ->add_option("--path", line.path,
-                       discrete::listed(choices_of(continuum::NamedPath())) +
-                         " (default: drained), or a table .csv of strains and stresses: three columns of " +
-                         discrete::listed(choices_of(continuum::Control())) +
-                         ", the first row for the start; column progress for viscosity")
+          ->add_option(
+            "--path", line.path,
+            discrete::listed(choices_of(continuum::NamedPath())) + " (default: drained), or a table .csv with three of " +
+              discrete::listed(choices_of(continuum::Control())) + " (first row: the start), and progress for viscosity")
           ->check(path_or_table)
           ->type_name("PATH");
         add_overwrite(point);

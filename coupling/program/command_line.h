@@ -63,14 +63,14 @@ namespace diptych::coupling
   struct CommandLine : RunOptions, SceneOptions
   {
     Command       command = Command::explain;
-    std::string   target;                  // scene or problem file, result folder, section or shell
-    std::string   output;                  // --output
-    std::string   word;                    // explain results WORD
-    std::string   path        = "drained"; // material-point: --path
-    bool          draws_movie = false;     // report: --movie
+    std::string   target;              // scene or problem file, result folder, section or shell
+    std::string   output;              // --output
+    std::string   word;                // explain results WORD
+    bool          draws_movie = false; // report: --movie
     SolveOptions  solve;
     ExportOptions exported;
-    bool          prints_warnings = true; // true on the first of several processes
+    bool          prints_warnings = true;      // true on the first of several processes
+    std::string   path            = "drained"; // material-point: --path
   };
 
   // The parsed command line, from the words after the program's name. If they are wrong or only ask for help, the version or a

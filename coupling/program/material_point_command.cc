@@ -6,12 +6,14 @@
 
 #include "coupling/program/commands.h"
 #include "continuum/laws/material_point.h"
+#include "coupling/scene/keys.h"
 #include "coupling/scene/scene_error.h"
 #include "coupling/store/file_names.h"
 #include "coupling/store/provenance.h"
 #include "coupling/store/result_folder.h"
 #include "discrete/files/csv_file.h"
 #include "discrete/files/table_file.h"
+#include "discrete/files/words.h"
 
 namespace diptych::coupling
 {
@@ -81,7 +83,7 @@ namespace diptych::coupling
       const auto name = continuum::value_of<continuum::NamedPath>(line.path);
       const auto at   = [&](const MaterialPointRow &row) {
         if (!name)
-          return "progress " + text_of(row.progress);
+          return "progress " + discrete::exact_text(discrete::tidy(row.progress));
         const bool shears = *name == continuum::NamedPath::simple_shear;
         return text_of(shears ? continuum::LoadingVariable::shear_strain : continuum::LoadingVariable::axial_strain,
                        row.progress);
