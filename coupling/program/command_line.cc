@@ -217,16 +217,9 @@ namespace diptych::coupling
         add_overwrite(continuum);
         add_quiet(continuum);
 
-        CLI::App *point = add(Command::material_point,
-                              "compute the continuum's law at one point along a loading path: material_point.csv");
+        CLI::App *point = add(Command::material_point, "compute the continuum's law at one point: material_point.csv");
         add_scene_output_set(point);
-        point
-          ->add_option(
-            "--path", line.path,
-            discrete::listed(choices_of(continuum::NamedPath())) + " (default: drained), or a table .csv with three of " +
-              discrete::listed(choices_of(continuum::Control())) + " (first row: the start), and progress for viscosity")
-          ->check(path_or_table)
-          ->type_name("PATH");
+        point->add_option("--path", line.path, path_help())->check(path_or_table)->type_name("PATH");
         add_overwrite(point);
         add_quiet(point);
       }

@@ -56,6 +56,13 @@ namespace diptych::coupling
                        discrete::nearest_name(text, names) + "') nor a Python file";
   }
 
+  inline std::string path_help()
+  {
+    return "path of the loading: " + discrete::listed(choices_of(continuum::NamedPath())) +
+           " (default: drained), or a table .csv with three of " + discrete::listed(choices_of(continuum::Control())) +
+           " (first row: the start), and progress for viscosity";
+  }
+
   // A named path of a material point, or a table.
   inline std::string path_or_table(const std::string &text)
   {
