@@ -38,6 +38,6 @@ def keys(case: str) -> dict[str, str]:
 
 
 def stages(case: str) -> tuple[float, float]:
-    """Axial strains (before, end): the fields are increments of the hardening variable between them, other fields those at the end."""
+    """Axial strains (before, end). Plastic shear is compared as the increment between them, other fields at the end."""
     end, increment = (float(keys(case)[name]) for name in ("axial_strain", "stage_strain"))
     return end - increment, end

@@ -25,7 +25,7 @@ class Law:
             self.deficit = numpy.radians(float(keys["friction_angle_peak"]) - float(keys["friction_angle_start"]))
             self.mobilisation = float(keys["mobilisation_strain"])
         self.cohesion = float(keys["cohesion"])
-        self.friction, self.dilatancy = (tuple(numpy.radians(float(keys[f"{name}_angle_{end}"])) for end in ("peak", "residual"))
+        self.friction, self.dilatancy = ([numpy.radians(float(keys[f"{name}_angle_{end}"])) for end in ("peak", "residual")]
                                          for name in ("friction", "dilatancy"))
         rows = [(1, -1, 0), (0, 0, 1)] + ([] if self.plane else [(-1 / numpy.sqrt(3), ) * 2 + (0, )])
         self.to_q = shear * numpy.array(rows, dtype=float)
@@ -53,8 +53,8 @@ class Law:
         return 3 * alpha, 3 * beta, self.cohesion * numpy.cos(phi) * (1 - 3 * alpha * beta) / root
 
     def yield_function(self, multiplier, size, pressure, kappa, progress):
-        """(F, |q|, p, kappa) at the end of a step whose trial state is (size, pressure); kappa: at its start. At the tip |q| = 0 the
-        plastic shear is |q| of the trial state / G, and the rest of the multiplier only changes p."""
+        """(F, |q|, p, kappa) at the end of a step with the trial state (size, pressure); kappa: at its start. The plastic shear at
+        the tip, |q| = 0, is |q| of the trial state / G. The rest of the multiplier only changes p there."""
         length = size - self.shear * multiplier
         sheared = numpy.where(length.real > 0, multiplier, size / self.shear)
         length = numpy.where(length.real > 0, length, 0)
@@ -82,8 +82,9 @@ class Law:
         multiplier = numpy.zeros_like(p)
         yields = self.yield_function(multiplier, size, p, kappa, progress)[0] > 0
         multiplier[yields] = self.multipliers(size[yields], p[yields], kappa[yields], progress)
-        slopes = [[part.imag / TINY for part in self.yield_function(*arguments, kappa, progress)]
-                  for arguments in ((multiplier + 1j * TINY, size, p), (multiplier, size + 1j * TINY, p), (multiplier, size, p + 1j * TINY))]
+        nudge = 1j * TINY
+        trials = (multiplier + nudge, size, p), (multiplier, size + nudge, p), (multiplier, size, p + nudge)
+        slopes = [[part.imag / TINY for part in self.yield_function(*trial, kappa, progress)] for trial in trials]
         (f_m, length_m, p_m, _), (f_s, length_s, p_s, _), (f_p, _, p_p, _) = (numpy.array(part)[:, :, None] for part in slopes)
         _, length, end_p, end_kappa = self.yield_function(multiplier, size, p, kappa, progress)
         direction, share = q / numpy.where(size > 0, size, 1)[:, None], numpy.where(size > 0, length / size, 1)

@@ -54,7 +54,8 @@ class Model:
         self.state = {"p": numpy.ones(n_points), "q": q, "kappa": kappa.ravel(), "skew": numpy.zeros(n_points)}
 
     def spot(self):
-        return numpy.array((number(self.keys, "weak_spot_x", 0.5) * self.width, number(self.keys, "weak_spot_y", 0.5) * self.height))
+        x, y = (number(self.keys, f"weak_spot_{axis}", 0.5) for axis in "xy")
+        return numpy.array((x * self.width, y * self.height))
 
     def strain(self, function):
         """Generalised strain of displacements and rotations."""
@@ -68,15 +69,15 @@ class Model:
 
     def write_forms(self, cell):
         n = self.law.n_strains
-        vector = fem.FunctionSpace(self.domain, ufl.VectorElement("Quadrature", cell, DEGREE, dim=n, quad_scheme="default"))
-        tensor = fem.FunctionSpace(self.domain, ufl.TensorElement("Quadrature", cell, DEGREE, shape=(n, n), quad_scheme="default"))
+        points = {"family": "Quadrature", "cell": cell, "degree": DEGREE, "quad_scheme": "default"}
+        vector = fem.FunctionSpace(self.domain, ufl.VectorElement(**points, dim=n))
+        tensor = fem.FunctionSpace(self.domain, ufl.TensorElement(**points, shape=(n, n)))
         self.stress, self.tangent = fem.Function(vector), fem.Function(tensor)
         self.order = vector.dofmap.list.array.reshape(self.n_cells, -1).ravel()
         test, trial = ufl.TestFunction(self.space), ufl.TrialFunction(self.space)
         dx = ufl.Measure("dx", self.domain, metadata={"quadrature_degree": DEGREE, "quadrature_scheme": "default"})
-        self.side_load = fem.Constant(self.domain, 1.0)
         u, v = (ufl.split(f)[0] if self.cosserat else f for f in (self.solution, test))
-        load = -self.side_load * ufl.FacetNormal(self.domain)[0] * v[0] * ufl.ds
+        load = -ufl.FacetNormal(self.domain)[0] * v[0] * ufl.ds
         self.residual = fem.form(ufl.inner(self.stress, self.strain(test)) * dx - load)
         self.jacobian = fem.form(ufl.inner(ufl.dot(self.tangent, self.strain(trial)), self.strain(test)) * dx)
         self.volume = fem.form(ufl.det(ufl.Identity(2) + ufl.grad(u)) * dx)
@@ -127,10 +128,9 @@ class Model:
         self.solver.solve(right, change)
         return change.array
 
-    def step(self, target, share):
+    def step(self, target):
         """Equilibrium at the axial strain `target`. Throws ArithmeticError."""
         self.progress = target - self.reached
-        self.side_load.value = share
         descent = target * self.height
         values = self.upper_value.x.array.reshape(-1, 2)
         values[:] = descent * number(self.keys, "horizontal_over_vertical", 0), -descent
@@ -159,7 +159,7 @@ class Model:
         return fem.assemble_scalar(self.volume)
 
     def means(self):
-        """Cell means {name: [row, column]} of hardening variable, rotation, skew and couple stresses; zero without rotations."""
+        """Cell means {name: [row, column]} of the hardening variable; Cosserat: also of rotation, skew and couple stresses."""
         def grid(values):
             result = numpy.zeros(self.counts[::-1])
             result[self.row, self.column] = values.reshape(self.n_cells, -1) @ self.weights
@@ -168,5 +168,6 @@ class Model:
         if self.cosserat:
             rotation = fem.Expression(ufl.split(self.solution)[1], self.points).eval(self.cells)
             couple = self.state["q"][:, -2:] @ self.law.to_q[-2:, -2:] / self.law.shear
-            fields |= {"rotation": grid(rotation), "skew": grid(self.state["skew"]), "m_x": grid(couple[:, 0]), "m_y": grid(couple[:, 1])}
+            fields |= {"rotation": grid(rotation), "skew": grid(self.state["skew"]),
+                       "m_x": grid(couple[:, 0]), "m_y": grid(couple[:, 1])}
         return fields

@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """referee.py [--cases NAMES] [--output DIR]
 
-Writes NAME_curve.csv and NAME_cells.csv for each case of cases.py, by default over the stored files beside this script. Stress and
-strain are positive in tension as in the equations. Needs python3-dolfinx."""
+Writes NAME_curve.csv and NAME_cells.csv for each case of cases.py, by default over the stored files beside this script. Forces
+act on the sample, skew and couple stresses have the sign of the equations. Needs python3-dolfinx."""
 import argparse
 import os
 import sys
@@ -14,7 +14,7 @@ import numpy
 from cases import CASES, HERE, keys, stages
 
 
-def run(case, side_follows):
+def run(case):
     """(curve, columns of the cells, number of points at the tip in the end) of a case. Throws ArithmeticError."""
     from model import Model
     words = keys(case)
@@ -22,7 +22,7 @@ def run(case, side_follows):
     step, end = float(words["max_step"]), float(words["axial_strain"])
     curve, fields = [(0.0, *model.initialise(), 0.0, 0)], []
     for target in step * (1 + numpy.arange(round(end / step))):
-        force, iterations = model.step(target, 1 - target if side_follows else 1)
+        force, iterations = model.step(target)
         curve.append((target, *force, 1 - model.area() / (model.width * model.height), iterations))
         if any(abs(target - stage) < step / 2 for stage in stages(case)):
             fields.append(model.means())
@@ -45,15 +45,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cases", default=",".join(CASES))
     parser.add_argument("--output", default=os.path.join(HERE, "results"))
-    parser.add_argument("--side-follows", action="store_true", help="side load falls with the height")
     options = parser.parse_args()
     os.makedirs(options.output, exist_ok=True)
     for case in options.cases.split(","):
         before = os.times()
-        curve, fields, n_tip = run(case, options.side_follows)
+        curve, fields, n_tip = run(case)
         store(options.output, case, curve, fields)
-        print(f"{case}: {len(curve) - 1} steps, {sum(row[-1] for row in curve)} iterations, {n_tip} points at the tip, {os.times().user - before.user:.1f} CPU s",
-              flush=True)
+        print(f"{case}: {len(curve) - 1} steps, {sum(row[-1] for row in curve)} iterations, {n_tip} points at the tip, "
+              f"{os.times().user - before.user:.1f} CPU s", flush=True)
     return 0
 
 
