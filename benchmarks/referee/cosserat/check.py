@@ -142,7 +142,7 @@ def main():
             pairs[case] = ours, referee_solution(options.referee, case)
             n_outside += judge(case, *pairs[case])
     if options.figure:
-        from draw import draw
+        from picture import draw
         draw(pairs, options.figure)
     return 1 if n_outside else 0
 

@@ -32,7 +32,7 @@ def draw_section(axes, ours, referee):
         largest = abs(referee.fields[name]).max()
         axes.plot(ours.fields[name][:, middle] / largest, y, color=colour, linewidth=1.4, label=label)
         axes.plot(referee.fields[name][:, middle] / largest, y, "o", color=colour, markersize=3.5, markerfacecolor="white")
-    axes.set(xlabel="value / largest value in the sample", ylabel="y / d", title="cone: column of cells at x = 10.5 d")
+    axes.set(xlabel="value / largest in the sample", ylabel="y / d", ylim=(0, 52), title="column of cells at x = 10.5 d")
     axes.legend(loc="upper left", fontsize=7)
 
 
@@ -61,10 +61,11 @@ def draw_lines(curves, profiles, errors, pairs):
 def draw(pairs, path):
     """pairs: {case: (ours, referee)}; the first case must have rotations."""
     pyplot.rcParams.update({"font.size": 8.5, "axes.titlesize": 9})
-    figure = pyplot.figure(figsize=(12, 8), constrained_layout=True)
-    grid = figure.add_gridspec(2, 12, height_ratios=(1.2, 1))
+    figure = pyplot.figure(figsize=(12, 8.4), constrained_layout=True)
+    upper, lower = figure.subfigures(2, 1, height_ratios=(1.25, 1))
+    fields, lines = upper.subplots(1, 4), lower.subplots(1, 3)
     case, (ours, referee) = next(iter(pairs.items()))
-    draw_fields(figure, [figure.add_subplot(grid[0, 3 * k:3 * k + 3]) for k in range(3)], ours, referee, case)
-    draw_section(figure.add_subplot(grid[0, 9:]), ours, referee)
-    draw_lines(*(figure.add_subplot(grid[1, 4 * k:4 * k + 4]) for k in range(3)), pairs)
+    draw_fields(upper, fields, ours, referee, case)
+    draw_section(fields[3], ours, referee)
+    draw_lines(*lines, pairs)
     figure.savefig(path, dpi=110)
