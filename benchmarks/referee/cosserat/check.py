@@ -112,7 +112,8 @@ def judge(case, ours, referee):
         return 1
     print(f"{case}: peak force {-ours.curve['upper_fy'].min():.5f} / {-referee.curve['upper_fy'].min():.5f}, "
           f"at the end {-ours.curve['upper_fy'][-1]:.5f} / {-referee.curve['upper_fy'][-1]:.5f}, "
-          f"thickness {ours.band.thickness:.4f} / {referee.band.thickness:.4f}")
+          + ("no band" if numpy.isnan(referee.band.thickness) else
+             f"thickness {ours.band.thickness:.4f} / {referee.band.thickness:.4f}"))
     found = differences(ours, referee)
     outside = [name for name, value in found.items() if not value < ALLOWED]
     print("    " + ", ".join(f"{name} {value:.1e}" + (" OUTSIDE" if name in outside else "") for name, value in found.items()),

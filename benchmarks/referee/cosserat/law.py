@@ -53,8 +53,8 @@ class Law:
         return 3 * alpha, 3 * beta, self.cohesion * numpy.cos(phi) * (1 - 3 * alpha * beta) / root
 
     def yield_function(self, multiplier, size, pressure, kappa, progress):
-        """(F, |q|, p, kappa) at the end of a step with the trial state (size, pressure); kappa: at its start. The plastic shear at
-        the tip, |q| = 0, is |q| of the trial state / G. The rest of the multiplier only changes p there."""
+        """(F, |q|, p, kappa) at the end of a step with the trial state (size, pressure); kappa: at its start. At the tip
+        |q| = 0, where the plastic shear is |q| of the trial state / G and the rest of the multiplier only changes p."""
         length = size - self.shear * multiplier
         sheared = numpy.where(length.real > 0, multiplier, size / self.shear)
         length = numpy.where(length.real > 0, length, 0)
