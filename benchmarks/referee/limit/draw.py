@@ -51,9 +51,9 @@ def prandtl_outline(friction_angle):
     return numpy.concatenate(([(1, 0)], spiral, [(2 * spiral[-1, 0] - 1, 0)]))
 
 
-def convergence(axis, results, title):
+def convergence(axis, results, title, size):
     """Lower and upper bounds and finite elements of some cases over the mean element size, relative to the middle of the best
-    bounds."""
+    bounds, up to an element size."""
     for colour, (name, rows) in zip(COLOURS, results.items()):
         middle = 0.5 * (rows["lower"][-1]["value"] + rows["upper"][-1]["value"])
         low, high = (100 * (rows[kind][-1]["value"] / middle - 1) for kind in ("lower", "upper"))
@@ -67,29 +67,30 @@ def convergence(axis, results, title):
         axis.errorbar(0, 100 * (tends_to / middle - 1), 100 * doubt / middle, color=colour, marker="o", markerfacecolor="white",
                       capsize=3, clip_on=False)
         axis.plot([], [], color=colour, linewidth=4, label=name.split(" ", 1)[1])
-    axis.set(title=title, xlabel="mean element size / platen width", xlim=(0, None), ylim=(-4, 14))
+    axis.set(title=title, xlabel="mean element size / platen width", xlim=(0, size), ylim=(-6, 10))
     axis.grid(alpha=0.3)
-    axis.legend(loc="upper left")
+    axis.legend(loc="lower right")
 
 
 def draw(results, path):
     """Figure from {case: {kind: rows, "closed_form": number or None}}."""
     figure = pyplot.figure(figsize=(12.5, 8), constrained_layout=True)
-    grid = figure.add_gridspec(3, 3, height_ratios=(1, 1.25, 0.1))
+    grid = figure.add_gridspec(3, 3, height_ratios=(1, 1.35, 0.2))
     left, right = figure.add_subplot(grid[0, 0]), figure.add_subplot(grid[0, 1:])
-    mechanism(left, Rectangle(1.0), Soil(30, 0.5), 16, "rectangle, W/H = 1, φ = 30°, upper half")
+    mechanism(left, Rectangle(1.0), Soil(30, 0.5), 16, "rectangle, W/H = 1, φ = 30°")
     left.set(xlim=(-0.55, 0.75), ylim=(-0.02, 0.56), ylabel="y")
     cells = mechanism(right, Footing(12, 5), Soil(30, 1.0), 24, "strip footing, φ = 30°")
     right.plot(*prandtl_outline(30).T, color="#ff8c1a", linestyle="--", linewidth=1.6)
     right.set(xlim=(-12.2, 12.2), ylim=(-5.2, 0.9))
-    bar = figure.colorbar(cells, ax=right, ticks=range(-3, 1), shrink=0.7)
+    bar = figure.colorbar(cells, ax=right, ticks=range(-3, 1), fraction=0.03, pad=0.01)
     bar.ax.set_yticklabels(["$\\leq 10^{-3}$", "$10^{-2}$", "$10^{-1}$", "1"])
     bar.set_label("rate of dissipation")
     groups = (("W/H", "phi 20", "rectangles, φ = 20°"), ("W/H", "phi 30", "rectangles, φ = 30°"),
               ("footing", "phi", "strip footings"))
     for k, (word, angle, title) in enumerate(groups):
         axis = figure.add_subplot(grid[1, k])
-        convergence(axis, {name: rows for name, rows in results.items() if word in name and angle in name}, title)
+        group = {name: rows for name, rows in results.items() if word in name and angle in name}
+        convergence(axis, group, title, 0.26 if word == "footing" else 0.13)
         if k == 0:
             axis.set_ylabel("load / middle of the finest bounds - 1  [%]")
     styles = (("^--", "lower bound"), ("v--", "upper bound"), ("o-", "finite elements (q2)"), ("o", "their limit"),
@@ -100,7 +101,7 @@ def draw(results, path):
     lines += right.plot([], [], color="#ff8c1a", linestyle="--", label="Prandtl's mechanism")
     key = figure.add_subplot(grid[2, :])
     key.axis("off")
-    key.legend(handles=lines, loc="center", ncol=7, frameon=False)
+    key.legend(handles=lines, loc="center", ncol=4, frameon=False)
     figure.savefig(path, dpi=110)
 
 

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """limit_analysis.py PROGRAM [--only WORD] [--output DIR [--reuse]] [--figure figure.png]
 
-Bounds the collapse loads of rough rectangles and of strip footings, runs `PROGRAM continuum` on four meshes of each, and
+Bounds the collapse loads of rough rectangles and of strip footings, runs `PROGRAM continuum` on three or four meshes of each, and
 judges: bounds within 2 %, closed forms between them, the limit of fine meshes between them. --only: cases whose name contains
 WORD. --output keeps results.json and the runs, --reuse takes numbers from it. Exit code 1: a claim fails; 2: a run failed.
 Needs python3-cvxopt, python3-scipy, the figure matplotlib."""
