@@ -44,13 +44,4 @@ namespace diptych::continuum
     turn(point.stress, angle);
     turn(point.back_stress_ratio, angle);
   }
-
-  // Half the curl of the increment, anticlockwise.
-  template <class Element> double spin_at(const PointGeometry &point, const ElementVector<Element> &u)
-  {
-    double spin = 0;
-    for (unsigned int node = 0; node < Element::n_nodes; ++node)
-      spin += 0.5 * (point.gradient[node][0] * u[2 * node + 1] - point.gradient[node][1] * u[2 * node]);
-    return spin;
-  }
 } // namespace diptych::continuum
