@@ -3,9 +3,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """check.py PROGRAM [--seeds 1,2,3,4] [--output DIR] [--reuse] [--set section/key=value] [--fit] [--figure figure.png]
 
-Runs scene.prm with a dense and a loose packing of every seed, and its continuum with several kinds of hardening. Compares the mean of
-the grains with the continuum after the first reversal, which no parameter was fitted to. --fit: also runs the monotonic path and
-prints the parameters that fit it (PYTHONPATH with diptych; scipy). Exit code 1: a number is outside its interval; 2: a run failed."""
+Runs scene.prm with a dense and a loose packing of every seed, and its continuum with two kinds of hardening. Compares the mean
+of the grains with the continuum after the first reversal, to which nothing was fitted. --fit: also runs the monotonic path and
+prints the parameters that fit it (PYTHONPATH with diptych; scipy). Exit code 1: a number is outside its interval; 2: a run
+failed."""
 import argparse
 import os
 import sys
@@ -20,18 +21,19 @@ import claims  # noqa: E402
 SCENE = os.path.join(HERE, "scene.prm")
 WINDOW = 2.  # time over which the grains are averaged: 0.1 % of strain
 REVERSAL = 41.  # time of the first reversal, the end of the fitted part
-MONOTONIC = ("loading/duration=201", "loading/stages=201", "discrete/drive_upper_y=velocity " + os.path.join(HERE, "monotonic.csv"))
+MONOTONIC = ("loading/duration=201", "loading/stages=201",
+             "discrete/drive_upper_y=velocity " + os.path.join(HERE, "monotonic.csv"))
 # Settings of the grains, and their solid fraction prepared (mean of the seeds).
-PACKINGS = {"dense": ((), 0.8328), "loose": (("sample/box_solid_fraction=0.75", "sample/preparation_friction=0.3"), 0.8039)}
+PACKINGS = {"dense": ((), 0.8327), "loose": (("sample/box_solid_fraction=0.75", "sample/preparation_friction=0.3"), 0.8040)}
 # Fitted to the monotonic path of both packings (--fit). `dense` and `loose` are t/s at the start of each.
 KEYS = ("critical_stress_ratio", "critical_solid_fraction", "strength_by_density", "dilatancy_ratio", "mobilisation_strain",
         "youngs_modulus", "dense", "loose")
-LAWS = {"kinematic": (0.3023, 0.8032, 3.482, 0.3599, 0.0337, 2196, 0.3785, 0.001),
-        "critical_state": (0.2684, 0.8009, 4.617, 0.5901, 0.0246, 2275, 0.3979, 0.0066)}
+LAWS = {"kinematic": (0.2964, 0.8042, 3.933, 0.3773, 0.03569, 2107, 0.3664, 0.0116),
+        "critical_state": (0.2658, 0.8024, 4.905, 0.5796, 0.02541, 2190, 0.3869, 0.01647)}
 # name: lowest, highest.
-CLAIMS = {"dense, kinematic: rms difference of t/s": (0, 0.07), "loose, kinematic: rms difference of t/s": (0, 0.06),
+CLAIMS = {"dense, kinematic: rms difference of t/s": (0, 0.08), "loose, kinematic: rms difference of t/s": (0, 0.07),
           "dense, kinematic: rms difference of volume": (0, 0.006), "loose, kinematic: rms difference of volume": (0, 0.006),
-          "dense, critical_state: rms difference of t/s": (0.2, 1), "loose, critical_state: rms difference of t/s": (0.2, 1)}
+          "dense, critical_state: rms difference of t/s": (0.16, 1), "loose, critical_state: rms difference of t/s": (0.12, 1)}
 
 
 def signed_ratio(history):
@@ -60,7 +62,8 @@ def grains(options, packing, path, settings=()):
 def continuum(options, packing, law):
     keys = {"hardening": law, "solid_fraction_start": PACKINGS[packing][1], **law_keys(LAWS[law], packing)}
     runs = claims.Runs(options, 1, options.output)
-    return runs.run(f"{packing}_{law}", "continuum", SCENE, *(f"continuum/{key}={value}" for key, value in keys.items())).continuum
+    settings = (f"continuum/{key}={value}" for key, value in keys.items())
+    return runs.run(f"{packing}_{law}", "continuum", SCENE, *settings).continuum
 
 
 def law_keys(values, packing):
@@ -71,7 +74,8 @@ def law_keys(values, packing):
 
 def on_windows(history, time):
     """(t/s, volumetric strain) of the continuum at given times."""
-    return numpy.array([numpy.interp(time, history["time"], column) for column in (signed_ratio(history), history["volumetric_strain"])])
+    columns = signed_ratio(history), history["volumetric_strain"]
+    return numpy.array([numpy.interp(time, history["time"], column) for column in columns])
 
 
 def compare(options):
@@ -106,8 +110,8 @@ def fit(options):
     def residual(values, law):
         found = []
         for packing, (fraction, (ratio, volume)) in targets.items():
-            point = diptych.biaxial({"law": "cosserat_mohr_coulomb", "hardening": law, "cohesion": 0.001, "solid_fraction_start": fraction,
-                                     **law_keys(values.tolist(), packing)}, axial_strain=0.1, step=5e-4)
+            keys = {"law": "cosserat_mohr_coulomb", "hardening": law, "cohesion": 0.001, "solid_fraction_start": fraction}
+            point = diptych.biaxial({**keys, **law_keys(values.tolist(), packing)}, axial_strain=0.1, step=5e-4)
             found.append((numpy.interp(strain, point["axial_strain"], point["stress_ratio"]) - ratio) / 0.02)
             found.append((numpy.interp(strain, point["axial_strain"], point["volumetric_strain"]) - volume) / 0.001)
         return numpy.concatenate(found)
@@ -169,7 +173,8 @@ def main():
             low, high = CLAIMS.get(name, (-numpy.inf, numpy.inf))
             outside = not low <= value <= high
             n_outside += outside
-            print(f"{name:52}{value:10.4g}" + (f"   {low:g} to {high:g}" if name in CLAIMS else "") + ("   OUTSIDE" if outside else ""))
+            claimed = f"   {low:g} to {high:g}" if name in CLAIMS else ""
+            print(f"{name:52}{value:10.4g}{claimed}" + ("   OUTSIDE" if outside else ""))
         if options.figure:
             draw(curves, options.figure)
     return 1 if n_outside else 0
