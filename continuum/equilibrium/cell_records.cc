@@ -12,7 +12,7 @@ namespace diptych::continuum
 
   namespace
   {
-    constexpr unsigned int n_state = n_components + 10, n_fields = 3; // fields: displacement and LastMotion
+    constexpr unsigned int n_state = 2 * n_components + 10, n_fields = 3; // fields: displacement and LastMotion
 
     std::array<double, n_state> packed(const MaterialState &s)
     {
@@ -23,6 +23,8 @@ namespace diptych::continuum
         s.stress_zz,         s.equivalent_plastic_strain, s.overstress,  s.plastic_strain.xx, s.plastic_strain.yy,
         s.plastic_strain.zz, s.plastic_strain.xy,         s.dissipation, s.stress_ratio_gain, s.densification};
       std::copy(std::begin(rest), std::end(rest), values.begin() + n_components);
+      for (unsigned int k = 0; k < n_components; ++k)
+        values[n_state - n_components + k] = s.back_stress_ratio[k];
       return values;
     }
 
@@ -39,6 +41,8 @@ namespace diptych::continuum
       s.dissipation               = rest[7];
       s.stress_ratio_gain         = rest[8];
       s.densification             = rest[9];
+      for (unsigned int k = 0; k < n_components; ++k)
+        s.back_stress_ratio[k] = values[n_state - n_components + k];
       return s;
     }
 
