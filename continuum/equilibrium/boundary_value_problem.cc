@@ -9,6 +9,7 @@
 
 #include "continuum/elements/element_kernels.h"
 #include "continuum/equilibrium/initial_points.h"
+#include "continuum/equilibrium/law_failure.h"
 #include "continuum/equilibrium/point_operations.h"
 #include "continuum/laws/plastic_flow.h"
 #include "continuum/equilibrium/loads.h"
@@ -28,7 +29,7 @@ namespace diptych::continuum
 
     ElementKind element_kind(const Options &options)
     {
-      if (traits(options.law).is_cosserat)
+      if (is_cosserat(options))
         return ElementKind::q2_cosserat;
       return options.element == Displacement::q1_bbar ? ElementKind::q1_mean_dilation : ElementKind::q2;
     }
@@ -67,6 +68,7 @@ namespace diptych::continuum
     call(check_stop);
     area_at_start = Utilities::MPI::sum(current.area, mesh.communicator());
     set_at_rest(mesh, options, units, loading.pressure, state.points);
+    start_variables(material, state.points);
     begin_step(0);
     (void)evaluate(zero_vector());
     reset_balance();
@@ -130,6 +132,7 @@ namespace diptych::continuum
   void BoundaryValueProblem::set_initial_stress(const std::vector<Eigen::Matrix2d> &stress)
   {
     set_stress(stress, mesh.reference.n_points, state.points);
+    start_variables(material, state.points);
     (void)evaluate(zero_vector());
     reset_balance();
   }
@@ -212,10 +215,13 @@ namespace diptych::continuum
   template <class L, class Element> void BoundaryValueProblem::update_points(const L &law, Element)
   {
     const double d_time = step_end - state.progress;
-    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    std::size_t  c      = 0;
+    unsigned int q      = 0;
+    const WatchedLaw<L> watch(law, [&] { return name_of_point(mesh, state.displacement, c, q); });
+    for (c = 0; c < mesh.cells.size(); ++c)
       {
         const auto u = gather<Element>(mesh.cells[c], trial_increment);
-        for (unsigned int q = 0; q < Element::n_points; ++q)
+        for (q = 0; q < Element::n_points; ++q)
           {
             const std::size_t point = c * Element::n_points + q;
             trial[point] = law.update(state.points[point], strain_at<Element>(mesh.reference, current.cells[c], q, u), d_time);
@@ -355,7 +361,7 @@ namespace diptych::continuum
                                                                                  : localisation(trial[point].tangent, elastic);
               flow[point]               = next.equivalent_plastic_strain - state.points[point].equivalent_plastic_strain;
               if (moves())
-                turn(next, spin_at<Element>(current.cells[c].points[q], u));
+                turn(next, spin_at<Element>(current.cells[c].points[q], u), material);
               state.points[point] = next;
             }
         }

@@ -9,10 +9,10 @@
 namespace diptych::continuum
 {
   // One row of numbers per cell: refinement level, nodal displacement and last increment (as in Cell::dofs), state of every
-  // point. Records do not depend on how cells are distributed over processes.
+  // point with the state variables of a law from a library. Records do not depend on how cells are distributed over processes.
   using CellRecord = std::vector<double>;
 
-  std::size_t record_length(const ReferenceElement &reference);
+  std::size_t record_length(const BoundaryValueProblem &problem);
 
   std::vector<CellRecord> make_records(const BoundaryValueProblem &problem, const std::vector<double> &last_increment);
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuum/equilibrium/law_failure.h"
+
 namespace diptych::continuum
 {
   namespace
@@ -59,7 +61,12 @@ namespace diptych::continuum
         report.residual = imbalance.relative();
         best            = std::min(best, imbalance.residual);
         if (!is_usable(imbalance))
-          report.message = "the law failed at " + std::to_string(imbalance.n_failed) + " points";
+          {
+            const LibraryLaw::Failure first = first_failure(problem.law(), problem.discretisation().communicator());
+            report.law_is_broken            = first.is_broken;
+            report.message                  = "the law failed at " + std::to_string(imbalance.n_failed) + " points" +
+                             (first.text.empty() ? "" : "; the first: " + first.text);
+          }
         else if (report.residual <= options.tolerance)
           {
             report.converged = !problem.is_folded();

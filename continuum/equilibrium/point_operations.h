@@ -7,6 +7,7 @@
 
 #include "continuum/elements/discretisation.h"
 #include "continuum/elements/element_kernels.h"
+#include "continuum/laws/any_law.h"
 
 namespace diptych::continuum
 {
@@ -24,9 +25,12 @@ namespace diptych::continuum
       values[cell.local[i]] += force[i];
   }
 
-  // Rotates stress and couple stress by the rotation of the material. The skew part does not depend on the frame.
-  inline void turn(MaterialState &point, const double angle)
+  // Rotates stress, couple stress and tensors among the state variables by the rotation of the material. The skew part does not
+  // depend on the frame.
+  inline void turn(MaterialState &point, const double angle, const Law &law)
   {
+    if (const auto *library = std::get_if<LibraryLaw>(&law))
+      library->turn_variables(point, angle);
     const double c = std::cos(angle), s = std::sin(angle);
     Stress      &t    = point.stress;
     const double mean = (t[xx] + t[yy]) / 2, a = (t[xx] - t[yy]) / 2, b = t[xy];

@@ -7,13 +7,21 @@
 #include "continuum/laws/cosserat_drucker_prager.h"
 #include "continuum/laws/cosserat_mohr_coulomb.h"
 #include "continuum/laws/drucker_prager.h"
+#include "continuum/laws/library_law.h"
 #include "continuum/laws/linear_elastic.h"
 #include "continuum/laws/mohr_coulomb.h"
 
 namespace diptych::continuum
 {
-  using Law = std::variant<LinearElastic, MohrCoulomb, DruckerPrager, CosseratMohrCoulomb, CosseratDruckerPrager>;
+  using Law = std::variant<LinearElastic, MohrCoulomb, DruckerPrager, CosseratMohrCoulomb, CosseratDruckerPrager, LibraryLaw>;
 
   // Throws std::invalid_argument under the same conditions as validate(options).
   Law make_law(LawKind law, const LawOptions &options, const Units &units = {});
+
+  // Sets the state variables of a law from a library at the initial stress. Other laws have none.
+  template <class AnyLaw> void start(const AnyLaw &law, MaterialState &state)
+  {
+    if constexpr (std::is_same_v<AnyLaw, LibraryLaw>)
+      law.start(state);
+  }
 } // namespace diptych::continuum

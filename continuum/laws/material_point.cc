@@ -79,6 +79,7 @@ namespace diptych::continuum
       row.equivalent_plastic_strain = state.equivalent_plastic_strain;
       row.overstress_share          = state.overstress / law.shear_strength(state);
       row.dissipation               = state.dissipation;
+      row.variables                 = state.variables;
       return row;
     }
 
@@ -87,6 +88,7 @@ namespace diptych::continuum
       MaterialPointReport report;
       Point               point;
       point.state.stress[xx] = point.state.stress[yy] = point.state.stress_zz = -path.pressure;
+      start(law, point.state);
       report.rows.push_back(row_of(law, point, 0));
 
       const unsigned int n_steps = std::max(1., std::ceil(path.axial_strain / path.step - 1e-9));
@@ -157,6 +159,12 @@ namespace diptych::continuum
     validate(path);
     MaterialPointReport report = std::visit([&](const auto &one) { return drive(one, path); }, law);
     report.message             = message_of(report);
+    if (const auto *library = std::get_if<LibraryLaw>(&law))
+      {
+        report.variables = variable_names(library->library());
+        if (report.status == MaterialPointStatus::law_failed)
+          report.message += ": " + library->failure().text;
+      }
     return report;
   }
 } // namespace diptych::continuum

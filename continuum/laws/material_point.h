@@ -31,6 +31,7 @@ namespace diptych::continuum
     double                        axial_strain = 0; // axial strain reached
     std::string                   message;          // how the path ended
     std::vector<MaterialPointRow> rows;             // the start, then every finished step
+    std::vector<std::string>      variables;        // law.NAME of the state variables of a law from a library
   };
 
   void validate(const MaterialPointPath &path);

@@ -38,6 +38,7 @@ namespace diptych::continuum
       row.equivalent_plastic_strain = state.equivalent_plastic_strain;
       row.dissipation               = state.dissipation;
       row.verdict                   = verdict;
+      row.variables                 = state.variables;
       return row;
     }
 
@@ -48,6 +49,7 @@ namespace diptych::continuum
       state.stress[yy] = -path.stress(1, 1);
       state.stress[xy] = -path.stress(0, 1);
       state.stress_zz  = -path.stress_zz;
+      start(law, state);
       std::vector<StrainPathRow> rows{row_of_path(state, Verdict::reliable)};
       for (std::size_t k = 1; k < path.strain.size(); ++k)
         {

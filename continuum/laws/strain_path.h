@@ -29,6 +29,8 @@ namespace diptych::continuum
     double          equivalent_plastic_strain = 0;                       // hardening variable [-]
     double          dissipation               = 0;                       // plastic work per initial area [pressure]
     Verdict         verdict                   = Verdict::reliable;
+
+    std::vector<double> variables; // of a law from a library
   };
 
   // Returns the start, then one row per strain. The list is shorter than the path if the law failed. Throws

@@ -165,6 +165,36 @@ namespace diptych::continuum
       return s;
     }
 
+    // Area means of the state variables of a law from a library over a cell.
+    std::vector<double> variables_of(const BoundaryValueProblem &problem, const std::size_t c)
+    {
+      const unsigned int  n = problem.discretisation().reference.n_points;
+      std::vector<double> means(problem.committed().points[c * n].variables.size(), 0.);
+      double              area = 0;
+      for (unsigned int q = 0; q < n; ++q)
+        {
+          const double w = problem.moved_geometry().cells[c].points[q].area;
+          area += w;
+          for (std::size_t k = 0; k < means.size(); ++k)
+            means[k] += w * problem.committed().points[c * n + q].variables[k];
+        }
+      for (double &mean : means)
+        mean /= area;
+      return means;
+    }
+
+    std::vector<LawVariable> described_variables(const Law &law)
+    {
+      std::vector<LawVariable> variables;
+      if (const auto *library = std::get_if<LibraryLaw>(&law))
+        for (const std::string &name : variable_names(library->library()))
+          {
+            const diptych_variable &one = library->library().law->variables[variables.size()];
+            variables.push_back({name, one.unit, one.meaning, {}});
+          }
+      return variables;
+    }
+
     // Maps deal.II's order of FE_Q(2) to corners counter-clockwise, midpoints of the edges, centre.
     constexpr unsigned int vtk_order[9] = {0, 1, 3, 2, 6, 5, 7, 4, 8};
     // The corners between which each node of FE_Q(2) lies.
@@ -232,6 +262,8 @@ namespace diptych::continuum
         ordered[k] = nodes[vtk_order[k]];
       snapshot.cells.push_back(ordered);
       snapshot.cell_state.push_back(read_state(message));
+      for (LawVariable &variable : snapshot.variables)
+        variable.of_cells.push_back(message[n_state + (&variable - snapshot.variables.data())]);
       const auto &state = snapshot.cell_state.back();
       snapshot.mean_stress += state.area * state.stress;
       snapshot.area += state.area;
@@ -336,12 +368,15 @@ namespace diptych::continuum
         for (const auto &node : cell_nodes(problem, shape, c))
           append(mine, node);
         append(mine, cell_state(problem, shape, c));
+        const std::vector<double> variables = variables_of(problem, c);
+        mine.insert(mine.end(), variables.begin(), variables.end());
       }
     Snapshot snapshot;
+    snapshot.variables = described_variables(problem.law());
     set_progress(problem, loading, snapshot);
     std::map<std::array<double, 3>, unsigned int> node_of_key;
     for (const auto &part : dealii::Utilities::MPI::gather(mesh.communicator(), mine))
-      for (std::size_t at = 0; at < part.size(); at += 9 * entry_length + n_state)
+      for (std::size_t at = 0; at < part.size(); at += 9 * entry_length + n_state + snapshot.variables.size())
         add_cell(snapshot, node_of_key, &part[at], mesh.reference.n_rotations > 0);
     snapshot.mean_stress /= std::max(snapshot.area, 1e-300);
     snapshot.lower_platen_force = problem.platen_force(false);

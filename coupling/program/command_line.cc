@@ -222,6 +222,11 @@ namespace diptych::coupling
         add_scene_output_set(point);
         add_overwrite(point);
         add_quiet(point);
+
+        CLI::App *law = add(Command::check_law, "check tangent, objectivity, dissipation, repeatability of a law of your own");
+        law->add_option("SCENE", line.target, "scene file, or a shared library, .so, with its usual parameters")->required();
+        add_set(law);
+        add_quiet(law);
       }
 
       void add_solve()

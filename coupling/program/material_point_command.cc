@@ -30,9 +30,17 @@ namespace diptych::coupling
 
     void write(const continuum::MaterialPointReport &report, const std::string &csv)
     {
-      discrete::TableFile table(csv, discrete::csv_header<continuum::MaterialPointRow>());
+      std::string header = discrete::csv_header<continuum::MaterialPointRow>();
+      for (const std::string &name : report.variables)
+        header += "," + name;
+      discrete::TableFile table(csv, header);
       for (const continuum::MaterialPointRow &row : report.rows)
-        table.add(discrete::csv_line(row));
+        {
+          std::string line = discrete::csv_line(row);
+          for (const double value : row.variables)
+            line += "," + discrete::exact_text(value);
+          table.add(line);
+        }
       table.flush();
     }
   } // namespace

@@ -12,6 +12,13 @@ namespace diptych::python
 {
   namespace
   {
+    std::vector<std::string> variable_names(const coupling::Scene &scene)
+    {
+      return scene.continuum.law == continuum::LawKind::library
+               ? continuum::variable_names(continuum::law_library(scene.continuum.material.library.file.path))
+               : std::vector<std::string>();
+    }
+
     // start: stress (2, 2) and stress_zz; time: (n) or None.
     py::dict integrate(const coupling::Scene &scene, const Numbers &strain, const py::tuple &start, const py::object &time)
     {
@@ -23,6 +30,7 @@ namespace diptych::python
       if (!time.is_none())
         path.time = numbers_of(time.cast<Numbers>(), "time");
       std::vector<continuum::StrainPathRow> rows;
+      const std::vector<std::string>        variables = variable_names(scene);
       {
         const py::gil_scoped_release release;
         rows = continuum::drive_strain_path(scene.continuum.law, scene.continuum.material, coupling::continuum_units(scene),
@@ -45,6 +53,13 @@ namespace diptych::python
       dict["equivalent_plastic_strain"] = own(std::move(plastic));
       dict["dissipation"]               = own(std::move(dissipation));
       dict["reliable"]                  = own(std::move(reliable));
+      for (std::size_t k = 0; k < variables.size(); ++k)
+        {
+          std::vector<double> values;
+          for (const continuum::StrainPathRow &row : rows)
+            values.push_back(row.variables[k]);
+          dict[py::str(variables[k])] = own(std::move(values));
+        }
       return dict;
     }
 
@@ -59,7 +74,15 @@ namespace diptych::python
         report                           = continuum::drive_material_point(law, {scene.loading.pressure, axial_strain, step});
       }
       const bool finished = report.status == continuum::MaterialPointStatus::finished;
-      return py::make_tuple(columns_dict(report.rows), finished ? "" : report.message);
+      py::dict   columns  = columns_dict(report.rows);
+      for (std::size_t k = 0; k < report.variables.size(); ++k)
+        {
+          std::vector<double> values;
+          for (const continuum::MaterialPointRow &row : report.rows)
+            values.push_back(row.variables[k]);
+          columns[py::str(report.variables[k])] = own(std::move(values));
+        }
+      return py::make_tuple(columns, finished ? "" : report.message);
     }
   } // namespace
 

@@ -292,6 +292,11 @@ namespace diptych::coupling
     }
   } // namespace
 
+  void complete_law(Scene &scene, const std::string &file, const std::vector<Entry> &entries)
+  {
+    with_places({file, entries, "continuum"}, [&] { continuum::complete(scene.continuum); });
+  }
+
   void check_comparison(const Scene &scene, const std::string &file, const std::vector<Entry> &entries, const bool compares)
   {
     with_places({file, entries, ""}, [&] {
