@@ -215,7 +215,8 @@ namespace diptych::continuum
   std::vector<LawCheck> check_law(const Law &law, const Units &units)
   {
     std::vector<LawCheck> checks = Checks(law, units).made();
-    if (const auto *library = std::get_if<LibraryLaw>(&law); library != nullptr && !checks.front().holds())
+    if (const auto *library = std::get_if<LibraryLaw>(&law);
+        library != nullptr && (library->failure().is_broken || !checks.front().holds()))
       checks.front().trouble = library->failure().text;
     return checks;
   }

@@ -154,7 +154,9 @@ namespace diptych::continuum
           one.value = value;
           return;
         }
-    list.push_back({name, value});
+    list.emplace_back();
+    list.back().name  = name;
+    list.back().value = value;
   }
 
   LawOptions in_units(LawOptions o, const Units &units)

@@ -52,7 +52,7 @@ namespace diptych::coupling
           throw SceneError({entry.place, entry.name(), entry.value, key.allowed + " [" + key.unit + "]",
                             has_comma ? "decimals have a point, and only lists have commas" : ""},
                            "is not allowed");
-      refuse_key(entry);
+      throw SceneError({entry.place, entry.name(), entry.value, "a number", ""}, "is not allowed"); // of a library
     }
 
     void demand_one_line(const Entry &entry)
