@@ -186,13 +186,19 @@ namespace diptych::continuum
             if (active->face(face)->at_boundary())
               {
                 const auto  &n = edge_nodes[face];
-                BoundaryEdge edge{active->face(face)->boundary_id(), {cell->nodes[n[0]], cell->nodes[n[1]], 0}};
+                BoundaryEdge edge{active->face(face)->boundary_id(),
+                                  {cell->nodes[n[0]], cell->nodes[n[1]], 0},
+                                  std::size_t(cell - cells.begin()),
+                                  {n[0], n[1], n[2]}};
                 if (reference.n_nodes > 4)
                   edge.nodes[2] = cell->nodes[n[2]];
                 const Eigen::Vector2d along = nodes[edge.nodes[1]].initial - nodes[edge.nodes[0]].initial;
                 // Cells from gmsh have any orientation.
                 if (std::abs(along.y()) > std::abs(along.x()) ? along.y() < 0 : along.x() < 0)
-                  std::swap(edge.nodes[0], edge.nodes[1]);
+                  {
+                    std::swap(edge.nodes[0], edge.nodes[1]);
+                    std::swap(edge.in_cell[0], edge.in_cell[1]);
+                  }
                 edges.push_back(edge);
               }
           ++cell;

@@ -13,7 +13,7 @@ namespace diptych::continuum
   {
     bool is_usable(const Imbalance &imbalance)
     {
-      return imbalance.n_failed == 0 && std::isfinite(imbalance.residual);
+      return imbalance.n_failed + imbalance.n_inverted == 0 && std::isfinite(imbalance.residual);
     }
 
     Imbalance add_with_line_search(BoundaryValueProblem    &problem,
@@ -60,7 +60,9 @@ namespace diptych::continuum
       {
         report.residual = imbalance.relative();
         best            = std::min(best, imbalance.residual);
-        if (!is_usable(imbalance))
+        if (imbalance.n_inverted > 0)
+          report.message = "an element is inverted";
+        else if (!is_usable(imbalance))
           {
             const LibraryLaw::Failure first = first_failure(problem.law(), problem.discretisation().communicator());
             report.law_is_broken            = first.is_broken;

@@ -25,12 +25,9 @@ namespace diptych::continuum
       values[cell.local[i]] += force[i];
   }
 
-  // Rotates stress, couple stress and tensors among the state variables by the rotation of the material. The skew part does not
-  // depend on the frame.
-  inline void turn(MaterialState &point, const double angle, const Law &law)
+  // Rotates stress and couple stress by the rotation of the material. The skew part does not depend on the frame.
+  inline void turn(MaterialState &point, const double angle)
   {
-    if (const auto *library = std::get_if<LibraryLaw>(&law))
-      library->turn_variables(point, angle);
     const double c = std::cos(angle), s = std::sin(angle);
     Stress      &t    = point.stress;
     const double mean = (t[xx] + t[yy]) / 2, a = (t[xx] - t[yy]) / 2, b = t[xy];
@@ -43,12 +40,11 @@ namespace diptych::continuum
     t[curvature_y] = s * mx + c * my;
   }
 
-  // Half the curl of the increment, anticlockwise.
-  template <class Element> double spin_at(const PointGeometry &point, const ElementVector<Element> &u)
+  // Tensors among the state variables of a law from a library, too.
+  inline void turn(MaterialState &point, const double angle, const Law &law)
   {
-    double spin = 0;
-    for (unsigned int node = 0; node < Element::n_nodes; ++node)
-      spin += 0.5 * (point.gradient[node][0] * u[2 * node + 1] - point.gradient[node][1] * u[2 * node]);
-    return spin;
+    turn(point, angle);
+    if (const auto *library = std::get_if<LibraryLaw>(&law))
+      library->turn_variables(point, angle);
   }
 } // namespace diptych::continuum

@@ -85,12 +85,19 @@ namespace diptych::continuum
 
   MaterialUpdate ConeLaw::update(const MaterialState &s0, const Strain &d_strain, const double d_time) const
   {
-    const Trial  trial = elastic_trial(s0, d_strain);
-    const Cone   c     = cone.at(hardening_state(s0));
-    const double yield = trial.shear - trial.pressure * c.slope - c.intercept;
+    const Trial     trial = elastic_trial(s0, d_strain);
+    const ConeStart start = start_of(s0);
+    const Cone     &c     = start.cone;
+    const double    yield = trial.shear - trial.pressure * c.slope - c.intercept;
     if (yield <= 1e-12 * (trial.shear + std::abs(trial.pressure) + c.intercept))
       return elastic_answer(trial);
-    return plastic_answer(trial, radial_return(trial, d_time));
+    return plastic_answer(trial, radial_return(trial, start, d_time));
+  }
+
+  ConeStart ConeLaw::start_of(const MaterialState &s0) const
+  {
+    const HardeningState state = hardening_state(s0);
+    return {state, cone.at(state)};
   }
 
   ConeLaw::Trial ConeLaw::elastic_trial(const MaterialState &s0, const Strain &d_strain) const
@@ -107,14 +114,14 @@ namespace diptych::continuum
     return trial;
   }
 
-  ConeReturn ConeLaw::radial_return(const Trial &trial, const double d_time) const
+  ConeReturn ConeLaw::radial_return(const Trial &trial, const ConeStart &start, const double d_time) const
   {
     ReturnPath path;
     path.shear                     = trial.shear;
     path.pressure                  = trial.pressure;
     path.shear_loss                = moduli_.shear;
     path.pressure_gain_by_dilation = pressure_modulus;
-    return return_to_cone(cone, hardening_state(trial.state), path, viscous_modulus(d_time), moduli_.shear);
+    return return_to_cone(cone, start, path, viscous_modulus(d_time), moduli_.shear);
   }
 
   MaterialUpdate ConeLaw::elastic_answer(const Trial &trial) const
@@ -148,9 +155,10 @@ namespace diptych::continuum
     state.densification             = hardened.densification;
     state.overstress                = end.overstress;
 
-    answer.tangent = ratio * G * metric + G * (end.shear_by_shear - ratio) * outer_product(n, n) -
-                     B * end.shear_by_pressure * outer_product(n, one) - G * end.pressure_by_shear * outer_product(one, n) +
-                     B * end.pressure_by_pressure * outer_product(one, one);
+    const Stress by_shear    = G * ((end.shear_by_shear - ratio) * n - end.pressure_by_shear * one); // coefficient of n.dg
+    const Stress by_pressure = B * (end.pressure_by_pressure * one - end.shear_by_pressure * n);     // coefficient of tr(de)
+    for (unsigned int i = 0; i < n_components; ++i)
+      answer.tangent[i] = ratio * G * metric[i] + by_shear[i] * n + by_pressure[i] * one;
     answer.tangent[relative_rotation][relative_rotation] = moduli_.skew;
     return answer;
   }

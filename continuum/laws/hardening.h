@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "continuum/laws/law.h"
@@ -15,6 +16,21 @@ namespace diptych::continuum
     double friction = 0, friction_rate = 0;   // phi [radians]
     double dilatancy = 0, dilatancy_rate = 0; // psi [radians]
     double cohesion = 0, cohesion_rate = 0;   // c [pressure]
+  };
+
+  // The same with the sines of the angles in place of the angles.
+  struct StrengthBySines
+  {
+    double friction = 0, friction_rate = 0;   // sin phi
+    double dilatancy = 0, dilatancy_rate = 0; // sin psi
+    double cohesion = 0, cohesion_rate = 0;   // c [pressure]
+    double friction_cosine = 1;               // cos phi
+  };
+
+  // sin psi over a step, with its derivative by the multiplier.
+  struct Dilation
+  {
+    double sine = 0, rate = 0;
   };
 
   // The part of a MaterialState on which the strength depends.
@@ -43,8 +59,12 @@ namespace diptych::continuum
 
     // Strength at a state with an equivalent plastic strain >= 0. At a point of the table the rate is that of the following
     // interval.
-    Strength at(const HardeningState &state) const;
-    Strength at(const double equivalent_plastic_strain) const { return at(HardeningState{equivalent_plastic_strain}); }
+    Strength        at(const HardeningState &state) const;
+    Strength        at(const double equivalent_plastic_strain) const { return at(HardeningState{equivalent_plastic_strain}); }
+    StrengthBySines sines_at(const HardeningState &state) const;
+
+    // A lower bound of sin psi at any state. Only critical_state contracts.
+    double least_dilation() const { return critical_state.is_on ? -largest_sine : 0; }
 
     // Solid fraction of a critical-state law; 0 for any other.
     double solid_fraction(const HardeningState &state) const;
@@ -52,19 +72,23 @@ namespace diptych::continuum
     // The state after plastic shear strain `multiplier` >= 0.
     HardeningState after(const HardeningState &state, double multiplier) const;
 
-    // Strength at the end of a step. For critical_state the dilatancy is its mean over the step, so that volume and solid
-    // fraction stay consistent. Rates are derivatives by the multiplier.
-    Strength over(const HardeningState &start, double multiplier) const;
+    // Mean dilation of a critical-state law over the step from `start` to `end` = after(start, multiplier). It keeps volume and
+    // solid fraction consistent. The flow of any other law uses the dilation at the end: no value.
+    std::optional<Dilation> mean_dilation(const HardeningState &start, const HardeningState &end, double multiplier) const;
 
   private:
+    static constexpr double largest_sine = 0.95; // critical_state cuts its sines off, because the rate of an angle diverges at 1
+
     struct Point
     {
       double strain = 0, friction = 0, dilatancy = 0, cohesion = 0;
     };
-    Strength decayed(double equivalent_plastic_strain) const;
-    Strength interpolated(double equivalent_plastic_strain) const;
-    Strength critical(const HardeningState &state) const;
-    double   dilation(const HardeningState &state) const; // sin psi for critical_state
+    Strength        decayed(double equivalent_plastic_strain) const;
+    Strength        interpolated(double equivalent_plastic_strain) const;
+    Strength        angles_at(double equivalent_plastic_strain) const; // not for critical_state
+    StrengthBySines critical(const HardeningState &state) const;
+    double          dilation(const HardeningState &state) const; // sin psi for critical_state
+    static Dilation cut_off(double sine, double rate);
 
     // Excess of eta and of eta_p over eta_c.
     struct Excess

@@ -86,7 +86,7 @@ namespace diptych::continuum
           const std::size_t     i     = c * mesh.reference.n_points + q;
           const auto           &point = problem.committed().points[i];
           const auto           &place = problem.committed().localisation[i];
-          const double          w     = problem.moved_geometry().cells[c].points[q].area;
+          const double          w     = problem.geometry().cells[c].points[q].area;
           const Eigen::Matrix2d F     = jacobian(mesh, mesh.cells[c], q, shape.now) *
                                     jacobian(mesh, mesh.cells[c], q, shape.before).inverse();
           state.strain.topLeftCorner<2, 2>() -= w * ((F + F.transpose()) / 2 - Eigen::Matrix2d::Identity());
@@ -295,7 +295,7 @@ namespace diptych::continuum
     {
       const auto &mesh     = problem.discretisation();
       const auto &state    = problem.committed();
-      const auto &geometry = problem.moved_geometry();
+      const auto &geometry = problem.geometry();
       double      area = 0, yielding = 0, unreliable = 0, not_intermediate = 0, viscous = 0, dissipation = 0, largest = 0,
              unstable = 0;
       for (std::size_t i = 0; i < state.points.size(); ++i)
@@ -326,7 +326,7 @@ namespace diptych::continuum
       row.share_zz_not_intermediate     = sum(not_intermediate, mesh.communicator()) / area;
       row.dissipation                   = sum(dissipation, mesh.communicator());
       row.max_equivalent_plastic_strain = dealii::Utilities::MPI::max(largest, mesh.communicator());
-      row.volumetric_strain             = 1 - area / problem.initial_area();
+      row.volumetric_strain             = 1 - sum(problem.moved_geometry().area, mesh.communicator()) / problem.initial_area();
     }
 
     void add_localisation(const BoundaryValueProblem &problem, HistoryRow &row)
@@ -375,7 +375,7 @@ namespace diptych::continuum
     snapshot.variables = described_variables(problem.law());
     set_progress(problem, loading, snapshot);
     std::map<std::array<double, 3>, unsigned int> node_of_key;
-    for (const auto &part : dealii::Utilities::MPI::gather(mesh.communicator(), mine))
+    for (const auto &part : gathered(mine, mesh.communicator()))
       for (std::size_t at = 0; at < part.size(); at += 9 * entry_length + n_state + snapshot.variables.size())
         add_cell(snapshot, node_of_key, &part[at], mesh.reference.n_rotations > 0);
     snapshot.mean_stress /= std::max(snapshot.area, 1e-300);

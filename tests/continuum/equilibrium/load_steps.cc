@@ -85,8 +85,8 @@ namespace
           }
         const CommittedState  before = tried.committed();
         const Eigen::Vector2d force  = tried.platen_force(true);
-        LinearSolver          solver(LinearMethod::umfpack);
-        solver.restart(LinearMethod::umfpack, {});
+        LinearSolver          solver(LinearMethod::supernodal);
+        solver.restart(LinearMethod::supernodal, {});
         auto increment = tried.zero_vector();
         tried.begin_step(0.1);
         tried.impose(increment);
@@ -149,11 +149,13 @@ namespace
       {
         const Options        options = with(elastic(), Platens::smooth, geometry);
         BoundaryValueProblem problem(mesh, Units(), straight_loading(1, {0, -6}, {2}), options);
-        LinearSolver         solver(LinearMethod::umfpack);
-        solver.restart(LinearMethod::umfpack, {});
+        LinearSolver         solver(LinearMethod::supernodal);
+        solver.restart(LinearMethod::supernodal, {});
         for (const double to : {1.2, 0.2})
           {
-            auto increment = problem.zero_vector();
+            Eigen::Matrix2d squeeze = Eigen::Matrix2d::Zero();
+            squeeze(1, 1)           = -to;
+            auto increment          = linear_field(problem, squeeze);
             problem.begin_step(to);
             problem.impose(increment);
             const NewtonReport report = solve_step(problem, solver, {1e-5, 20}, increment);
