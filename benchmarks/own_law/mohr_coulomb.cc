@@ -16,18 +16,28 @@ namespace
 {
   using Vector = std::array<double, 3>; // of the sorted principal values
 
-  enum { youngs_modulus, poisson_ratio, friction_angle, dilatancy_angle, cohesion, n_parameters };
+  enum
+  {
+    youngs_modulus,
+    poisson_ratio,
+    friction_angle,
+    dilatancy_angle,
+    cohesion,
+    n_parameters
+  };
 
-  const diptych_parameter parameters[n_parameters] = {
-    {"youngs_modulus", DIPTYCH_STRESS, "Young's modulus", 500, 1e-3, 1e12},
-    {"poisson_ratio", "-", "Poisson's ratio", 0.2, 0, 0.49},
-    {"friction_angle", "degrees", "friction angle", 20.5, 0, 60},
-    {"dilatancy_angle", "degrees", "dilatancy angle", 12, 0, 60},
-    {"cohesion", DIPTYCH_STRESS, "cohesion", 0.01, 1e-9, 1e12}};
+  const diptych_parameter parameters[n_parameters] = {{"youngs_modulus", DIPTYCH_STRESS, "Young's modulus", 500, 1e-3, 1e12},
+                                                      {"poisson_ratio", "-", "Poisson's ratio", 0.2, 0, 0.49},
+                                                      {"friction_angle", "degrees", "friction angle", 20.5, 0, 60},
+                                                      {"dilatancy_angle", "degrees", "dilatancy angle", 12, 0, 60},
+                                                      {"cohesion", DIPTYCH_STRESS, "cohesion", 0.01, 1e-9, 1e12}};
 
   const diptych_law law = {DIPTYCH_LAW_INTERFACE, 3, n_parameters, parameters, 0, nullptr};
 
-  double dot(const Vector &a, const Vector &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+  double dot(const Vector &a, const Vector &b)
+  {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  }
 
   struct Material
   {
@@ -58,7 +68,7 @@ namespace
   {
     Vector         stress, plastic = {};
     double         jacobian[3][3] = {}; // d stress / d trial stress
-    double         multiplier     = 0, least = 0;
+    double         multiplier = 0, least = 0;
     diptych_branch branch = DIPTYCH_PLASTIC;
   };
 
@@ -72,7 +82,7 @@ namespace
   // Return to one or two planes, each given by its major and minor stress.
   Return to_planes(const Material &m, const Vector &trial, const std::vector<std::pair<int, int>> &planes)
   {
-    const std::size_t n = planes.size();
+    const std::size_t n       = planes.size();
     double            M[2][2] = {{0, 0}, {0, 1}}, F[2] = {};
     Vector            a[2] = {}, b[2] = {}, Db[2] = {};
     for (std::size_t i = 0; i < n; ++i)
@@ -85,7 +95,7 @@ namespace
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t k = 0; k < n; ++k)
         M[i][k] = dot(a[i], Db[k]);
-    const double det = M[0][0] * M[1][1] - M[0][1] * M[1][0];
+    const double det           = M[0][0] * M[1][1] - M[0][1] * M[1][0];
     const double inverse[2][2] = {{M[1][1] / det, -M[0][1] / det}, {-M[1][0] / det, M[0][0] / det}};
     Return       r;
     r.stress = trial;
@@ -128,7 +138,10 @@ namespace
   }
 } // namespace
 
-const diptych_law *diptych_law_describe() { return &law; }
+const diptych_law *diptych_law_describe()
+{
+  return &law;
+}
 
 diptych_verdict diptych_law_update(const diptych_step *step, diptych_answer *answer)
 {
@@ -152,13 +165,15 @@ diptych_verdict diptych_law_update(const diptych_step *step, diptych_answer *ans
   if (m.yield(trial, 0, 2) > 1e-12 * (std::fabs(trial[0]) + std::fabs(trial[2]) + m.cohesion))
     r = returned(m, trial);
 
-  const auto in_plane = [&](const Vector &v) { return std::pair{(v[place[0]] + v[place[1]]) / 2, (v[place[0]] - v[place[1]]) / 2}; };
+  const auto in_plane = [&](const Vector &v) {
+    return std::pair{(v[place[0]] + v[place[1]]) / 2, (v[place[0]] - v[place[1]]) / 2};
+  };
   const auto [end_mean, end_t] = in_plane(r.stress);
   const auto [p_mean, p_t]     = in_plane(r.plastic);
-  answer->stress[0] = end_mean + end_t * n[0];
-  answer->stress[1] = end_mean - end_t * n[0];
-  answer->stress[2] = end_t * n[1];
-  answer->stress_zz = r.stress[place[2]];
+  answer->stress[0]            = end_mean + end_t * n[0];
+  answer->stress[1]            = end_mean - end_t * n[0];
+  answer->stress[2]            = end_t * n[1];
+  answer->stress_zz            = r.stress[place[2]];
   answer->hardening += r.multiplier;
   const double plastic[4] = {p_mean + p_t * n[0], p_mean - p_t * n[0], r.plastic[place[2]], 2 * p_t * n[1]};
   for (int i = 0; i < 4; ++i)
@@ -172,17 +187,17 @@ diptych_verdict diptych_law_update(const diptych_step *step, diptych_answer *ans
   for (int k = 0; k < 3; ++k)
     {
       const double along = n[0] * g[k][0] + n[1] * g[k][1], d_mean = (m.lame + m.shear) * volumes[k];
-      Vector       d, change = {};
+      Vector       d, change                                       = {};
       d[place[0]] = d_mean + m.shear * along, d[place[1]] = d_mean - m.shear * along, d[place[2]] = m.lame * volumes[k];
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
           change[i] += r.jacobian[i][j] * d[j];
       const auto [c_mean, c_t] = in_plane(change);
-      const double c_q[2] = {n[0] * c_t + ratio * m.shear * (g[k][0] - n[0] * along),
-                             n[1] * c_t + ratio * m.shear * (g[k][1] - n[1] * along)};
-      answer->tangent[k]     = c_mean + c_q[0];
-      answer->tangent[3 + k] = c_mean - c_q[0];
-      answer->tangent[6 + k] = c_q[1];
+      const double c_q[2]      = {n[0] * c_t + ratio * m.shear * (g[k][0] - n[0] * along),
+                                  n[1] * c_t + ratio * m.shear * (g[k][1] - n[1] * along)};
+      answer->tangent[k]       = c_mean + c_q[0];
+      answer->tangent[3 + k]   = c_mean - c_q[0];
+      answer->tangent[6 + k]   = c_q[1];
     }
   return DIPTYCH_RELIABLE;
 }

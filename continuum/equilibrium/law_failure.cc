@@ -15,10 +15,13 @@ namespace diptych::continuum
                             const std::size_t          cell,
                             const unsigned int         point)
   {
-    const auto      nodes = positions(mesh, displacement);
-    Eigen::Vector2d x     = Eigen::Vector2d::Zero();
-    for (unsigned int node = 0; node < mesh.reference.n_nodes; ++node)
-      x += mesh.reference.shape[point][node] * nodes[mesh.cells[cell].nodes[node]];
+    Eigen::Vector2d x = Eigen::Vector2d::Zero();
+    for (unsigned int k = 0; k < mesh.reference.n_nodes; ++k)
+      {
+        const Node           &node = mesh.nodes[mesh.cells[cell].nodes[k]];
+        const Eigen::Vector2d moved(displacement[node.local[0]], displacement[node.local[1]]);
+        x += mesh.reference.shape[point][k] * (node.initial + moved);
+      }
     std::ostringstream text;
     text << "element " << cell << ", point " << point << " (x = " << x.x() << ", y = " << x.y() << ')';
     if (Utilities::MPI::n_mpi_processes(mesh.communicator()) > 1)
@@ -26,7 +29,7 @@ namespace diptych::continuum
     return text.str();
   }
 
-  LibraryLaw::Failure first_failure(const Law &law, const MPI_Comm communicator)
+  LibraryLaw::Failure law_failure(const Law &law, const MPI_Comm communicator)
   {
     const auto *library = std::get_if<LibraryLaw>(&law);
     if (library == nullptr)

@@ -43,6 +43,6 @@ namespace diptych::continuum
                             std::size_t                cell,
                             unsigned int               point);
 
-  // The first failure of a law from a library since it was watched, on any process; empty for other laws. Collective.
-  LibraryLaw::Failure first_failure(const Law &law, MPI_Comm communicator);
+  // A failure of a law from a library since it was watched, on any process; empty for other laws. Collective.
+  LibraryLaw::Failure law_failure(const Law &law, MPI_Comm communicator);
 } // namespace diptych::continuum

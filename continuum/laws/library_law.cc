@@ -62,7 +62,7 @@ namespace diptych::continuum
     rest.stress[xx] = rest.stress[yy] = rest.stress_zz = -units.stress;
     start(rest);
     const MaterialUpdate answer = update(rest, {}, 0);
-    require_keys(answer.verdict != Verdict::failed, {"law_library"}, "law_library fails at rest: ", first_failure.text);
+    require_keys(answer.verdict != Verdict::failed, {"law_library"}, "law_library fails at rest: ", last_failure.text);
     elastic = answer.tangent;
     require_keys(elastic[xx][xx] > 0 && elastic[xy][xy] > 0, {"law_library"}, "law_library = ", path,
                  ": the tangent at rest has no positive stiffness: d s_xx / d e_xx = ", elastic[xx][xx],
@@ -156,7 +156,7 @@ namespace diptych::continuum
       {
         note(reply.signal != 0 ? std::string("crashed with ") + name_of_crash(reply.signal) : reply.thrown, true, s0, d_strain);
         if (reply.signal == SIGABRT)
-          end_after_abort("diptych: " + first_failure.text + "\nThe stages written so far and the last checkpoint are kept.\n");
+          end_after_abort("diptych: " + last_failure.text + "\nThe stages written so far and the last checkpoint are kept.\n");
         return answer;
       }
     take(reply, answer);
@@ -184,7 +184,7 @@ namespace diptych::continuum
 
   void LibraryLaw::note(const std::string &what, const bool is_broken, const MaterialState &s0, const Strain &d_strain) const
   {
-    if (!first_failure.text.empty() && (first_failure.is_broken || !is_broken))
+    if (last_failure.is_broken)
       return;
     std::ostringstream text;
     text.precision(6);
@@ -200,6 +200,6 @@ namespace diptych::continuum
     text << ", zz " << s0.stress_zz << "; hardening " << s0.equivalent_plastic_strain;
     for (std::size_t k = 0; k < s0.variables.size(); ++k)
       text << ", " << opened->law->variables[k].name << ' ' << s0.variables[k];
-    first_failure = {text.str(), is_broken};
+    last_failure = {text.str(), is_broken};
   }
 } // namespace diptych::continuum

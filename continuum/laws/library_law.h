@@ -39,14 +39,19 @@ namespace diptych::continuum
     const LawLibrary &library() const { return *opened; }
     unsigned int      n_components() const { return unsigned(opened->law->n_components); }
 
-    // The first failure since forget_failure(). `is_broken`: a crash or an exception, after which no smaller step helps.
+    // The last failure since forget_failure(). `is_broken`: the first crash or exception, after which no smaller step helps; it
+    // is not forgotten.
     struct Failure
     {
       std::string text;
       bool        is_broken = false;
     };
-    const Failure &failure() const { return first_failure; }
-    void           forget_failure() const { first_failure = {}; }
+    const Failure &failure() const { return last_failure; }
+    void           forget_failure() const
+    {
+      if (!last_failure.is_broken)
+        last_failure = {};
+    }
 
     // Names the point of the present call in a failure, such as "element 3, point 1 (x = 1, y = 2)"; may be empty.
     mutable std::function<std::string()> where;
@@ -62,6 +67,6 @@ namespace diptych::continuum
     std::vector<double> parameters; // converted to stresses and lengths
     ElasticModuli       moduli_;
     Tangent             elastic;
-    mutable Failure     first_failure;
+    mutable Failure     last_failure;
   };
 } // namespace diptych::continuum

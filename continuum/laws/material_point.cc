@@ -162,8 +162,10 @@ namespace diptych::continuum
     if (const auto *library = std::get_if<LibraryLaw>(&law))
       {
         report.variables = variable_names(library->library());
+        if (library->failure().is_broken)
+          report.status = MaterialPointStatus::law_failed;
         if (report.status == MaterialPointStatus::law_failed)
-          report.message += ": " + library->failure().text;
+          report.message = message_of(report) + ": " + library->failure().text;
       }
     return report;
   }

@@ -34,7 +34,7 @@ static int misbehave(struct diptych_answer *answer)
   if (strcmp(fault, "crash") == 0)
     return *nowhere;
   if (strcmp(fault, "divide") == 0)
-    return 1 / zero;
+    return 1000 / zero; /* 1 / x needs no division */
   if (strcmp(fault, "abort") == 0)
     abort();
   if (strcmp(fault, "nan") == 0)
@@ -42,7 +42,10 @@ static int misbehave(struct diptych_answer *answer)
   return strcmp(fault, "fail") == 0;
 }
 
-#ifndef NO_UPDATE
+#ifdef NO_UPDATE
+#define diptych_law_update another_name
+#endif
+
 enum diptych_verdict diptych_law_update(const struct diptych_step *step, struct diptych_answer *answer)
 {
   const double E = step->parameters[0], *e = step->strain, volume = e[0] + e[1];
@@ -58,4 +61,3 @@ enum diptych_verdict diptych_law_update(const struct diptych_step *step, struct 
   answer->variables[0] += fabs(e[1]);
   return answer->variables[0] > 0.0047 && misbehave(answer) ? DIPTYCH_FAILED : DIPTYCH_RELIABLE;
 }
-#endif
