@@ -11,6 +11,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include "continuum/panel/law_variables.h"
+
 namespace diptych::continuum
 {
   using dealii::Utilities::MPI::sum;
@@ -163,36 +165,6 @@ namespace diptych::continuum
       s.friction_angle            = m[9];
       s.solid_fraction            = m[10];
       return s;
-    }
-
-    // Area means of the state variables of a law from a library over a cell.
-    std::vector<double> variables_of(const BoundaryValueProblem &problem, const std::size_t c)
-    {
-      const unsigned int  n = problem.discretisation().reference.n_points;
-      std::vector<double> means(problem.committed().points[c * n].variables.size(), 0.);
-      double              area = 0;
-      for (unsigned int q = 0; q < n; ++q)
-        {
-          const double w = problem.moved_geometry().cells[c].points[q].area;
-          area += w;
-          for (std::size_t k = 0; k < means.size(); ++k)
-            means[k] += w * problem.committed().points[c * n + q].variables[k];
-        }
-      for (double &mean : means)
-        mean /= area;
-      return means;
-    }
-
-    std::vector<LawVariable> described_variables(const Law &law)
-    {
-      std::vector<LawVariable> variables;
-      if (const auto *library = std::get_if<LibraryLaw>(&law))
-        for (const std::string &name : variable_names(library->library()))
-          {
-            const diptych_variable &one = library->library().law->variables[variables.size()];
-            variables.push_back({name, one.unit, one.meaning, {}});
-          }
-      return variables;
     }
 
     // Maps deal.II's order of FE_Q(2) to corners counter-clockwise, midpoints of the edges, centre.

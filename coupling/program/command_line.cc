@@ -339,18 +339,6 @@ namespace diptych::coupling
       double                        ignored_number = 0;
       std::map<CLI::App *, Command> by_parser;
     };
-
-    // Joins the two words of "--accuracy 2 %".
-    std::vector<std::string> with_joined_per_cent(const std::vector<std::string> &words)
-    {
-      std::vector<std::string> joined_words;
-      for (const std::string &word : words)
-        if (word == "%" && joined_words.size() > 1)
-          joined_words.back() += " %";
-        else
-          joined_words.push_back(word);
-      return joined_words;
-    }
   } // namespace
 
   ParsedLine parse_command_line(const std::vector<std::string> &words)
