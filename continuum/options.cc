@@ -44,7 +44,7 @@ namespace diptych::continuum
                  {"rectangle_width", "rectangle_height", "mesh"}, "rectangle_width = ", options.rectangle_width,
                  ", rectangle_height = ", options.rectangle_height, ": mesh = rectangle needs both");
     if (traits(options.law).is_plastic)
-      validate(options.material);
+      validate(options.law, options.material);
     else if (options.law != LawKind::library)
       validate(options.material.elastic);
   }

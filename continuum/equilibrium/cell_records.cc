@@ -13,7 +13,7 @@ namespace diptych::continuum
   namespace
   {
     // Values of the state of a point; those of a law from a library follow.
-    constexpr unsigned int n_built_in = n_components + 10, n_fields = 3; // fields: displacement and LastMotion
+    constexpr unsigned int n_built_in = 2 * n_components + 10, n_fields = 3; // fields: displacement and LastMotion
     unsigned int           n_state(const BoundaryValueProblem &problem)
     {
       const auto *library = std::get_if<LibraryLaw>(&problem.law());
@@ -29,6 +29,8 @@ namespace diptych::continuum
         s.stress_zz,         s.equivalent_plastic_strain, s.overstress,  s.plastic_strain.xx, s.plastic_strain.yy,
         s.plastic_strain.zz, s.plastic_strain.xy,         s.dissipation, s.stress_ratio_gain, s.densification};
       std::copy(std::begin(rest), std::end(rest), values.begin() + n_components);
+      for (unsigned int k = 0; k < n_components; ++k)
+        values[n_built_in - n_components + k] = s.back_stress_ratio[k];
       values.insert(values.end(), s.variables.begin(), s.variables.end());
       return values;
     }
@@ -46,6 +48,8 @@ namespace diptych::continuum
       s.dissipation               = rest[7];
       s.stress_ratio_gain         = rest[8];
       s.densification             = rest[9];
+      for (unsigned int k = 0; k < n_components; ++k)
+        s.back_stress_ratio[k] = values[n_built_in - n_components + k];
       s.variables.assign(values + n_built_in, values + n);
       return s;
     }

@@ -7,15 +7,23 @@
 #include "continuum/laws/cosserat_drucker_prager.h"
 #include "continuum/laws/cosserat_mohr_coulomb.h"
 #include "continuum/laws/drucker_prager.h"
+#include "continuum/laws/kinematic_cone.h"
 #include "continuum/laws/library_law.h"
 #include "continuum/laws/linear_elastic.h"
 #include "continuum/laws/mohr_coulomb.h"
 
 namespace diptych::continuum
 {
-  using Law = std::variant<LinearElastic, MohrCoulomb, DruckerPrager, CosseratMohrCoulomb, CosseratDruckerPrager, LibraryLaw>;
+  using Law = std::variant<LinearElastic,
+                           MohrCoulomb,
+                           DruckerPrager,
+                           CosseratMohrCoulomb,
+                           CosseratDruckerPrager,
+                           KinematicLaw<false>,
+                           KinematicLaw<true>,
+                           LibraryLaw>;
 
-  // Throws std::invalid_argument under the same conditions as validate(options).
+  // Throws std::invalid_argument under the same conditions as validate(options), and if validate(law, options) does.
   Law make_law(LawKind law, const LawOptions &options, const Units &units = {});
 
   // Sets the state variables of a law from a library at the initial stress. Other laws have none.

@@ -49,15 +49,15 @@ namespace diptych::continuum
     MaterialUpdate plastic_answer(const Trial &trial, const ConeReturn &end) const;
     double         viscous_modulus(double d_time) const { return d_time > 0 ? viscosity / d_time : 0; }
 
-    YieldCone     cone;
-    ElasticModuli moduli_;
-
-  private:
     Deviatoric deviatoric(const MaterialState &state) const;
     double     pressure(const MaterialState &state) const;
     Stress     conjugate(const Deviatoric &q) const; // q . dg/d(strain)
 
-    double  pressure_modulus; // B [pressure]
+    YieldCone     cone;
+    ElasticModuli moduli_;
+    double        pressure_modulus; // B [pressure]
+
+  private:
     double  viscosity;
     double  couple_scale; // sqrt2 l; zero for a classical law
     Tangent elastic;

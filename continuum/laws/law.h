@@ -54,7 +54,8 @@ namespace diptych::continuum
     double              equivalent_plastic_strain = 0; // hardening variable: integral of the plastic d(eps_1 - eps_3) [-]
     double              stress_ratio_gain         = 0; // critical state: increase of the mobilised t/s since the start [-]
     double              densification = 0; // critical state: ln(solid fraction / initial one), from plastic strain [-]
-    double              overstress    = 0; // excess of the yield function that viscosity carries [pressure]
+    Stress              back_stress_ratio; // kinematic: axis of the cone, a deviatoric stress over the pressure [-]
+    double              overstress = 0;    // excess of the yield function that viscosity carries [pressure]
     PlasticStrain       plastic_strain;    // updated by add_plastic_flow(), not by update(); law = library: by update()
     double              dissipation = 0;   // plastic work per initial area [pressure]; likewise
     std::vector<double> variables;         // state variables of a law from a library; otherwise empty

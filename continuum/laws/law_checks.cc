@@ -78,7 +78,8 @@ namespace diptych::continuum
 
     MaterialState turned_state(const Law &law, MaterialState state)
     {
-      state.stress = turned(state.stress, turn_angle, 1);
+      state.stress            = turned(state.stress, turn_angle, 1);
+      state.back_stress_ratio = turned(state.back_stress_ratio, turn_angle, 1);
       if (const auto *library = std::get_if<LibraryLaw>(&law))
         library->turn_variables(state, turn_angle);
       return state;
