@@ -107,7 +107,7 @@ struct diptych_answer
 enum diptych_verdict
 {
   DIPTYCH_RELIABLE,
-  DIPTYCH_UNRELIABLE, /* the answer may not be unique; results show the share of the area */
+  DIPTYCH_UNRELIABLE, /* the answer may not be unique: results show the share of the area */
   DIPTYCH_FAILED      /* no answer: the load step is halved. A NaN has the same effect. */
 };
 

@@ -121,7 +121,8 @@ namespace diptych::coupling
         if (name.rfind(continuum::LawParameters::prefix, 0) == 0)
           {
             const std::string path = group + "/cells/" + name;
-            s.variables.push_back({name, file.text_attribute(path, "unit"), file.text_attribute(path, "meaning"), file.read(path)});
+            s.variables.push_back(
+              {name, file.text_attribute(path, "unit"), file.text_attribute(path, "meaning"), file.read(path)});
             check.size(name, s.variables.back().of_cells.size(), s.cells.size());
             check.finite(name, s.variables.back().of_cells);
           }
