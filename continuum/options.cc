@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/options.h"
 
+#include "continuum/laws/law_library.h"
 #include "continuum/require.h"
 
 namespace diptych::continuum
@@ -20,6 +21,12 @@ namespace diptych::continuum
                                                         : option.file;
   }
 
+  void complete(Options &options)
+  {
+    if (options.law == LawKind::library)
+      complete(options.material.library);
+  }
+
   void validate(const Options &options)
   {
     require_keys(options.min_step > 0 && options.min_step <= options.initial_step && options.initial_step <= options.max_step,
@@ -29,7 +36,7 @@ namespace diptych::continuum
                  " must lie in (0, 1)");
     require_keys(options.max_newton_iterations > 0, {"max_newton_iterations"},
                  "max_newton_iterations = ", options.max_newton_iterations, " must be positive");
-    require_keys(!traits(options.law).is_cosserat || options.element != Displacement::q1_bbar, {"element", "law"},
+    require_keys(!is_cosserat(options) || options.element != Displacement::q1_bbar, {"element", "law"},
                  "element = ", name_of(options.element), " with law = ", name_of(options.law),
                  ": Cosserat laws need q2 (equal orders of displacement and rotation lock)");
     require_keys(options.mesh.kind != MeshOption::Kind::rectangle ||
@@ -38,7 +45,7 @@ namespace diptych::continuum
                  ", rectangle_height = ", options.rectangle_height, ": mesh = rectangle needs both");
     if (traits(options.law).is_plastic)
       validate(options.law, options.material);
-    else
+    else if (options.law != LawKind::library)
       validate(options.material.elastic);
   }
 
@@ -50,8 +57,8 @@ namespace diptych::continuum
         if (!used)
           unused.push_back({key, because});
     };
-    const bool plastic = traits(o.law).is_plastic, weak = plastic && o.weak_spot_strain > 0;
-    unless(traits(o.law).is_cosserat, "law = " + name_of(o.law), {"platen_rotation"});
+    const bool plastic = traits(o.law).is_plastic || o.law == LawKind::library, weak = plastic && o.weak_spot_strain > 0;
+    unless(is_cosserat(o), "law = " + name_of(o.law), {"platen_rotation"});
     unless(o.mesh.kind == MeshOption::Kind::rectangle, "mesh = " + text_of(o.mesh),
            {"rectangle_width", "rectangle_height", "platen_width"});
     unless(o.mesh.kind != MeshOption::Kind::file, "mesh = " + text_of(o.mesh), {"element_size"});
@@ -73,6 +80,8 @@ namespace diptych::continuum
       if (doubtful)
         found.push_back({key, text.str()});
     };
+    if (o.law == LawKind::library)
+      return found;
     const double E = o.material.elastic.youngs_modulus;
     add_if(E < softest, "youngs_modulus", E, "is below 50: elastic strain reaches several percent before the sample yields");
     add_if(E > stiffest, "youngs_modulus", E, "is above 1e6: was it given as an absolute modulus?");

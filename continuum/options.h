@@ -141,7 +141,7 @@ namespace diptych::continuum
   {
     visitor("law", o.law, "-",
             "constitutive law; the two Cosserat laws have an internal length, with any other softening law the mesh sets the "
-            "band's thickness");
+            "band's thickness; library: your own law, in law_library");
     visitor("element", o.element, "-",
             "q2: biquadratic displacement with 3x3 points; q1_bbar: bilinear with mean dilation; auto: q2. Cosserat laws need q2 "
             "and use bilinear rotations");
@@ -189,6 +189,16 @@ namespace diptych::continuum
     visit_parameters(o.material, visitor);
   }
 
+  // Whether the law has rotations and couple stresses. For law = library only after complete().
+  inline bool is_cosserat(const Options &options)
+  {
+    return options.law == LawKind::library ? options.material.library.is_cosserat : traits(options.law).is_cosserat;
+  }
+
+  // Reads the description of a library: all its parameters get a value. Throws WrongKeys. Other laws need nothing.
+  void complete(Options &options);
+
+  // law = library must be complete.
   void validate(const Options &options);
 
   std::vector<UnusedKey> unused_keys(const Options &options);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -37,6 +38,13 @@ namespace diptych::continuum
     double          solid_fraction            = 0; // hardening = critical_state, kinematic [-]; else 0
   };
 
+  // A state variable of a law from a library.
+  struct LawVariable
+  {
+    std::string         name, unit, meaning; // "law.NAME", as in the results
+    std::vector<double> of_cells;            // n_cells, area means
+  };
+
   // One instant of the continuum panel as plain values. The nodes are all support points of the displacement.
   struct Snapshot
   {
@@ -55,6 +63,7 @@ namespace diptych::continuum
     // as in VTK's biquadratic quad. Nine nodes are interpolated for four-node elements, too.
     std::vector<std::array<unsigned int, 9>> cells;
     std::vector<CellState>                   cell_state; // n_cells
+    std::vector<LawVariable>                 variables;  // of a law from a library
 
     Eigen::Vector2d lower_platen_force = Eigen::Vector2d::Zero(); // force on the sample [pressure * length]
     Eigen::Vector2d upper_platen_force = Eigen::Vector2d::Zero();

@@ -9,6 +9,7 @@
 
 #include "continuum/elements/element_kernels.h"
 #include "continuum/equilibrium/initial_points.h"
+#include "continuum/equilibrium/law_failure.h"
 #include "continuum/equilibrium/point_operations.h"
 #include "continuum/laws/plastic_flow.h"
 #include "continuum/equilibrium/loads.h"
@@ -28,7 +29,7 @@ namespace diptych::continuum
 
     ElementKind element_kind(const Options &options)
     {
-      if (traits(options.law).is_cosserat)
+      if (is_cosserat(options))
         return ElementKind::q2_cosserat;
       return options.element == Displacement::q1_bbar ? ElementKind::q1_mean_dilation : ElementKind::q2;
     }
@@ -67,6 +68,7 @@ namespace diptych::continuum
     call(check_stop);
     area_at_start = Utilities::MPI::sum(current.area, mesh.communicator());
     set_at_rest(mesh, options, units, loading.pressure, state.points);
+    start_variables(material, state.points);
     begin_step(0);
     (void)evaluate(zero_vector());
     reset_balance();
@@ -131,6 +133,7 @@ namespace diptych::continuum
   void BoundaryValueProblem::set_initial_stress(const std::vector<Eigen::Matrix2d> &stress)
   {
     set_stress(stress, mesh.reference.n_points, state.points);
+    start_variables(material, state.points);
     (void)evaluate(zero_vector());
     reset_balance();
   }
@@ -215,12 +218,15 @@ namespace diptych::continuum
 
   template <class L, class Element> void BoundaryValueProblem::update_points(const L &law, Element, std::vector<double> &force)
   {
-    const double d_time = step_end - state.progress;
-    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    const double        d_time = step_end - state.progress;
+    std::size_t         c      = 0;
+    unsigned int        q      = 0;
+    const WatchedLaw<L> watch(law, [&] { return name_of_point(mesh, state.displacement, c, q); });
+    for (c = 0; c < mesh.cells.size(); ++c)
       {
         const auto             u = gather<Element>(mesh.cells[c], trial_increment);
         ElementVector<Element> f{};
-        for (unsigned int q = 0; q < Element::n_points; ++q)
+        for (q = 0; q < Element::n_points; ++q)
           {
             const std::size_t point = c * Element::n_points + q;
             const Increment  &step = increments[point] = Increment(motion_at<Element>(mesh.reference, current.cells[c], q, u),
@@ -355,7 +361,7 @@ namespace diptych::continuum
           }
         state.localisation[point] = is_elastic ? Localisation() : localisation(trial[point].tangent, elastic);
         flow[point]               = next.equivalent_plastic_strain - state.points[point].equivalent_plastic_strain;
-        turn(next, increments[point].angle());
+        turn(next, increments[point].angle(), material);
         state.points[point] = next;
       }
     for (std::size_t i = 0; i < state.displacement.size(); ++i)

@@ -12,11 +12,17 @@ namespace diptych::continuum
 
   namespace
   {
-    constexpr unsigned int n_state = 2 * n_components + 10, n_fields = 3; // fields: displacement and LastMotion
-
-    std::array<double, n_state> packed(const MaterialState &s)
+    // Values of the state of a point; those of a law from a library follow.
+    constexpr unsigned int n_built_in = 2 * n_components + 10, n_fields = 3; // fields: displacement and LastMotion
+    unsigned int           n_state(const BoundaryValueProblem &problem)
     {
-      std::array<double, n_state> values{};
+      const auto *library = std::get_if<LibraryLaw>(&problem.law());
+      return n_built_in + (library != nullptr ? unsigned(library->library().law->n_variables) : 0);
+    }
+
+    std::vector<double> packed(const MaterialState &s)
+    {
+      std::vector<double> values(n_built_in);
       for (unsigned int k = 0; k < n_components; ++k)
         values[k] = s.stress[k];
       const double rest[] = {
@@ -24,11 +30,12 @@ namespace diptych::continuum
         s.plastic_strain.zz, s.plastic_strain.xy,         s.dissipation, s.stress_ratio_gain, s.densification};
       std::copy(std::begin(rest), std::end(rest), values.begin() + n_components);
       for (unsigned int k = 0; k < n_components; ++k)
-        values[n_state - n_components + k] = s.back_stress_ratio[k];
+        values[n_built_in - n_components + k] = s.back_stress_ratio[k];
+      values.insert(values.end(), s.variables.begin(), s.variables.end());
       return values;
     }
 
-    MaterialState unpacked(const double *values)
+    MaterialState unpacked(const double *values, const unsigned int n)
     {
       MaterialState s;
       for (unsigned int k = 0; k < n_components; ++k)
@@ -42,7 +49,8 @@ namespace diptych::continuum
       s.stress_ratio_gain         = rest[8];
       s.densification             = rest[9];
       for (unsigned int k = 0; k < n_components; ++k)
-        s.back_stress_ratio[k] = values[n_state - n_components + k];
+        s.back_stress_ratio[k] = values[n_built_in - n_components + k];
+      s.variables.assign(values + n_built_in, values + n);
       return s;
     }
 
@@ -100,7 +108,8 @@ namespace diptych::continuum
     CellRecord child_record(const ReferenceElement &reference,
                             const ChildWeights     &children,
                             const CellRecord       &parent,
-                            const unsigned int      child)
+                            const unsigned int      child,
+                            const unsigned int      n)
     {
       CellRecord record = parent;
       record[0] += 1;
@@ -117,22 +126,23 @@ namespace diptych::continuum
         }
       // Stress follows the polynomial; the hardening variable and the record of the past stay within their range.
       const std::size_t states = 1 + n_fields * reference.n_dofs;
-      for (unsigned int k = 0; k < n_state; ++k)
+      for (unsigned int k = 0; k < n; ++k)
         {
           const double *values = &parent[states + k];
-          const double  mean   = interpolated(reference.weights, values, n_state);
-          const double  kept   = k <= n_components ? 1. : kept_deviation(children, mean, values, n_state);
+          const double  mean   = interpolated(reference.weights, values, n);
+          const double  kept   = k <= n_components ? 1. : kept_deviation(children, mean, values, n);
           for (unsigned int q = 0; q < reference.n_points; ++q)
-            record[states + q * n_state + k] =
-              mean + kept * (interpolated(children.points[child * reference.n_points + q], values, n_state) - mean);
+            record[states + q * n + k] = mean +
+                                         kept * (interpolated(children.points[child * reference.n_points + q], values, n) - mean);
         }
       return record;
     }
   } // namespace
 
-  std::size_t record_length(const ReferenceElement &reference)
+  std::size_t record_length(const BoundaryValueProblem &problem)
   {
-    return 1 + n_fields * reference.n_dofs + reference.n_points * n_state;
+    const ReferenceElement &reference = problem.discretisation().reference;
+    return 1 + n_fields * reference.n_dofs + reference.n_points * n_state(problem);
   }
 
   std::vector<CellRecord> make_records(const BoundaryValueProblem &problem, const LastMotion &last)
@@ -166,6 +176,7 @@ namespace diptych::continuum
     restored.state.displacement.assign(mesh.relevant.n_elements(), 0.);
     restored.last.increment = restored.last.curvature = restored.state.displacement;
     const ChildWeights children(mesh.reference);
+    const unsigned int n = n_state(problem);
     std::size_t        c = 0;
     for (const auto &active : mesh.dof_handler.active_cell_iterators())
       if (active->is_locally_owned())
@@ -175,7 +186,7 @@ namespace diptych::continuum
             for (unsigned int child = 0; child < 4; ++child)
               if (active->parent()->child(child) == active)
                 {
-                  record = child_record(mesh.reference, children, records[c], child);
+                  record = child_record(mesh.reference, children, records[c], child, n);
                   break;
                 }
           for (unsigned int i = 0; i < mesh.reference.n_dofs; ++i)
@@ -185,7 +196,7 @@ namespace diptych::continuum
               restored.last.curvature[mesh.cells[c].local[i]]     = record[1 + 2 * mesh.reference.n_dofs + i];
             }
           for (unsigned int q = 0; q < mesh.reference.n_points; ++q)
-            restored.state.points.push_back(unpacked(&record[1 + n_fields * mesh.reference.n_dofs + q * n_state]));
+            restored.state.points.push_back(unpacked(&record[1 + n_fields * mesh.reference.n_dofs + q * n], n));
           ++c;
         }
     restored.state.localisation.assign(restored.state.points.size(), {});

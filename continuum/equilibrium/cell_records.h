@@ -15,11 +15,11 @@ namespace diptych::continuum
     std::vector<double> curvature; // second derivative of the displacement by the progress
   };
 
-  // One row of numbers per cell: refinement level, nodal displacement and last motion (as in Cell::dofs), state of every point.
-  // Records do not depend on how cells are distributed over processes.
+  // One row of numbers per cell: refinement level, nodal displacement and last motion (as in Cell::dofs), state of every point
+  // with the state variables of a law from a library. Records do not depend on how cells are distributed over processes.
   using CellRecord = std::vector<double>;
 
-  std::size_t record_length(const ReferenceElement &reference);
+  std::size_t record_length(const BoundaryValueProblem &problem);
 
   std::vector<CellRecord> make_records(const BoundaryValueProblem &problem, const LastMotion &last);
 

@@ -52,6 +52,13 @@ namespace diptych::continuum
       }
   }
 
+  void start_variables(const Law &law, std::vector<MaterialState> &points)
+  {
+    if (const auto *library = std::get_if<LibraryLaw>(&law))
+      for (MaterialState &point : points)
+        library->start(point);
+  }
+
   void set_solid_fraction(const std::vector<double>  &of_cells,
                           const std::size_t           n_points,
                           const LawOptions           &law,

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "continuum/elements/discretisation.h"
-#include "continuum/laws/law.h"
+#include "continuum/laws/any_law.h"
 #include "continuum/options.h"
 
 namespace diptych::continuum
@@ -18,6 +18,9 @@ namespace diptych::continuum
                    const Units                &units,
                    double                      pressure,
                    std::vector<MaterialState> &points);
+
+  // Sets the state variables of a law from a library, at the initial stress of each point. Other laws have none.
+  void start_variables(const Law &law, std::vector<MaterialState> &points);
 
   // Both take one entry per cell of `n_points` points: the stress, positive in compression, or the solid fraction of a
   // critical-state law.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuum/equilibrium/law_failure.h"
+
 namespace diptych::continuum
 {
   namespace
@@ -56,12 +58,15 @@ namespace diptych::continuum
     auto         correction = problem.zero_vector();
     while (true)
       {
-        report.residual = imbalance.relative();
-        best            = std::min(best, imbalance.residual);
+        report.residual                   = imbalance.relative();
+        best                              = std::min(best, imbalance.residual);
+        const LibraryLaw::Failure failure = law_failure(problem.law(), problem.discretisation().communicator());
+        report.law_is_broken              = failure.is_broken; // perhaps in a trial of the line search
         if (imbalance.n_inverted > 0)
           report.message = "an element is inverted";
-        else if (!is_usable(imbalance))
-          report.message = "the law failed at " + std::to_string(imbalance.n_failed) + " points";
+        else if (!is_usable(imbalance) || report.law_is_broken)
+          report.message = "the law failed at " + std::to_string(imbalance.n_failed) + " points" +
+                           (failure.text.empty() ? "" : ", such as: " + failure.text);
         else if (report.residual <= options.tolerance)
           {
             report.converged = !problem.is_folded();

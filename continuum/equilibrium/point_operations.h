@@ -7,6 +7,7 @@
 
 #include "continuum/elements/discretisation.h"
 #include "continuum/elements/element_kernels.h"
+#include "continuum/laws/any_law.h"
 
 namespace diptych::continuum
 {
@@ -43,5 +44,13 @@ namespace diptych::continuum
   {
     turn(point.stress, angle);
     turn(point.back_stress_ratio, angle);
+  }
+
+  // Tensors among the state variables of a law from a library, too.
+  inline void turn(MaterialState &point, const double angle, const Law &law)
+  {
+    turn(point, angle);
+    if (const auto *library = std::get_if<LibraryLaw>(&law))
+      library->turn_variables(point, angle);
   }
 } // namespace diptych::continuum

@@ -90,7 +90,7 @@ namespace diptych::continuum
     parallel::distributed::CellDataTransfer<2, 2, std::vector<CellRecord>> transfer(mesh.triangulation);
     transfer.prepare_for_coarsening_and_refinement(sent);
     mesh.triangulation.execute_coarsening_and_refinement();
-    std::vector<CellRecord> received(mesh.triangulation.n_active_cells(), CellRecord(record_length(mesh.reference)));
+    std::vector<CellRecord> received(mesh.triangulation.n_active_cells(), CellRecord(record_length(problem)));
     transfer.unpack(received);
 
     mesh.distribute();

@@ -34,6 +34,8 @@ namespace diptych::continuum
         return CosseratMohrCoulomb(options, units);
       case LawKind::cosserat_drucker_prager:
         return CosseratDruckerPrager(options, units);
+      case LawKind::library:
+        return LibraryLaw(options, units);
       }
     throw std::logic_error("make_law: a law without a constructor");
   }

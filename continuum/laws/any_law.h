@@ -8,6 +8,7 @@
 #include "continuum/laws/cosserat_mohr_coulomb.h"
 #include "continuum/laws/drucker_prager.h"
 #include "continuum/laws/kinematic_cone.h"
+#include "continuum/laws/library_law.h"
 #include "continuum/laws/linear_elastic.h"
 #include "continuum/laws/mohr_coulomb.h"
 
@@ -19,8 +20,16 @@ namespace diptych::continuum
                            CosseratMohrCoulomb,
                            CosseratDruckerPrager,
                            KinematicLaw<false>,
-                           KinematicLaw<true>>;
+                           KinematicLaw<true>,
+                           LibraryLaw>;
 
   // Throws std::invalid_argument under the same conditions as validate(options), and if validate(law, options) does.
   Law make_law(LawKind law, const LawOptions &options, const Units &units = {});
+
+  // Sets the state variables of a law from a library at the initial stress. Other laws have none.
+  template <class AnyLaw> void start(const AnyLaw &law, MaterialState &state)
+  {
+    if constexpr (std::is_same_v<AnyLaw, LibraryLaw>)
+      law.start(state);
+  }
 } // namespace diptych::continuum

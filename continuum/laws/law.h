@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <vector>
+
 #include <deal.II/base/tensor.h>
 
 #include "continuum/laws/verdict.h"
@@ -47,15 +49,16 @@ namespace diptych::continuum
   // Committed state of one material point.
   struct MaterialState
   {
-    Stress        stress;
-    double        stress_zz                 = 0; // [pressure]
-    double        equivalent_plastic_strain = 0; // hardening variable: integral of the plastic d(eps_1 - eps_3) [-]
-    double        stress_ratio_gain         = 0; // critical state: increase of the mobilised t/s since the start [-]
-    double        densification             = 0; // critical state: ln(solid fraction / initial one), from plastic strain [-]
-    Stress        back_stress_ratio;             // kinematic: axis of the cone, a deviatoric stress over the pressure [-]
-    double        overstress = 0;                // excess of the yield function that viscosity carries [pressure]
-    PlasticStrain plastic_strain;                // updated by add_plastic_flow(), not by update()
-    double        dissipation = 0;               // plastic work per initial area [pressure]; from add_plastic_flow()
+    Stress              stress;
+    double              stress_zz                 = 0; // [pressure]
+    double              equivalent_plastic_strain = 0; // hardening variable: integral of the plastic d(eps_1 - eps_3) [-]
+    double              stress_ratio_gain         = 0; // critical state: increase of the mobilised t/s since the start [-]
+    double              densification = 0; // critical state: ln(solid fraction / initial one), from plastic strain [-]
+    Stress              back_stress_ratio; // kinematic: axis of the cone, a deviatoric stress over the pressure [-]
+    double              overstress = 0;    // excess of the yield function that viscosity carries [pressure]
+    PlasticStrain       plastic_strain;    // updated by add_plastic_flow(), not by update(); law = library: by update()
+    double              dissipation = 0;   // plastic work per initial area [pressure]; likewise
+    std::vector<double> variables;         // state variables of a law from a library; otherwise empty
   };
 
   struct MaterialUpdate

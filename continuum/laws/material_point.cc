@@ -47,6 +47,7 @@ namespace diptych::continuum
         now.state.stress[yy] = -path.stress(1, 1);
         now.state.stress[xy] = -path.stress(0, 1);
         now.state.stress_zz  = -path.stress_zz;
+        start(law, now.state);
         note(Verdict::reliable);
       }
 
@@ -62,6 +63,12 @@ namespace diptych::continuum
               break;
             const double p0 = path.progress_at(row - 1), p1 = path.progress_at(row);
             report.rows.push_back(row_since(before, share < 1 ? p0 + share * (p1 - p0) : p1));
+          }
+        if constexpr (std::is_same_v<AnyLaw, LibraryLaw>)
+          {
+            report.variables = variable_names(law.library());
+            if (law.failure().is_broken)
+              report.status = MaterialPointStatus::law_failed;
           }
         report.message = message_of(report);
         return report;
@@ -240,6 +247,7 @@ namespace diptych::continuum
         row.overstress_share          = state.overstress / law.shear_strength(state);
         row.dissipation               = state.dissipation;
         row.verdict                   = now.verdict;
+        row.variables                 = state.variables;
         return row;
       }
 
@@ -262,6 +270,9 @@ namespace diptych::continuum
         if (report.status == MaterialPointStatus::finished)
           text << "finished at ";
         text << "progress " << end.progress;
+        if constexpr (std::is_same_v<AnyLaw, LibraryLaw>)
+          if (report.status == MaterialPointStatus::law_failed)
+            text << ": " << law.failure().text;
         return text.str();
       }
 

@@ -23,6 +23,7 @@ namespace diptych::continuum
     MaterialPointStatus           status = MaterialPointStatus::finished;
     std::string                   message; // how the path ended
     std::vector<MaterialPointRow> rows;    // the start, every finished row, and the place where the path stopped between two rows
+    std::vector<std::string>      variables; // law.NAME of the state variables of a law from a library
   };
 
   // Plane strain. Prescribed strains hold to round-off. Newton's iteration on the law's tangent finds the other strains from the

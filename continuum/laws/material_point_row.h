@@ -3,6 +3,7 @@
 #pragma once
 
 #include <type_traits>
+#include <vector>
 
 #include "continuum/choices.h"
 
@@ -43,6 +44,8 @@ namespace diptych::continuum
     double       overstress_share          = 0; // viscous overstress / shear strength [-]
     double       dissipation               = 0; // plastic work per initial area since the start [pressure]
     PointVerdict verdict                   = PointVerdict::reliable;
+
+    std::vector<double> variables; // of a law from a library, as MaterialPointReport names them
   };
 
   // Calls visit(column name, value, unit, meaning) for every entry of a row, in the order of material_point.csv.

@@ -148,6 +148,25 @@ namespace diptych::continuum
     }
   } // namespace
 
+  const LawParameter *LawParameters::find(const std::string &name) const
+  {
+    const auto found = std::find_if(list.begin(), list.end(), [&](const LawParameter &one) { return one.name == name; });
+    return found == list.end() ? nullptr : &*found;
+  }
+
+  void LawParameters::set(const std::string &name, const double value)
+  {
+    for (LawParameter &one : list)
+      if (one.name == name)
+        {
+          one.value = value;
+          return;
+        }
+    list.emplace_back();
+    list.back().name  = name;
+    list.back().value = value;
+  }
+
   LawOptions in_units(LawOptions o, const Units &units)
   {
     for (double *stress : {&o.elastic.youngs_modulus, &o.cohesion, &o.viscosity})
@@ -179,6 +198,11 @@ namespace diptych::continuum
                                                  "dilatancy_ratio",       "stress_ratio_start",      "solid_fraction_start"};
     const std::vector<const char *> kinematic = {"elastic_stress_ratio"};
     const std::vector<const char *> table = {"table_strain", "table_friction_angle", "table_dilatancy_angle", "table_cohesion"};
+    unless(law == LawKind::library, of_law, {"law_library"});
+    for (const LawParameter &one : o.library.parameters.list)
+      if (law != LawKind::library)
+        unused.push_back({LawParameters::prefix + one.name, of_law});
+    unless(law != LawKind::library, of_law, {"youngs_modulus", "poisson_ratio"});
     unless(is.is_cosserat, of_law, {"internal_length", "couple_shear_ratio"});
     unless(is.is_plastic, of_law, {"hardening", "viscosity"});
     unless(is.is_plastic, of_law, peak);

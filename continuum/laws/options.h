@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,18 +17,22 @@ namespace diptych::continuum
     cosserat_drucker_prager,
     mohr_coulomb,
     drucker_prager,
-    linear_elastic
+    linear_elastic,
+    library // of the user
   };
 
   constexpr auto choices(LawKind)
   {
     return std::array{std::pair{LawKind::cosserat_mohr_coulomb, "cosserat_mohr_coulomb"},
                       std::pair{LawKind::cosserat_drucker_prager, "cosserat_drucker_prager"},
-                      std::pair{LawKind::mohr_coulomb, "mohr_coulomb"}, std::pair{LawKind::drucker_prager, "drucker_prager"},
-                      std::pair{LawKind::linear_elastic, "linear_elastic"}};
+                      std::pair{LawKind::mohr_coulomb, "mohr_coulomb"},
+                      std::pair{LawKind::drucker_prager, "drucker_prager"},
+                      std::pair{LawKind::linear_elastic, "linear_elastic"},
+                      std::pair{LawKind::library, "library"}};
   }
 
-  // Properties of a law that the rest of the program needs.
+  // Properties of a law that the rest of the program needs. Those of a library follow from its description (is_cosserat() in
+  // continuum/options.h).
   struct LawTraits
   {
     bool is_cosserat;    // has rotations, couple stress and hence an internal length
@@ -43,6 +48,7 @@ namespace diptych::continuum
       case LawKind::cosserat_drucker_prager:
         return {true, true, false};
       case LawKind::linear_elastic:
+      case LawKind::library:
         return {false, false, false};
       case LawKind::mohr_coulomb:
       case LawKind::drucker_prager:
@@ -95,6 +101,37 @@ namespace diptych::continuum
     visitor("poisson_ratio", o.poisson_ratio, "-", {0., 0.49}, "Poisson's ratio");
   }
 
+  // law = library: the user's law (diptych_law.h) and its parameters, which a scene sets as keys law.NAME.
+  struct LibraryFile
+  {
+    std::string path;
+  };
+
+  struct LawParameter
+  {
+    std::string           name;
+    double                value = 0; // in `unit`
+    std::string           unit  = "-", meaning;
+    std::array<double, 2> range = {-1e300, 1e300};
+  };
+
+  struct LawParameters
+  {
+    static constexpr const char *prefix = "law."; // of the keys, and of the state variables in results
+
+    std::vector<LawParameter> list; // those that the scene sets; all of the library after complete() (law_library.h)
+
+    const LawParameter *find(const std::string &name) const;
+    void                set(const std::string &name, double value);
+  };
+
+  struct LibraryOptions
+  {
+    LibraryFile   file;
+    LawParameters parameters;
+    bool          is_cosserat = false; // known after complete()
+  };
+
   // Parameters of all laws; each law reads its own. Stresses and lengths in Units.
   struct LawOptions
   {
@@ -123,6 +160,7 @@ namespace diptych::continuum
     double                viscosity          = 0;   // [Units::stress x progress]; a positive value eases the onset of a band
     double                internal_length    = 1;   // Cosserat laws [Units::length]
     double                couple_shear_ratio = 0.5; // Cosserat laws: skew modulus / shear modulus [-]
+    LibraryOptions        library;
   };
 
   template <class Visitor> void visit_parameters(LawOptions &o, Visitor &&visitor)
@@ -180,6 +218,11 @@ namespace diptych::continuum
     visitor("internal_length", o.internal_length, "mean diameters", {1e-6, 1e6},
             "Cosserat laws: couple modulus = 2 G length^2; sets the thickness of the band");
     visitor("couple_shear_ratio", o.couple_shear_ratio, "-", {1e-6, 1e6}, "Cosserat laws: skew modulus / shear modulus");
+    visitor(
+      "law_library", o.library.file, "-",
+      "law = library: a shared library with a law of your own (diptych_law.h). Its parameters are the keys law.NAME of this "
+      "section. A library is a program: use only those that you trust");
+    visitor(LawParameters::prefix, o.library.parameters, "-", "law = library: parameters of the library");
   }
 
   // Whether the law starts from a solid fraction, given or mapped from the grains.

@@ -25,9 +25,9 @@ namespace diptych::continuum
       return ids;
     }
 
-    std::size_t values_per_cell(const ReferenceElement &reference)
+    std::size_t values_per_cell(const BoundaryValueProblem &problem)
     {
-      return record_length(reference) + 2 * reference.n_points;
+      return record_length(problem) + 2 * problem.discretisation().reference.n_points;
     }
 
     std::vector<double> rows_of(const BoundaryValueProblem &problem, const LoadDriver &driver)
@@ -80,7 +80,7 @@ namespace diptych::continuum
     const auto  parts = gathered(rows_of(problem, driver), mesh.communicator());
 
     Checkpoint c;
-    c.values_per_cell = int(values_per_cell(mesh.reference));
+    c.values_per_cell = int(values_per_cell(problem));
     std::map<std::string, const double *> row_of;
     for (std::size_t p = 0; p < ids.size(); ++p)
       for (std::size_t k = 0; k < ids[p].size(); ++k)
@@ -125,7 +125,7 @@ namespace diptych::continuum
   {
     auto &mesh = problem.discretisation();
     divide_again(mesh, c.divisions);
-    const std::size_t length = values_per_cell(mesh.reference);
+    const std::size_t length = values_per_cell(problem);
     require(c.values_per_cell == int(length) && mesh.triangulation.n_global_active_cells() == c.cells.size() &&
               c.values.size() == c.cells.size() * length,
             "the checkpoint belongs to another mesh: number or size of its cells differ");
@@ -137,8 +137,8 @@ namespace diptych::continuum
         const auto found = std::lower_bound(c.cells.begin(), c.cells.end(), id);
         require(found != c.cells.end() && *found == id, "the checkpoint belongs to another mesh: it has no cell ", id);
         const double *row = &c.values[std::size_t(found - c.cells.begin()) * length], *end = row + length;
-        records.emplace_back(row, row + record_length(mesh.reference));
-        for (row += record_length(mesh.reference); row < end; row += 2)
+        records.emplace_back(row, row + record_length(problem));
+        for (row += record_length(problem); row < end; row += 2)
           localisation.push_back({row[0], row[1]});
       }
     auto restored               = read_records(problem, records, c.progress);

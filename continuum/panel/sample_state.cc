@@ -11,6 +11,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include "continuum/panel/law_variables.h"
+
 namespace diptych::continuum
 {
   using dealii::Utilities::MPI::sum;
@@ -232,6 +234,8 @@ namespace diptych::continuum
         ordered[k] = nodes[vtk_order[k]];
       snapshot.cells.push_back(ordered);
       snapshot.cell_state.push_back(read_state(message));
+      for (LawVariable &variable : snapshot.variables)
+        variable.of_cells.push_back(message[n_state + (&variable - snapshot.variables.data())]);
       const auto &state = snapshot.cell_state.back();
       snapshot.mean_stress += state.area * state.stress;
       snapshot.area += state.area;
@@ -336,12 +340,15 @@ namespace diptych::continuum
         for (const auto &node : cell_nodes(problem, shape, c))
           append(mine, node);
         append(mine, cell_state(problem, shape, c));
+        const std::vector<double> variables = variables_of(problem, c);
+        mine.insert(mine.end(), variables.begin(), variables.end());
       }
     Snapshot snapshot;
+    snapshot.variables = described_variables(problem.law());
     set_progress(problem, loading, snapshot);
     std::map<std::array<double, 3>, unsigned int> node_of_key;
     for (const auto &part : gathered(mine, mesh.communicator()))
-      for (std::size_t at = 0; at < part.size(); at += 9 * entry_length + n_state)
+      for (std::size_t at = 0; at < part.size(); at += 9 * entry_length + n_state + snapshot.variables.size())
         add_cell(snapshot, node_of_key, &part[at], mesh.reference.n_rotations > 0);
     snapshot.mean_stress /= std::max(snapshot.area, 1e-300);
     snapshot.lower_platen_force = problem.platen_force(false);

@@ -222,6 +222,11 @@ namespace diptych::coupling
         point->add_option("--path", line.path, path_help())->check(path_or_table)->type_name("PATH");
         add_overwrite(point);
         add_quiet(point);
+
+        CLI::App *law = add(Command::check_law, "check tangent, objectivity, dissipation, repeatability of a law of your own");
+        law->add_option("SCENE", line.target, "scene file, or a shared library, .so, with its usual parameters")->required();
+        add_set(law);
+        add_quiet(law);
       }
 
       void add_solve()
@@ -334,18 +339,6 @@ namespace diptych::coupling
       double                        ignored_number = 0;
       std::map<CLI::App *, Command> by_parser;
     };
-
-    // Joins the two words of "--accuracy 2 %".
-    std::vector<std::string> with_joined_per_cent(const std::vector<std::string> &words)
-    {
-      std::vector<std::string> joined_words;
-      for (const std::string &word : words)
-        if (word == "%" && joined_words.size() > 1)
-          joined_words.back() += " %";
-        else
-          joined_words.push_back(word);
-      return joined_words;
-    }
   } // namespace
 
   ParsedLine parse_command_line(const std::vector<std::string> &words)

@@ -19,6 +19,8 @@ namespace diptych::coupling
 
   int run_material_point(const CommandLine &line); // material-point SCENE: writes material_point.csv
 
+  int check_law_of(const CommandLine &line); // check-law SCENE or LIBRARY.so; wrong_input if a check fails
+
   // run SCENE --check: checks the scene and its first sample and prints the resources of all samples (--seeds), as before an
   // ensemble. With --resume the sample is not prepared.
   int check_run(const CommandLine &line);

@@ -34,6 +34,7 @@ namespace diptych::coupling
       continuum::visit_cell_fields(cell, [&](const std::string &name, const auto &value, const char *unit, const char *meaning) {
         result.push_back({h5, name, array_shape<std::decay_t<decltype(value)>>(), unit, meaning});
       });
+      result.push_back({h5, "cells/law.NAME", array_shape<double>(), "of the library", "state variable NAME; law = library"});
     }
 
     void add_comparison_arrays(ResultList &result)

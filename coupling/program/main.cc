@@ -129,6 +129,7 @@ namespace
       case Command::run:
       case Command::continuum:
       case Command::material_point:
+      case Command::check_law:
         start_the_panels(argv);
       default:
         break;

@@ -103,11 +103,19 @@ namespace diptych::coupling
       return text.str();
     }
 
-    void write(const std::vector<MaterialPointRow> &rows, const std::string &csv)
+    void write(const continuum::MaterialPointReport &report, const std::string &csv)
     {
-      discrete::TableFile table(csv, discrete::csv_header<MaterialPointRow>());
-      for (const MaterialPointRow &row : rows)
-        table.add(discrete::csv_line(row));
+      std::string header = discrete::csv_header<MaterialPointRow>();
+      for (const std::string &name : report.variables)
+        header += "," + name;
+      discrete::TableFile table(csv, header);
+      for (const MaterialPointRow &row : report.rows)
+        {
+          std::string line = discrete::csv_line(row);
+          for (const double value : row.variables)
+            line += "," + discrete::exact_text(value);
+          table.add(line);
+        }
       table.flush();
     }
   } // namespace
@@ -125,7 +133,7 @@ namespace diptych::coupling
       const continuum::MaterialPointReport report = continuum::drive_material_point(scene.continuum.law, scene.continuum.material,
                                                                                     continuum_units(scene), path);
       const std::string                    csv    = material_point_csv(scene.output.directory);
-      write(report.rows, csv);
+      write(report, csv);
       record_phases(scene.output.directory, {scene.name, {scene.sample.seed}, line.text}, {timer.stop()});
       std::cout << summary(line, report.rows) << std::endl;
       say(line, "material point: " + csv);

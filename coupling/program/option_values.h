@@ -84,4 +84,16 @@ namespace diptych::coupling
     std::replace(values.begin(), values.end(), ',', ' ');
     return values;
   }
+
+  // Joins the two words of "--accuracy 2 %".
+  inline std::vector<std::string> with_joined_per_cent(const std::vector<std::string> &words)
+  {
+    std::vector<std::string> joined_words;
+    for (const std::string &word : words)
+      if (word == "%" && joined_words.size() > 1)
+        joined_words.back() += " %";
+      else
+        joined_words.push_back(word);
+    return joined_words;
+  }
 } // namespace diptych::coupling

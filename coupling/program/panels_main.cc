@@ -37,6 +37,8 @@ namespace
         return run_continuum(line);
       case Command::material_point:
         return run_material_point(line);
+      case Command::check_law:
+        return check_law_of(line);
       default:
         throw SceneError("diptych-panels: " + name_of(line.command) + " is a command of `diptych`");
       }

@@ -21,7 +21,15 @@ namespace diptych::python
                                                  path);
       }
       const bool finished = report.status == continuum::MaterialPointStatus::finished;
-      return py::make_tuple(columns_dict(report.rows), finished ? "" : report.message);
+      py::dict   columns  = columns_dict(report.rows);
+      for (std::size_t k = 0; k < report.variables.size(); ++k)
+        {
+          std::vector<double> values;
+          for (const continuum::MaterialPointRow &row : report.rows)
+            values.push_back(row.variables[k]);
+          columns[py::str(report.variables[k])] = own(std::move(values));
+        }
+      return py::make_tuple(columns, finished ? "" : report.message);
     }
 
     template <class Choice> Choice choice_of(const std::string &name, const std::string &what)

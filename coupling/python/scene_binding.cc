@@ -38,6 +38,15 @@ namespace diptych::python
       {
         keys[name] = file.path;
       }
+      void operator()(const char *name, const continuum::LibraryFile &file, const char *, const char *) const
+      {
+        keys[name] = file.path;
+      }
+      void operator()(const char *prefix, const continuum::LawParameters &parameters, const char *, const char *) const
+      {
+        for (const continuum::LawParameter &one : parameters.list)
+          keys[py::str(prefix + one.name)] = one.value;
+      }
       void operator()(const char *name, const bool value, const char *, const char *) const { keys[name] = value; }
       template <class Value> void operator()(const char *name, const Value &value, const char *, const char *) const
       {

@@ -175,6 +175,15 @@ namespace diptych::python
       type.def_property_readonly(
         "cells", [](const py::object &self) { return view(self.cast<const Snapshot &>().cells, self); },
         continuum::cells_meaning);
+      type.def_property_readonly(
+        "law_variables",
+        [](const py::object &self) {
+          py::dict variables;
+          for (const continuum::LawVariable &one : self.cast<const Snapshot &>().variables)
+            variables[py::str(one.name)] = view(one.of_cells, self);
+          return variables;
+        },
+        "dict: state variables of a law from a library, law.NAME -> (n) of the cells");
       CellState prototype;
       continuum::visit_cell_fields(prototype, [&](const std::string &path, auto &member, const char *unit, const char *meaning) {
         using Value            = std::decay_t<decltype(member)>;

@@ -48,6 +48,15 @@ namespace diptych::coupling
       {
         put(name, digest(file.path));
       }
+      void operator()(const char *name, const continuum::LibraryFile &file, const char *, const char *) const
+      {
+        put(name, digest(file.path));
+      }
+      void operator()(const char *prefix, const continuum::LawParameters &parameters, const char *, const char *) const
+      {
+        for (const continuum::LawParameter &one : parameters.list)
+          put(prefix + one.name, text_of(one.value));
+      }
       void operator()(const char *name, const discrete::DriveOption &drive, const char *, const char *) const
       {
         discrete::DriveOption shown = drive;
@@ -92,6 +101,10 @@ namespace diptych::coupling
       template <class Number> void operator()(const char *, const Number &, const char *, Range, const char *) const {}
       template <class Value> void  operator()(const char *, const Value &, const char *, const char *) const {}
       void                         operator()(const char *name, const discrete::FileName &file, const char *, const char *) const
+      {
+        put(name, file.path);
+      }
+      void operator()(const char *name, const continuum::LibraryFile &file, const char *, const char *) const
       {
         put(name, file.path);
       }

@@ -100,6 +100,15 @@ namespace diptych::coupling
     {
       keys.push_back({section, name, file.path, unit, "the name of a file", meaning});
     }
+    void operator()(const char *name, const continuum::LibraryFile &file, const char *unit, const char *meaning) const
+    {
+      keys.push_back({section, name, file.path, unit, "the name of a file", meaning});
+    }
+    void operator()(const char *prefix, const continuum::LawParameters &parameters, const char *, const char *) const
+    {
+      for (const continuum::LawParameter &one : parameters.list)
+        keys.push_back({section, prefix + one.name, text_of(one.value), one.unit, allowed_number(one.range), one.meaning});
+    }
     template <class Value> void operator()(const char *name, const Value &value, const char *unit, const char *meaning) const
     {
       keys.push_back({section, name, text_of(value), unit, allowed_value(value), meaning, choices_of(value)});
@@ -146,6 +155,24 @@ namespace diptych::coupling
         {
           file.path = resolved(text, folder);
           good      = true;
+        }
+    }
+    void operator()(const char *key, continuum::LibraryFile &file, const char *, const char *)
+    {
+      if (is_mine(key))
+        take(std::optional<std::string>(resolved(text, folder)), file.path);
+    }
+    // Accepts every name: only the library knows its parameters.
+    void operator()(const char *prefix, continuum::LawParameters &parameters, const char *, const char *)
+    {
+      const std::size_t length = std::string(prefix).size();
+      if (name.size() <= length || name.compare(0, length, prefix) != 0)
+        return;
+      found = true;
+      if (const std::optional<double> number = read_number(text, continuum::LawParameter().range))
+        {
+          parameters.set(name.substr(length), *number);
+          good = true;
         }
     }
     void operator()(const char *key, bool &value, const char *, const char *)

@@ -292,6 +292,11 @@ namespace diptych::coupling
     }
   } // namespace
 
+  void complete_law(Scene &scene, const std::string &file, const std::vector<Entry> &entries)
+  {
+    with_places({file, entries, "continuum"}, [&] { continuum::complete(scene.continuum); });
+  }
+
   void check_comparison(const Scene &scene, const std::string &file, const std::vector<Entry> &entries, const bool compares)
   {
     with_places({file, entries, ""}, [&] {
@@ -321,7 +326,9 @@ namespace diptych::coupling
     derive_keys(derived, {});
     const auto values = values_of(scene), defaults = values_of(Scene()), derived_values = values_of(derived);
     const auto is_default = [&](const std::string &key) {
-      return values.at(key) == defaults.at(key) || (is_derived(key) && values.at(key) == derived_values.at(key));
+      const auto standard = defaults.find(key); // parameters of a library have none
+      return (standard != defaults.end() && values.at(key) == standard->second) ||
+             (is_derived(key) && values.at(key) == derived_values.at(key));
     };
     std::map<std::string, Entry> last;
     for (const Entry &entry : entries)

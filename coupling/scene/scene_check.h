@@ -14,6 +14,9 @@ namespace diptych::coupling
   // Throws SceneError with file, lines, keys and values that contradict each other.
   void check_scene(const Scene &scene, const std::string &file, const std::vector<Entry> &entries, bool compares);
 
+  // Opens the library of law = library and gives its other parameters their usual values. Throws SceneError like check_scene().
+  void complete_law(Scene &scene, const std::string &file, const std::vector<Entry> &entries);
+
   // The same for a computed scene, limited to the keys that a comparison reads. Files that the scene names may be gone.
   void check_comparison(const Scene &scene, const std::string &file, const std::vector<Entry> &entries, bool compares);
 

@@ -52,7 +52,7 @@ namespace diptych::coupling
           throw SceneError({entry.place, entry.name(), entry.value, key.allowed + " [" + key.unit + "]",
                             has_comma ? "decimals have a point, and only lists have commas" : ""},
                            "is not allowed");
-      refuse_key(entry);
+      throw SceneError({entry.place, entry.name(), entry.value, "a number", ""}, "is not allowed"); // of a library
     }
 
     void demand_one_line(const Entry &entry)
@@ -233,7 +233,10 @@ namespace diptych::coupling
 
   Scene scene_of_entries(const std::string &file, const std::vector<Entry> &entries, const bool compares)
   {
-    return checked_scene(file, entries, compares, [&](const Scene &scene) { check_scene(scene, file, entries, compares); });
+    return checked_scene(file, entries, compares, [&](Scene &scene) {
+      complete_law(scene, file, entries);
+      check_scene(scene, file, entries, compares);
+    });
   }
 
   Scene read_computed_scene(const std::string &file, const std::vector<std::string> &overrides, const bool compares)

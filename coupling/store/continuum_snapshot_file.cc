@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "continuum/laws/options.h"
 #include "continuum/snapshot_fields.h"
 #include "discrete/files/field_arrays.h"
 
@@ -31,6 +32,8 @@ namespace diptych::coupling
                                 [&](const std::string &name, const auto &values, const char *unit, const char *meaning) {
                                   action(name, values, unit, meaning, true);
                                 });
+      for (const continuum::LawVariable &variable : s.variables)
+        action("cells/" + variable.name, variable.of_cells, variable.unit.c_str(), variable.meaning.c_str(), true);
     }
 
     void check_lengths(const Snapshot &s)
@@ -111,6 +114,20 @@ namespace diptych::coupling
       });
     }
 
+    // Those of a law from a library: cells/law.NAME.
+    void read_variables(const Hdf5Reader &file, const std::string &group, const ArrayCheck &check, Snapshot &s)
+    {
+      for (const std::string &name : file.members(group + "/cells"))
+        if (name.rfind(continuum::LawParameters::prefix, 0) == 0)
+          {
+            const std::string path = group + "/cells/" + name;
+            s.variables.push_back(
+              {name, file.text_attribute(path, "unit"), file.text_attribute(path, "meaning"), file.read(path)});
+            check.size(name, s.variables.back().of_cells.size(), s.cells.size());
+            check.finite(name, s.variables.back().of_cells);
+          }
+    }
+
     Snapshot read_stage(const Hdf5Reader &file, const std::string &group)
     {
       const ArrayCheck check{file.path() + ": " + group};
@@ -132,6 +149,7 @@ namespace diptych::coupling
         check.size(name, values.size(), s.cells.size());
         check.finite(name, values);
       });
+      read_variables(file, group, check, s);
       return s;
     }
 

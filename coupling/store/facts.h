@@ -135,7 +135,7 @@ namespace diptych::coupling
   // Empty: not known.
   struct SceneHashes
   {
-    std::string sample, continuum, comparison, text;
+    std::string sample, continuum, comparison, text, law_library;
   };
 
   template <class Hashes, class Visitor, std::enable_if_t<std::is_same_v<std::remove_const_t<Hashes>, SceneHashes>, int> = 0>
@@ -145,6 +145,7 @@ namespace diptych::coupling
     v({"continuum", "-", "hash of these and of continuum", Kind::setting}, h.continuum);
     v({"comparison", "-", "hash of these and of comparison, without seed and margins", Kind::setting}, h.comparison);
     v({"text", "-", "hash of scene.prm as the run wrote it", Kind::setting}, h.text);
+    v({"law_library", "-", "hash of the library of law = library; empty: another law", Kind::setting}, h.law_library);
   }
 
   // The contents of provenance.json.

@@ -40,7 +40,10 @@ namespace diptych::coupling
     SceneHashes hashes_of(const Scene &scene)
     {
       const auto hash = [](const Identity &identity) { return hexadecimal(digest_of(text_of(identity))); };
-      return {hash(sample_identity(scene)), hash(continuum_identity(scene)), hash(member_identity(scene)), ""};
+      return {hash(sample_identity(scene)), hash(continuum_identity(scene)), hash(member_identity(scene)), "",
+              scene.continuum.law == continuum::LawKind::library
+                ? hash({{"law_library", continuum_identity(scene).at("continuum/law_library")}})
+                : ""};
     }
 
     // The first key whose value differs between the scene and scene.prm. If all agree, one of the scene's files has changed.

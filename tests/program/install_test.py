@@ -104,6 +104,14 @@ class Package(unittest.TestCase):
         self.assertAlmostEqual(ratio, 1, delta=1e-8)  # at rest the floor carries the weight of all three
         self.assertAlmostEqual(height, 2.5, delta=3e-4)  # radius 0.5 on two diameters, less penetrations of at most 1e-4 d
 
+    def test_a_law_of_the_user(self):
+        """Built from the installed examples against the installed header, as README of continuum/ says."""
+        folder = shutil.copytree(os.path.join(self.share, "diptych", "benchmarks", "own_law"), os.path.join(self.work, "own_law"))
+        subprocess.run(["make", "-s", "-C", folder, "INCLUDE=" + os.path.join(self.root, "usr", "include", "diptych")], check=True)
+        for library in ("mohr_coulomb.so", "von_mises.so"):
+            done = self.run_program("check-law", os.path.join(folder, library), "--quiet")
+            self.assertEqual((done.returncode, done.stdout.count(": holds")), (0, 5), done.stdout + done.stderr)
+
     def test_an_ensemble_with_its_page_and_that_of_a_run(self):
         scene = os.path.join(self.share, "diptych", "benchmarks", "moreau_quick", "scene.prm")
         folder, member = os.path.join(self.work, "two"), os.path.join(self.work, "two", "seed_1")

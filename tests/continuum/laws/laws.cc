@@ -85,18 +85,14 @@ namespace
         }
   }
 
-  // Rotation by an angle. A tensor turns by the double angle, the curvature as a vector, and the relative rotation stays.
-  Stress turned(const Stress &a, const double angle, const double shear_factor)
+  // The checks of the command check-law: random paths with reversals.
+  TEST(Laws, PassTheChecksForLawsOfTheUser)
   {
-    const double c = std::cos(angle), s = std::sin(angle), xy_ = a[xy] / shear_factor;
-    Stress       b;
-    b[xx]                = c * c * a[xx] - 2 * c * s * xy_ + s * s * a[yy];
-    b[yy]                = s * s * a[xx] + 2 * c * s * xy_ + c * c * a[yy];
-    b[xy]                = shear_factor * (c * s * (a[xx] - a[yy]) + (c * c - s * s) * xy_);
-    b[relative_rotation] = a[relative_rotation];
-    b[curvature_x]       = c * a[curvature_x] - s * a[curvature_y];
-    b[curvature_y]       = s * a[curvature_x] + c * a[curvature_y];
-    return b;
+    for (const auto &[hardening, options] : hardenings())
+      for (const LawKind name : all_laws())
+        for (const LawCheck &check : check_law(make_law(name, options), {}))
+          EXPECT_TRUE(check.holds()) << name_of(name) << ", " << hardening << ", " << check.name << ": " << check.deviation
+                                     << check.trouble << ' ' << check.where << ' ' << check.n_judged << ' ' << check.n_not_judged;
   }
 
   TEST(Laws, DoNotDependOnTheAxes)
@@ -114,16 +110,6 @@ namespace
               EXPECT_NEAR((a - b).norm(), 0, 1e-11) << name_of(name);
             }
       }
-  }
-
-  // Sum of the outer two principal stresses, or of those in the plane, whichever is larger; tension positive.
-  double largest_in_tension(const MaterialState &state)
-  {
-    const Stress &s        = state.stress;
-    const double  in_plane = s[xx] + s[yy], radius = std::hypot((s[xx] - s[yy]) / 2, s[xy]);
-    const double  major = std::max(in_plane / 2 + radius, state.stress_zz),
-                 minor  = std::min(in_plane / 2 - radius, state.stress_zz);
-    return std::max(in_plane, major + minor);
   }
 
   // Paths of fifty random steps with intermittent tension, through every regime, also without cohesion.

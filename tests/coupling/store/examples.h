@@ -59,6 +59,8 @@ namespace diptych::coupling::files
     s.cell_state.resize(n * n);
     for (CellState &state : s.cell_state)
       visit_cell_fields(state, [&](const char *, auto &value, const char *, const char *) { next(value); });
+    if (!cosserat)
+      s.variables = {{"law.strength", "pressure", "of a library", std::vector<double>(n * n, 0.1)}};
     return s;
   }
 
@@ -105,7 +107,7 @@ namespace diptych::coupling::files
   inline void expect_same(const Snapshot &x, const Snapshot &y)
   {
     const auto &[progress, axial_strain, shear_strain, time, loading_variable, position, displacement, rotation, weight, cells,
-                 states, lower, upper, mean_stress, area] = x;
+                 states, variables, lower, upper, mean_stress, area] = x;
     EXPECT_TRUE(same_bits(progress, y.progress));
     EXPECT_TRUE(same_bits(axial_strain, y.axial_strain));
     EXPECT_TRUE(same_bits(shear_strain, y.shear_strain));
@@ -120,6 +122,13 @@ namespace diptych::coupling::files
     EXPECT_TRUE(same_bits(upper, y.upper_platen_force));
     EXPECT_TRUE(same_bits(mean_stress, y.mean_stress));
     EXPECT_TRUE(same_bits(area, y.area));
+    ASSERT_EQ(variables.size(), y.variables.size());
+    for (std::size_t k = 0; k < variables.size(); ++k)
+      {
+        EXPECT_EQ(variables[k].name + variables[k].unit + variables[k].meaning,
+                  y.variables[k].name + y.variables[k].unit + y.variables[k].meaning);
+        EXPECT_TRUE(same_bits(variables[k].of_cells, y.variables[k].of_cells));
+      }
     ASSERT_EQ(states.size(), y.cell_state.size());
     for (std::size_t c = 0; c < states.size(); ++c)
       expect_same(states[c], y.cell_state[c]);
