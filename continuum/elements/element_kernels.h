@@ -14,6 +14,10 @@ namespace diptych::continuum
   template <class Element> constexpr unsigned int row_length = (Element::n_dofs + 3) / 4 * 4;
   template <class Element> using ElementMatrix               = std::array<double, Element::n_dofs * row_length<Element>>;
 
+  // The fourth strain is curl u - 2 omega for a rotation omega, but the unknown itself for a nonlocal hardening variable.
+  template <class Element> constexpr bool   has_skew      = Element::n_rotations > 0 && !Element::is_gradient;
+  template <class Element> constexpr double corner_factor = Element::is_gradient ? 1 : -2;
+
   // Mean dilation adds d . u to both normal strains, d = (mean gradient - gradient)/2, so that e_xx + e_yy is the element's
   // mean.
   inline dealii::Tensor<1, 2> dilation_excess(const CellGeometry &cell, const unsigned int q, const unsigned int node)
@@ -47,11 +51,11 @@ namespace diptych::continuum
     strain[xx]                = ux_x + excess;
     strain[yy]                = uy_y + excess;
     strain[xy]                = ux_y + uy_x;
-    strain[relative_rotation] = uy_x - ux_y;
+    strain[relative_rotation] = Element::is_gradient ? 0 : uy_x - ux_y;
     for (unsigned int corner = 0; corner < Element::n_rotations; ++corner)
       {
         const double omega = u[2 * Element::n_nodes + corner];
-        strain[relative_rotation] -= 2 * reference.rotation_shape[q][corner] * omega;
+        strain[relative_rotation] += corner_factor<Element> * reference.rotation_shape[q][corner] * omega;
         strain[curvature_x] += point.rotation_gradient[corner][0] * omega;
         strain[curvature_y] += point.rotation_gradient[corner][1] * omega;
       }
@@ -68,7 +72,7 @@ namespace diptych::continuum
   {
     const auto  &point = cell.points[q];
     const Stress s     = point.area * stress;
-    const double skew  = Element::n_rotations > 0 ? s[relative_rotation] : 0;
+    const double skew  = has_skew<Element> ? s[relative_rotation] : 0;
     for (unsigned int node = 0; node < Element::n_nodes; ++node)
       {
         const auto &g = point.gradient[node];
@@ -83,8 +87,8 @@ namespace diptych::continuum
       }
     for (unsigned int corner = 0; corner < Element::n_rotations; ++corner)
       force[2 * Element::n_nodes + corner] += point.rotation_gradient[corner][0] * s[curvature_x] +
-                                              point.rotation_gradient[corner][1] * s[curvature_y] -
-                                              2 * reference.rotation_shape[q][corner] * skew;
+                                              point.rotation_gradient[corner][1] * s[curvature_y] +
+                                              corner_factor<Element> * reference.rotation_shape[q][corner] * s[relative_rotation];
   }
 
   // K += B^T D B area. Both products use that each column of B has at most four non-zero entries.
@@ -102,7 +106,7 @@ namespace diptych::continuum
     for (unsigned int k = 0; k < n_strains; ++k)
       {
         const auto  &D    = tangent[k];
-        const double skew = n_strains > n_classical ? D[relative_rotation] : 0;
+        const double skew = has_skew<Element> ? D[relative_rotation] : 0;
         for (unsigned int node = 0; node < Element::n_nodes; ++node)
           {
             const double gx = point.area * point.gradient[node][0], gy = point.area * point.gradient[node][1];
@@ -117,8 +121,9 @@ namespace diptych::continuum
           }
         for (unsigned int corner = 0; corner < Element::n_rotations; ++corner)
           DB[k][2 * Element::n_nodes + corner] = point.area * (point.rotation_gradient[corner][0] * D[curvature_x] +
-                                                               point.rotation_gradient[corner][1] * D[curvature_y] -
-                                                               2 * reference.rotation_shape[q][corner] * skew);
+                                                               point.rotation_gradient[corner][1] * D[curvature_y] +
+                                                               corner_factor<Element> * reference.rotation_shape[q][corner] *
+                                                                 D[relative_rotation]);
       }
     for (unsigned int node = 0; node < Element::n_nodes; ++node)
       {
@@ -133,7 +138,7 @@ namespace diptych::continuum
           }
         for (unsigned int j = 0; j < length; ++j)
           {
-            const double skew = n_strains > n_classical ? DB[n_strains > n_classical ? int(relative_rotation) : 0][j] : 0;
+            const double skew = has_skew<Element> ? DB[has_skew<Element> ? int(relative_rotation) : 0][j] : 0;
             row_x[j] += gx * DB[xx][j] + gy * (DB[xy][j] - skew);
             row_y[j] += gy * DB[yy][j] + gx * (DB[xy][j] + skew);
             if constexpr (Element::mean_dilation)
@@ -148,7 +153,7 @@ namespace diptych::continuum
         {
           double      *row = &K[(2 * Element::n_nodes + corner) * length];
           const double wx = point.rotation_gradient[corner][0], wy = point.rotation_gradient[corner][1],
-                       w = -2 * reference.rotation_shape[q][corner];
+                       w = corner_factor<Element> * reference.rotation_shape[q][corner];
           for (unsigned int j = 0; j < length; ++j)
             row[j] += wx * DB[curvature_x][j] + wy * DB[curvature_y][j] + w * DB[relative_rotation][j];
         }

@@ -30,6 +30,8 @@ namespace diptych::continuum
     {
       if (traits(options.law).is_cosserat)
         return ElementKind::q2_cosserat;
+      if (traits(options.law).is_gradient)
+        return ElementKind::q2_gradient;
       return options.element == Displacement::q1_bbar ? ElementKind::q1_mean_dilation : ElementKind::q2;
     }
 
@@ -351,11 +353,13 @@ namespace diptych::continuum
                   add_plastic_flow(moduli, state.points[point], d, next);
                   unstable[point] = weakens_contracting(moduli, state.points[point], d, next);
                 }
-              state.localisation[point] = trial[point].regime == Regime::elastic ? Localisation()
-                                                                                 : localisation(trial[point].tangent, elastic);
+              const Tangent &D          = trial[point].tangent;
+              state.localisation[point] = trial[point].regime == Regime::elastic
+                                            ? Localisation()
+                                            : localisation(Element::is_gradient ? uniform_tangent(D) : D, elastic);
               flow[point]               = next.equivalent_plastic_strain - state.points[point].equivalent_plastic_strain;
               if (moves())
-                turn(next, spin_at<Element>(current.cells[c].points[q], u));
+                turn<Element>(next, spin_at<Element>(current.cells[c].points[q], u));
               state.points[point] = next;
             }
         }

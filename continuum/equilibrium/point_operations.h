@@ -24,8 +24,9 @@ namespace diptych::continuum
       values[cell.local[i]] += force[i];
   }
 
-  // Rotates stress and couple stress by the rotation of the material. The skew part does not depend on the frame.
-  inline void turn(MaterialState &point, const double angle)
+  // Rotates stress and couple stress by the rotation of the material. The skew part does not depend on the frame, and a
+  // gradient element states the last components on the initial shape.
+  template <class Element> void turn(MaterialState &point, const double angle)
   {
     const double c = std::cos(angle), s = std::sin(angle);
     Stress      &t    = point.stress;
@@ -34,6 +35,8 @@ namespace diptych::continuum
     t[xx]           = mean + a * cos2 - b * sin2;
     t[yy]           = mean - a * cos2 + b * sin2;
     t[xy]           = a * sin2 + b * cos2;
+    if constexpr (Element::is_gradient)
+      return;
     const double mx = t[curvature_x], my = t[curvature_y];
     t[curvature_x] = c * mx - s * my;
     t[curvature_y] = s * mx + c * my;

@@ -26,6 +26,10 @@ namespace diptych::continuum
         return CosseratMohrCoulomb(options, units);
       case LawKind::cosserat_drucker_prager:
         return CosseratDruckerPrager(options, units);
+      case LawKind::gradient_mohr_coulomb:
+        return GradientMohrCoulomb(options, units);
+      case LawKind::gradient_drucker_prager:
+        return GradientDruckerPrager(options, units);
       }
     throw std::logic_error("make_law: a law without a constructor");
   }

@@ -7,12 +7,19 @@
 #include "continuum/laws/cosserat_drucker_prager.h"
 #include "continuum/laws/cosserat_mohr_coulomb.h"
 #include "continuum/laws/drucker_prager.h"
+#include "continuum/laws/gradient_law.h"
 #include "continuum/laws/linear_elastic.h"
 #include "continuum/laws/mohr_coulomb.h"
 
 namespace diptych::continuum
 {
-  using Law = std::variant<LinearElastic, MohrCoulomb, DruckerPrager, CosseratMohrCoulomb, CosseratDruckerPrager>;
+  using Law = std::variant<LinearElastic,
+                           MohrCoulomb,
+                           DruckerPrager,
+                           CosseratMohrCoulomb,
+                           CosseratDruckerPrager,
+                           GradientMohrCoulomb,
+                           GradientDruckerPrager>;
 
   // Throws std::invalid_argument under the same conditions as validate(options).
   Law make_law(LawKind law, const LawOptions &options, const Units &units = {});

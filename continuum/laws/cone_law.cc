@@ -24,9 +24,9 @@ namespace diptych::continuum
       : cone{Hardening(options, units), shape},
         moduli_(elastic_moduli(in_units(options, units), is_cosserat)),
         pressure_modulus(shape == ConeShape::mohr_coulomb ? moduli_.plane_bulk : moduli_.bulk),
+        elastic(continuum::elastic_tangent(moduli_)),
         viscosity(in_units(options, units).viscosity),
-        couple_scale(is_cosserat ? std::sqrt(2.) * in_units(options, units).internal_length : 0),
-        elastic(continuum::elastic_tangent(moduli_))
+        couple_scale(is_cosserat ? std::sqrt(2.) * in_units(options, units).internal_length : 0)
   {
     // Sum over the unit vectors of g: the outer product of the conjugate stress with itself.
     for (unsigned int k = 0; k < Deviatoric::dimension; ++k)
@@ -85,12 +85,15 @@ namespace diptych::continuum
 
   MaterialUpdate ConeLaw::update(const MaterialState &s0, const Strain &d_strain, const double d_time) const
   {
-    const Trial  trial = elastic_trial(s0, d_strain);
-    const Cone   c     = cone.at(hardening_state(s0));
+    const Trial trial = elastic_trial(s0, d_strain);
+    return is_outside(trial) ? plastic_answer(trial, radial_return(trial, d_time)) : elastic_answer(trial);
+  }
+
+  bool ConeLaw::is_outside(const Trial &trial) const
+  {
+    const Cone   c     = cone.at(hardening_state(trial.state));
     const double yield = trial.shear - trial.pressure * c.slope - c.intercept;
-    if (yield <= 1e-12 * (trial.shear + std::abs(trial.pressure) + c.intercept))
-      return elastic_answer(trial);
-    return plastic_answer(trial, radial_return(trial, d_time));
+    return !(yield <= 1e-12 * (trial.shear + std::abs(trial.pressure) + c.intercept));
   }
 
   ConeLaw::Trial ConeLaw::elastic_trial(const MaterialState &s0, const Strain &d_strain) const

@@ -48,18 +48,20 @@ namespace diptych::continuum
     MaterialUpdate plastic_answer(const Trial &trial, const ConeReturn &end) const;
     double         viscous_modulus(double d_time) const { return d_time > 0 ? viscosity / d_time : 0; }
 
+    Stress        conjugate(const Deviatoric &q) const; // q . dg/d(strain)
+    bool          is_outside(const Trial &trial) const;
+
     YieldCone     cone;
     ElasticModuli moduli_;
+    double        pressure_modulus; // B [pressure]
+    Tangent       elastic;
 
   private:
     Deviatoric deviatoric(const MaterialState &state) const;
     double     pressure(const MaterialState &state) const;
-    Stress     conjugate(const Deviatoric &q) const; // q . dg/d(strain)
 
-    double  pressure_modulus; // B [pressure]
     double  viscosity;
-    double  couple_scale; // sqrt2 l; zero for a classical law
-    Tangent elastic;
-    Tangent metric; // (dg/d strain)^T (dg/d strain)
+    double  couple_scale; // sqrt2 l; zero for a law without couple stress
+    Tangent metric;       // (dg/d strain)^T (dg/d strain)
   };
 } // namespace diptych::continuum

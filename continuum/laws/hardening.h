@@ -22,10 +22,11 @@ namespace diptych::continuum
   {
     double equivalent_plastic_strain = 0;
     double stress_ratio_gain = 0, densification = 0; // critical state: change since the start
+    double nonlocal_plastic_strain = 0;              // gradient laws
   };
   inline HardeningState hardening_state(const MaterialState &state)
   {
-    return {state.equivalent_plastic_strain, state.stress_ratio_gain, state.densification};
+    return {state.equivalent_plastic_strain, state.stress_ratio_gain, state.densification, state.nonlocal_plastic_strain};
   }
 
   // hardening = critical_state (after Taylor 1948; Roux and Radjai 1998). The mobilised stress ratio eta = t/s tends to a limit
@@ -39,12 +40,17 @@ namespace diptych::continuum
   class Hardening
   {
   public:
-    explicit Hardening(const LawOptions &options, const Units &units = {});
+    // A gradient law has a `nonlocal_weight` m > 0. Values that fall are then read at the softening variable
+    // max(0, (1 - m) kappa + m kbar), values that rise at kappa. Throws std::invalid_argument if m > 0 with critical_state.
+    explicit Hardening(const LawOptions &options, const Units &units = {}, double nonlocal_weight = 0);
 
     // Strength at a state with an equivalent plastic strain >= 0. At a point of the table the rate is that of the following
     // interval.
     Strength at(const HardeningState &state) const;
     Strength at(const double equivalent_plastic_strain) const { return at(HardeningState{equivalent_plastic_strain}); }
+
+    // The same values; the rates are derivatives by the nonlocal hardening variable at a constant local one.
+    Strength by_nonlocal(const HardeningState &state) const;
 
     // Solid fraction of a critical-state law; 0 for any other.
     double solid_fraction(const HardeningState &state) const;
@@ -61,8 +67,10 @@ namespace diptych::continuum
     {
       double strain = 0, friction = 0, dilatancy = 0, cohesion = 0;
     };
-    Strength decayed(double equivalent_plastic_strain) const;
-    Strength interpolated(double equivalent_plastic_strain) const;
+    double   softening_variable(const HardeningState &state) const;
+    Strength softened(const HardeningState &state, double share) const; // share: d softening variable / d variable of the rates
+    Strength risen(const HardeningState &state) const;                  // in addition
+    Strength decayed(double softening_variable) const;
     Strength critical(const HardeningState &state) const;
     double   dilation(const HardeningState &state) const; // sin psi for critical_state
 
@@ -86,5 +94,11 @@ namespace diptych::continuum
     double             softening_strain = 0;
     double             unmobilised = 0, mobilisation_strain = 1; // deficit of friction at the start [radians]; its decay
     std::vector<Point> table;                                    // empty: exponential or mobilisation; one point: constant
+    std::vector<Point> rises;                                    // gradient laws: the part of the table that rises, from 0
+
+    void            separate_rises();
+    static Strength interpolated(const std::vector<Point> &table, double strain);
+
+    double nonlocal_weight;
   };
 } // namespace diptych::continuum

@@ -170,7 +170,9 @@ namespace diptych::continuum
     const std::vector<const char *> critical  = {"critical_stress_ratio", "critical_solid_fraction", "strength_by_density",
                                                  "dilatancy_ratio",       "stress_ratio_start",      "solid_fraction_start"};
     const std::vector<const char *> table = {"table_strain", "table_friction_angle", "table_dilatancy_angle", "table_cohesion"};
-    unless(is.is_cosserat, of_law, {"internal_length", "couple_shear_ratio"});
+    unless(is.has_length(), of_law, {"internal_length"});
+    unless(is.is_cosserat, of_law, {"couple_shear_ratio"});
+    unless(is.is_gradient, of_law, {"nonlocal_weight"});
     unless(is.is_plastic, of_law, {"hardening", "viscosity"});
     unless(is.is_plastic, of_law, peak);
     unless(is.is_plastic, of_law, residual);
@@ -214,5 +216,6 @@ namespace diptych::continuum
     require_range("viscosity", o.viscosity, 0, greatest);
     require_range("internal_length", o.internal_length, 1e-6, 1e6);
     require_range("couple_shear_ratio", o.couple_shear_ratio, 1e-6, 1e6);
+    require_range("nonlocal_weight", o.nonlocal_weight, 1, 10);
   }
 } // namespace diptych::continuum

@@ -75,6 +75,6 @@ namespace diptych::continuum
                                                const StrainPath &path)
   {
     validate(path);
-    return std::visit([&](const auto &one) { return drive_along(one, path); }, make_law(law, options, units));
+    return std::visit([&](const auto &one) { return drive_along(one, path); }, make_law(uniform_law(law), options, units));
   }
 } // namespace diptych::continuum

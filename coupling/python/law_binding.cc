@@ -54,7 +54,7 @@ namespace diptych::python
       continuum::MaterialPointReport report;
       {
         const py::gil_scoped_release release;
-        const continuum::Law         law = continuum::make_law(scene.continuum.law, scene.continuum.material,
+        const continuum::Law         law = continuum::make_law(uniform_law(scene.continuum.law), scene.continuum.material,
                                                                coupling::continuum_units(scene));
         report                           = continuum::drive_material_point(law, {scene.loading.pressure, axial_strain, step});
       }
