@@ -87,9 +87,10 @@ namespace diptych::continuum
           const Tensor<2, 2> J         = jacobian(reference, q, cell, x);
           const Tensor<2, 2> inverse_t = transpose(invert(J));
           // Helmholtz's equation of a gradient law stays on the initial shape, where its length is that of the material.
-          const Tensor<2, 2> corner_inverse_t =
-            mesh.kind == ElementKind::q2_gradient ? transpose(invert(initial_jacobian(mesh, q, cell))) : inverse_t;
-          point.area                   = determinant(J) * reference.weights[q];
+          const Tensor<2, 2> corner_inverse_t = mesh.kind == ElementKind::q2_gradient
+                                                  ? transpose(invert(initial_jacobian(mesh, q, cell)))
+                                                  : inverse_t;
+          point.area                          = determinant(J) * reference.weights[q];
           area += point.area;
           for (unsigned int node = 0; node < reference.n_nodes; ++node)
             {
@@ -198,13 +199,19 @@ namespace diptych::continuum
             if (active->face(face)->at_boundary())
               {
                 const auto  &n = edge_nodes[face];
-                BoundaryEdge edge{active->face(face)->boundary_id(), {cell->nodes[n[0]], cell->nodes[n[1]], 0}};
+                BoundaryEdge edge{active->face(face)->boundary_id(),
+                                  {cell->nodes[n[0]], cell->nodes[n[1]], 0},
+                                  std::size_t(cell - cells.begin()),
+                                  {n[0], n[1], n[2]}};
                 if (reference.n_nodes > 4)
                   edge.nodes[2] = cell->nodes[n[2]];
                 const Eigen::Vector2d along = nodes[edge.nodes[1]].initial - nodes[edge.nodes[0]].initial;
                 // Cells from gmsh have any orientation.
                 if (std::abs(along.y()) > std::abs(along.x()) ? along.y() < 0 : along.x() < 0)
-                  std::swap(edge.nodes[0], edge.nodes[1]);
+                  {
+                    std::swap(edge.nodes[0], edge.nodes[1]);
+                    std::swap(edge.in_cell[0], edge.in_cell[1]);
+                  }
                 edges.push_back(edge);
               }
           ++cell;

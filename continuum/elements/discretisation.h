@@ -31,8 +31,10 @@ namespace diptych::continuum
   // An element edge on the outer boundary.
   struct BoundaryEdge
   {
-    unsigned int                id;    // BoundaryId
-    std::array<unsigned int, 3> nodes; // lower (or left) end, upper (or right) end, middle (unused by four-node elements)
+    unsigned int                id;      // BoundaryId
+    std::array<unsigned int, 3> nodes;   // lower (or left) end, upper (or right) end, middle (unused by four-node elements)
+    std::size_t                 cell;    // that has the edge
+    std::array<unsigned int, 3> in_cell; // numbers of these nodes in the cell
   };
 
   struct Node

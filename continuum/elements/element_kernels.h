@@ -1,11 +1,11 @@
-// diptych: strain, nodal force and stiffness of one element
+// diptych: motion, nodal force and stiffness of one element
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
 #include <array>
 
 #include "continuum/elements/discretisation.h"
-#include "continuum/laws/law.h"
+#include "continuum/elements/increment.h"
 
 namespace diptych::continuum
 {
@@ -14,20 +14,17 @@ namespace diptych::continuum
   template <class Element> constexpr unsigned int row_length = (Element::n_dofs + 3) / 4 * 4;
   template <class Element> using ElementMatrix               = std::array<double, Element::n_dofs * row_length<Element>>;
 
-  // The fourth strain is curl u - 2 omega for a rotation omega, but the unknown itself for a nonlocal hardening variable.
-  template <class Element> constexpr bool   has_skew      = Element::n_rotations > 0 && !Element::is_gradient;
-  template <class Element> constexpr double corner_factor = Element::is_gradient ? 1 : -2;
+  // Number of entries of Motion that an element has.
+  template <class Element> constexpr unsigned int motions_of = Element::n_rotations > 0 ? n_motions : n_classical_motions;
 
-  // Mean dilation adds d . u to both normal strains, d = (mean gradient - gradient)/2, so that e_xx + e_yy is the element's
-  // mean.
+  // Mean dilation adds d . u to du_x/dx and du_y/dy, d = (mean gradient - gradient)/2, so that their sum is the element's mean.
   inline dealii::Tensor<1, 2> dilation_excess(const CellGeometry &cell, const unsigned int q, const unsigned int node)
   {
     return 0.5 * (cell.mean_gradient[node] - cell.points[q].gradient[node]);
   }
 
-  // Components as in Strain.
   template <class Element>
-  Strain strain_at(const ReferenceElement       &reference,
+  Motion motion_at(const ReferenceElement       &reference,
                    const CellGeometry           &cell,
                    const unsigned int            q,
                    const ElementVector<Element> &u)
@@ -47,115 +44,107 @@ namespace diptych::continuum
             excess += d[0] * u[2 * node] + d[1] * u[2 * node + 1];
           }
       }
-    Strain strain;
-    strain[xx]                = ux_x + excess;
-    strain[yy]                = uy_y + excess;
-    strain[xy]                = ux_y + uy_x;
-    strain[relative_rotation] = Element::is_gradient ? 0 : uy_x - ux_y;
+    Motion m;
+    m[0] = ux_x + excess;
+    m[1] = ux_y;
+    m[2] = uy_x;
+    m[3] = uy_y + excess;
     for (unsigned int corner = 0; corner < Element::n_rotations; ++corner)
       {
         const double omega = u[2 * Element::n_nodes + corner];
-        strain[relative_rotation] += corner_factor<Element> * reference.rotation_shape[q][corner] * omega;
-        strain[curvature_x] += point.rotation_gradient[corner][0] * omega;
-        strain[curvature_y] += point.rotation_gradient[corner][1] * omega;
+        m[4] += reference.rotation_shape[q][corner] * omega;
+        m[5] += point.rotation_gradient[corner][0] * omega;
+        m[6] += point.rotation_gradient[corner][1] * omega;
       }
-    return strain;
+    return m;
   }
 
-  // force += B^T stress area
+  // force += (d motion / d u)^T stress area
   template <class Element>
-  void add_stress(const ReferenceElement &reference,
-                  const CellGeometry     &cell,
-                  const unsigned int      q,
-                  const Stress           &stress,
-                  ElementVector<Element> &force)
+  void add_force(const ReferenceElement &reference,
+                 const CellGeometry     &cell,
+                 const unsigned int      q,
+                 const PiolaStress      &stress,
+                 ElementVector<Element> &force)
   {
-    const auto  &point = cell.points[q];
-    const Stress s     = point.area * stress;
-    const double skew  = has_skew<Element> ? s[relative_rotation] : 0;
+    const auto       &point = cell.points[q];
+    const PiolaStress s     = point.area * stress;
     for (unsigned int node = 0; node < Element::n_nodes; ++node)
       {
         const auto &g = point.gradient[node];
-        force[2 * node] += g[0] * s[xx] + g[1] * (s[xy] - skew);
-        force[2 * node + 1] += g[1] * s[yy] + g[0] * (s[xy] + skew);
+        force[2 * node] += g[0] * s[0] + g[1] * s[1];
+        force[2 * node + 1] += g[0] * s[2] + g[1] * s[3];
         if constexpr (Element::mean_dilation)
           {
             const auto d = dilation_excess(cell, q, node);
-            force[2 * node] += d[0] * (s[xx] + s[yy]);
-            force[2 * node + 1] += d[1] * (s[xx] + s[yy]);
+            force[2 * node] += d[0] * (s[0] + s[3]);
+            force[2 * node + 1] += d[1] * (s[0] + s[3]);
           }
       }
     for (unsigned int corner = 0; corner < Element::n_rotations; ++corner)
-      force[2 * Element::n_nodes + corner] += point.rotation_gradient[corner][0] * s[curvature_x] +
-                                              point.rotation_gradient[corner][1] * s[curvature_y] +
-                                              corner_factor<Element> * reference.rotation_shape[q][corner] * s[relative_rotation];
+      force[2 * Element::n_nodes + corner] += reference.rotation_shape[q][corner] * s[4] +
+                                              point.rotation_gradient[corner][0] * s[5] +
+                                              point.rotation_gradient[corner][1] * s[6];
   }
 
-  // K += B^T D B area. Both products use that each column of B has at most four non-zero entries.
+  // K += (d motion / d u)^T tangent (d motion / d u) area
   template <class Element>
   void add_stiffness(const ReferenceElement &reference,
                      const CellGeometry     &cell,
                      const unsigned int      q,
-                     const Tangent          &tangent,
+                     const PiolaTangent     &tangent,
                      ElementMatrix<Element> &K)
   {
-    constexpr unsigned int n_strains             = Element::n_rotations > 0 ? n_components : n_classical;
-    constexpr unsigned int length                = row_length<Element>;
-    const auto            &point                 = cell.points[q];
-    double                 DB[n_strains][length] = {};
-    for (unsigned int k = 0; k < n_strains; ++k)
+    constexpr unsigned int n = motions_of<Element>, length = row_length<Element>;
+    const auto            &point         = cell.points[q];
+    double                 DB[n][length] = {}; // tangent (d motion / d u) area
+    for (unsigned int k = 0; k < n; ++k)
       {
-        const auto  &D    = tangent[k];
-        const double skew = has_skew<Element> ? D[relative_rotation] : 0;
+        const auto &D = tangent[k];
         for (unsigned int node = 0; node < Element::n_nodes; ++node)
           {
             const double gx = point.area * point.gradient[node][0], gy = point.area * point.gradient[node][1];
-            DB[k][2 * node]     = D[xx] * gx + (D[xy] - skew) * gy;
-            DB[k][2 * node + 1] = D[yy] * gy + (D[xy] + skew) * gx;
+            DB[k][2 * node]     = D[0] * gx + D[1] * gy;
+            DB[k][2 * node + 1] = D[2] * gx + D[3] * gy;
             if constexpr (Element::mean_dilation)
               {
                 const auto d = point.area * dilation_excess(cell, q, node);
-                DB[k][2 * node] += (D[xx] + D[yy]) * d[0];
-                DB[k][2 * node + 1] += (D[xx] + D[yy]) * d[1];
+                DB[k][2 * node] += (D[0] + D[3]) * d[0];
+                DB[k][2 * node + 1] += (D[0] + D[3]) * d[1];
               }
           }
         for (unsigned int corner = 0; corner < Element::n_rotations; ++corner)
-          DB[k][2 * Element::n_nodes + corner] = point.area * (point.rotation_gradient[corner][0] * D[curvature_x] +
-                                                               point.rotation_gradient[corner][1] * D[curvature_y] +
-                                                               corner_factor<Element> * reference.rotation_shape[q][corner] *
-                                                                 D[relative_rotation]);
+          DB[k][2 * Element::n_nodes + corner] = point.area * (reference.rotation_shape[q][corner] * D[4] +
+                                                               point.rotation_gradient[corner][0] * D[5] +
+                                                               point.rotation_gradient[corner][1] * D[6]);
       }
     for (unsigned int node = 0; node < Element::n_nodes; ++node)
       {
         const double gx = point.gradient[node][0], gy = point.gradient[node][1];
         double      *row_x = &K[2 * node * length], *row_y = row_x + length;
-        double       dx = 0, dy = 0;
+        for (unsigned int j = 0; j < length; ++j)
+          {
+            row_x[j] += gx * DB[0][j] + gy * DB[1][j];
+            row_y[j] += gx * DB[2][j] + gy * DB[3][j];
+          }
         if constexpr (Element::mean_dilation)
           {
             const auto d = dilation_excess(cell, q, node);
-            dx           = d[0];
-            dy           = d[1];
-          }
-        for (unsigned int j = 0; j < length; ++j)
-          {
-            const double skew = has_skew<Element> ? DB[has_skew<Element> ? int(relative_rotation) : 0][j] : 0;
-            row_x[j] += gx * DB[xx][j] + gy * (DB[xy][j] - skew);
-            row_y[j] += gy * DB[yy][j] + gx * (DB[xy][j] + skew);
-            if constexpr (Element::mean_dilation)
+            for (unsigned int j = 0; j < length; ++j)
               {
-                row_x[j] += dx * (DB[xx][j] + DB[yy][j]);
-                row_y[j] += dy * (DB[xx][j] + DB[yy][j]);
+                row_x[j] += d[0] * (DB[0][j] + DB[3][j]);
+                row_y[j] += d[1] * (DB[0][j] + DB[3][j]);
               }
           }
       }
-    if constexpr (n_strains > n_classical)
+    if constexpr (n > n_classical_motions)
       for (unsigned int corner = 0; corner < Element::n_rotations; ++corner)
         {
           double      *row = &K[(2 * Element::n_nodes + corner) * length];
           const double wx = point.rotation_gradient[corner][0], wy = point.rotation_gradient[corner][1],
-                       w = corner_factor<Element> * reference.rotation_shape[q][corner];
+                       w = reference.rotation_shape[q][corner];
           for (unsigned int j = 0; j < length; ++j)
-            row[j] += wx * DB[curvature_x][j] + wy * DB[curvature_y][j] + w * DB[relative_rotation][j];
+            row[j] += w * DB[4][j] + wx * DB[5][j] + wy * DB[6][j];
         }
   }
 } // namespace diptych::continuum

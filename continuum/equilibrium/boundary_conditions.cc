@@ -49,7 +49,6 @@ namespace diptych::continuum
                                          const PlatenGrip  &grip,
                                          const SideContact &side_contact)
       : loading(loading),
-        initial_height(mesh.extent.y()),
         platen_nodes{mesh.boundary_nodes(lower_platen), mesh.boundary_nodes(upper_platen)}
   {
     for (const unsigned int platen : {0u, 1u})
@@ -154,7 +153,7 @@ namespace diptych::continuum
     std::sort(right.begin(), right.end(), by_height);
     bool match = left.size() == right.size();
     for (std::size_t k = 0; match && k < left.size(); ++k)
-      match = std::abs(left[k].initial.y() - right[k].initial.y()) < 1e-6 * initial_height;
+      match = std::abs(left[k].initial.y() - right[k].initial.y()) < 1e-6 * mesh.extent.y();
     if (!match)
       throw std::invalid_argument("lateral = periodic: the left and right sides of the mesh do not match node by node");
     if (!sides.widening && rough)
@@ -206,14 +205,6 @@ namespace diptych::continuum
         constraints.set_inhomogeneity(rule.dof, (*rule.value)(to) - (*rule.value)(from));
     constraints.close();
     return constraints;
-  }
-
-  double BoundaryConditions::height(const double progress, const double present) const
-  {
-    const Drive &lower = loading.platens[0][1], &upper = loading.platens[1][1];
-    if (lower.is_force || upper.is_force)
-      return present;
-    return initial_height + (upper.value ? upper.value(progress) : 0) - (lower.value ? lower.value(progress) : 0);
   }
 
   std::vector<std::pair<types::global_dof_index, double>> BoundaryConditions::applied_forces(const double progress) const

@@ -51,9 +51,6 @@ namespace diptych::continuum
     // Constraints of the displacement increment between two values of the progress.
     dealii::AffineConstraints<double> increment(double from, double to) const;
 
-    // Distance of the platens at a progress if their vertical motion is prescribed, otherwise `present`. [length]
-    double height(double progress, double present) const;
-
     // Forces on freely moving platens, as {dof, value}. Every process gets all of them.
     std::vector<std::pair<dealii::types::global_dof_index, double>> applied_forces(double progress) const;
 
@@ -80,7 +77,6 @@ namespace diptych::continuum
     void build(Discretisation &mesh);
 
     Loading                                                                loading;
-    double                                                                 initial_height;
     std::function<double(double)>                                          widening; // of rigid or periodic sides
     std::array<std::vector<Node>, 2>                                       platen_nodes;
     std::vector<Rule>                                                      rules;

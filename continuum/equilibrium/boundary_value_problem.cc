@@ -80,8 +80,9 @@ namespace diptych::continuum
     call(check_stop);
     const std::size_t n_points = mesh.cells.size() * mesh.reference.n_points;
     trial.assign(n_points, {});
+    increments.assign(n_points, Increment(Motion(), moves()));
     trial_increment.assign(mesh.relevant.n_elements(), 0.);
-    external = balanced_force = weight = state.displacement = trial_increment;
+    internal = external = balanced_force = weight = state.displacement = trial_increment;
     state.points.assign(n_points, {});
     state.localisation.assign(n_points, {});
     flow.assign(n_points, 0.);
@@ -175,30 +176,33 @@ namespace diptych::continuum
     return travel;
   }
 
-  // Side pressure acts along the sides of the shape for equilibrium. In small strain this is the initial shape, and the total
-  // pressure follows the height. The moved sides would be wrong there. Where a band leaves the sample, a side folds over once
-  // the jump exceeds an element, and the pressure would pull. On rigid walls and with a free period the pressure acts through
-  // the ties of the nodes, so nodes on a platen get none.
-  std::vector<double> BoundaryValueProblem::loads(const double to) const
+  // On rigid walls and with a free period the pressure acts through the ties of the nodes, so nodes on a platen get none.
+  double BoundaryValueProblem::side_pressure() const
   {
-    std::vector<double> force = weight;
     if (!sides_carry_pressure(loading.lateral))
-      return force;
-    const auto   planes = platen_planes();
-    const double share  = moves() ? 1. : conditions->height(to, planes[1].now - planes[0].now) / mesh.extent.y();
-    add_side_pressure(mesh, positions(mesh, moves() ? state.displacement : std::vector<double>(force.size(), 0.)),
-                      (loading.side_pressure ? loading.side_pressure(to) : loading.pressure) * share, force);
-    return force;
+      return 0;
+    return loading.side_pressure ? loading.side_pressure(step_end) : loading.pressure;
+  }
+
+  // Side pressure acts along the sides of the shape for equilibrium.
+  void BoundaryValueProblem::find_loads()
+  {
+    std::vector<double> displacement(state.displacement.size(), 0.);
+    if (moves())
+      for (std::size_t i = 0; i < displacement.size(); ++i)
+        displacement[i] = state.displacement[i] + trial_increment[i];
+    external = weight;
+    add_side_pressure(mesh, positions(mesh, displacement), side_pressure(), external);
+    for (std::size_t i = 0; i < external.size(); ++i)
+      external[i] = step_share * external[i] + (1 - step_share) * balanced_force[i];
   }
 
   void BoundaryValueProblem::begin_step(const double to, const double share)
   {
-    step_end = to;
+    step_end   = to;
+    step_share = share;
     step_constraints.clear();
     step_constraints.copy_from(conditions->increment(state.progress, to));
-    external = loads(to);
-    for (std::size_t i = 0; i < external.size(); ++i)
-      external[i] = share * external[i] + (1 - share) * balanced_force[i];
     applied = zero_vector();
     for (const auto &[dof, force] : conditions->applied_forces(to))
       if (mesh.owned.is_element(dof))
@@ -211,49 +215,41 @@ namespace diptych::continuum
     step_constraints.distribute(increment);
   }
 
-  template <class L, class Element> void BoundaryValueProblem::update_points(const L &law, Element)
+  template <class L, class Element> void BoundaryValueProblem::update_points(const L &law, Element, std::vector<double> &force)
   {
     const double d_time = step_end - state.progress;
     for (std::size_t c = 0; c < mesh.cells.size(); ++c)
       {
-        const auto u = gather<Element>(mesh.cells[c], trial_increment);
+        const auto             u = gather<Element>(mesh.cells[c], trial_increment);
+        ElementVector<Element> f{};
         for (unsigned int q = 0; q < Element::n_points; ++q)
           {
             const std::size_t point = c * Element::n_points + q;
-            trial[point] = law.update(state.points[point], strain_at<Element>(mesh.reference, current.cells[c], q, u), d_time);
+            const Increment  &step = increments[point] = Increment(motion_at<Element>(mesh.reference, current.cells[c], q, u),
+                                                                   moves(), Element::is_gradient);
+            trial[point]                               = law.update(state.points[point], step.strain(), d_time);
+            add_force<Element>(mesh.reference, current.cells[c], q, step.force(trial[point].state.stress), f);
           }
+        scatter<Element>(mesh.cells[c], f, force);
       }
-  }
-
-  std::vector<double> BoundaryValueProblem::internal_force() const
-  {
-    std::vector<double> force(external.size(), 0.);
-    with_element(mesh.kind, [&](const auto chosen) {
-      using Element = std::decay_t<decltype(chosen)>;
-      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-        {
-          ElementVector<Element> f{};
-          for (unsigned int q = 0; q < Element::n_points; ++q)
-            add_stress<Element>(mesh.reference, current.cells[c], q, trial[c * Element::n_points + q].state.stress, f);
-          scatter<Element>(mesh.cells[c], f, force);
-        }
-    });
-    return force;
   }
 
   void BoundaryValueProblem::reset_balance()
   {
-    balanced_force = internal_force();
+    balanced_force = internal;
   }
 
   Imbalance BoundaryValueProblem::evaluate(const DistributedVector &increment)
   {
     const Stopwatch watch{phase.points};
     trial_increment = relevant_values(increment);
-    std::visit([&](const auto &law) { with_element(mesh.kind, [&](const auto chosen) { update_points(law, chosen); }); },
-               material);
+    internal.assign(trial_increment.size(), 0.);
+    std::visit(
+      [&](const auto &law) { with_element(mesh.kind, [&](const auto chosen) { update_points(law, chosen, internal); }); },
+      material);
+    find_loads();
 
-    auto force = internal_force();
+    auto force = internal;
     for (std::size_t i = 0; i < force.size(); ++i)
       force[i] -= external[i];
     nodal_force = assembled(mesh, force);
@@ -267,8 +263,22 @@ namespace diptych::continuum
     imbalance.scale    = platen_scale();
     for (const auto &point : trial)
       imbalance.n_failed += point.verdict == Verdict::failed;
-    imbalance.n_failed = Utilities::MPI::sum(imbalance.n_failed, mesh.communicator());
+    for (const auto &increment : increments)
+      imbalance.n_inverted += increment.is_inverted();
+    imbalance.n_failed   = Utilities::MPI::sum(imbalance.n_failed, mesh.communicator());
+    imbalance.n_inverted = Utilities::MPI::sum(imbalance.n_inverted, mesh.communicator());
     return imbalance;
+  }
+
+  // A point at the apex has hardly any stiffness, and a patch of such points would make the matrix singular. Adding a
+  // thousandth of the elastic tangent changes the iterations, but not their limit.
+  PiolaTangent BoundaryValueProblem::point_tangent(const std::size_t point, const unsigned int n_columns) const
+  {
+    const MaterialUpdate &update = trial[point];
+    if (update.regime != Regime::apex)
+      return increments[point].tangent(update.state.stress, update.tangent, n_columns);
+    const Tangent elastic = std::visit([](const auto &law) { return law.elastic_tangent(); }, material);
+    return increments[point].tangent(update.state.stress, update.tangent + 1e-3 * elastic, n_columns);
   }
 
   DistributedVector BoundaryValueProblem::linearised_residual(const DistributedVector &increment) const
@@ -284,8 +294,9 @@ namespace diptych::continuum
           for (unsigned int q = 0; q < Element::n_points; ++q)
             {
               const auto &cell   = current.cells[c];
-              const auto  strain = strain_at<Element>(mesh.reference, cell, q, u);
-              add_stress<Element>(mesh.reference, cell, q, Stress(trial[c * Element::n_points + q].tangent * strain), f);
+              const auto  motion = motion_at<Element>(mesh.reference, cell, q, u);
+              add_force<Element>(mesh.reference, cell, q,
+                                 PiolaStress(point_tangent(c * Element::n_points + q, motions_of<Element>) * motion), f);
             }
           scatter<Element>(mesh.cells[c], f, force);
         }
@@ -300,21 +311,19 @@ namespace diptych::continuum
   const TrilinosWrappers::SparseMatrix &BoundaryValueProblem::assemble_tangent()
   {
     const Stopwatch watch{phase.assembly};
-    // A point at the apex has hardly any stiffness, and a patch of such points would make the matrix singular. Adding a
-    // thousandth of the elastic tangent changes the iterations, but not their limit.
-    const Tangent floor = 1e-3 * std::visit([](const auto &law) { return law.elastic_tangent(); }, material);
+    const double    pressure = moves() ? step_share * side_pressure() : 0;
     tangent.clear();
     with_element(mesh.kind, [&](const auto chosen) {
       using Element = std::decay_t<decltype(chosen)>;
+      auto edge     = mesh.edges.begin();
       for (std::size_t c = 0; c < mesh.cells.size(); ++c)
         {
           ElementMatrix<Element> K{};
           for (unsigned int q = 0; q < Element::n_points; ++q)
-            {
-              const auto &point = trial[c * Element::n_points + q];
-              add_stiffness<Element>(mesh.reference, current.cells[c], q,
-                                     point.regime == Regime::apex ? point.tangent + floor : point.tangent, K);
-            }
+            add_stiffness<Element>(mesh.reference, current.cells[c], q,
+                                   point_tangent(c * Element::n_points + q, motions_of<Element>), K);
+          for (; edge != mesh.edges.end() && edge->cell == c; ++edge)
+            add_side_stiffness(*edge, Element::n_nodes > 4, -pressure, row_length<Element>, K.data());
           tangent.add<Element>(c, K);
         }
     });
@@ -334,36 +343,27 @@ namespace diptych::continuum
   void BoundaryValueProblem::commit()
   {
     const Stopwatch watch{phase.geometry};
-    const Tangent   elastic = std::visit([](const auto &law) { return law.elastic_tangent(); }, material);
-    const auto      moduli  = std::visit([](const auto &law) { return law.moduli(); }, material);
+    const Tangent   elastic     = std::visit([](const auto &law) { return law.elastic_tangent(); }, material);
+    const auto      moduli      = std::visit([](const auto &law) { return law.moduli(); }, material);
+    const bool      is_gradient = mesh.kind == ElementKind::q2_gradient;
     flow.resize(trial.size());
     unstable.assign(trial.size(), 0);
-    with_element(mesh.kind, [&](const auto chosen) {
-      using Element = std::decay_t<decltype(chosen)>;
-      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-        {
-          const auto u = gather<Element>(mesh.cells[c], trial_increment);
-          for (unsigned int q = 0; q < Element::n_points; ++q)
-            {
-              const std::size_t point = c * Element::n_points + q;
-              MaterialState     next  = trial[point].state;
-              if (trial[point].regime != Regime::elastic)
-                {
-                  const Strain d = strain_at<Element>(mesh.reference, current.cells[c], q, u);
-                  add_plastic_flow(moduli, state.points[point], d, next);
-                  unstable[point] = weakens_contracting(moduli, state.points[point], d, next);
-                }
-              const Tangent &D          = trial[point].tangent;
-              state.localisation[point] = trial[point].regime == Regime::elastic
-                                            ? Localisation()
-                                            : localisation(Element::is_gradient ? uniform_tangent(D) : D, elastic);
-              flow[point]               = next.equivalent_plastic_strain - state.points[point].equivalent_plastic_strain;
-              if (moves())
-                turn<Element>(next, spin_at<Element>(current.cells[c].points[q], u));
-              state.points[point] = next;
-            }
-        }
-    });
+    for (std::size_t point = 0; point < trial.size(); ++point)
+      {
+        MaterialState next       = trial[point].state;
+        const bool    is_elastic = trial[point].regime == Regime::elastic;
+        if (!is_elastic)
+          {
+            const Strain &d_strain = increments[point].strain();
+            add_plastic_flow(moduli, state.points[point], d_strain, next);
+            unstable[point] = weakens_contracting(moduli, state.points[point], d_strain, next);
+          }
+        const Tangent &D          = trial[point].tangent;
+        state.localisation[point] = is_elastic ? Localisation() : localisation(is_gradient ? uniform_tangent(D) : D, elastic);
+        flow[point]               = next.equivalent_plastic_strain - state.points[point].equivalent_plastic_strain;
+        turn(next, increments[point].angle(), is_gradient);
+        state.points[point] = next;
+      }
     for (std::size_t i = 0; i < state.displacement.size(); ++i)
       state.displacement[i] += trial_increment[i];
     state.progress     = step_end;

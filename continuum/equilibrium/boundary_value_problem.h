@@ -19,9 +19,10 @@ namespace diptych::continuum
   // Out-of-balance force of a trial state: Euclidean norms over all nodes [pressure * length].
   struct Imbalance
   {
-    double       residual = 0; // free components
-    double       scale    = 0; // platen forces on their nodes, the reference for the residual
-    unsigned int n_failed = 0; // material points at which the law failed
+    double       residual   = 0; // free components
+    double       scale      = 0; // platen forces on their nodes, the reference for the residual
+    unsigned int n_failed   = 0; // material points at which the law failed
+    unsigned int n_inverted = 0; // geometry = updated: points whose surroundings are turned inside out
 
     double relative() const { return residual > 0 ? residual / scale : 0.; }
   };
@@ -43,8 +44,10 @@ namespace diptych::continuum
     std::array<Eigen::Vector2d, 2> platen_force{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}; // lower, upper; on the sample
   };
 
-  // sum over cells of int B^T sigma dA = side pressure + weight + reactions, on the initial shape or that of the last accepted
-  // step. Only commit() changes the committed state; other functions work on one trial state, which evaluate() overwrites.
+  // sum over cells of int B^T sigma dA = side pressure + weight + reactions. `geometry = updated` states it on the shape at the
+  // end of the trial step and integrates over that of the last accepted step (elements/increment.h); `small_strain` on the
+  // initial shape. Only commit() changes the committed state; other functions work on one trial state, which evaluate()
+  // overwrites.
   class BoundaryValueProblem
   {
   public:
@@ -102,7 +105,7 @@ namespace diptych::continuum
 
     const Discretisation &discretisation() const { return mesh; }
     Discretisation       &discretisation() { return mesh; }
-    const Geometry       &geometry() const { return current; }                         // shape for equilibrium
+    const Geometry       &geometry() const { return current; } // shape on which the committed state is in equilibrium
     const Geometry       &moved_geometry() const { return moves() ? current : moved; } // shape after the committed displacement
     const Law            &law() const { return material; }
     const CommittedState &committed() const { return state; }
@@ -125,11 +128,12 @@ namespace diptych::continuum
     void                                   move_nodes();
     bool                                   moves() const { return options.geometry == Kinematics::updated; }
     std::array<PlatenPlane, 2>             platen_planes() const;
-    std::vector<double>                    loads(double to) const;
-    std::vector<double>                    internal_force() const;
+    void                                   find_loads();
+    double                                 side_pressure() const;
     Eigen::Vector2d                        trial_platen_force(bool upper) const;
     double                                 platen_scale() const;
-    template <class L, class Element> void update_points(const L &law, Element);
+    template <class L, class Element> void update_points(const L &law, Element, std::vector<double> &force);
+    PiolaTangent                           point_tangent(std::size_t point, unsigned int n_columns) const;
 
     Options                             options;
     Loading                             loading;
@@ -146,13 +150,15 @@ namespace diptych::continuum
     TangentMatrix                       tangent;
 
     CommittedState              state;
-    double                      step_end = 0;
+    double                      step_end = 0, step_share = 1;
+    std::vector<Increment>      increments; // per point
     std::vector<MaterialUpdate> trial;
-    std::vector<double>         trial_increment, external, balanced_force, weight; // relevant dofs; forces: part of this process
-    DistributedVector           applied;          // forces on free platens and walls in the present step
-    DistributedVector           nodal_force, rhs; // internal - external, uncondensed; negative residual
-    std::vector<double>         flow;             // per point
-    std::vector<char>           unstable;         // per point
-    PhaseSeconds                phase;
+    std::vector<double>         trial_increment, internal, external, balanced_force,
+      weight;                             // relevant dofs; forces: part of this process
+    DistributedVector   applied;          // forces on free platens and walls in the present step
+    DistributedVector   nodal_force, rhs; // internal - external, uncondensed; negative residual
+    std::vector<double> flow;             // per point
+    std::vector<char>   unstable;         // per point
+    PhaseSeconds        phase;
   };
 } // namespace diptych::continuum

@@ -20,8 +20,8 @@ namespace diptych::continuum
       for (unsigned int k = 0; k < n_components; ++k)
         values[k] = s.stress[k];
       const double rest[] = {
-        s.stress_zz,         s.nonlocal_plastic_strain, s.equivalent_plastic_strain, s.overstress,        s.plastic_strain.xx,
-        s.plastic_strain.yy, s.plastic_strain.zz,       s.plastic_strain.xy,         s.dissipation,       s.stress_ratio_gain,
+        s.stress_zz,         s.nonlocal_plastic_strain, s.equivalent_plastic_strain, s.overstress,  s.plastic_strain.xx,
+        s.plastic_strain.yy, s.plastic_strain.zz,       s.plastic_strain.xy,         s.dissipation, s.stress_ratio_gain,
         s.densification};
       std::copy(std::begin(rest), std::end(rest), values.begin() + n_components);
       return values;
@@ -113,7 +113,8 @@ namespace diptych::continuum
             record[rotations + corner] = interpolated(children.corners[child * reference.n_nodes + corner], &parent[rotations],
                                                       1);
         }
-      // Stress and the nonlocal hardening variable follow the polynomial; the hardening variable and the record of the past stay within their range.
+      // Stress and the nonlocal hardening variable follow the polynomial; the hardening variable and the record of the past stay
+      // within their range.
       const std::size_t states = 1 + 2 * reference.n_dofs;
       for (unsigned int k = 0; k < n_state; ++k)
         {

@@ -26,23 +26,49 @@ namespace diptych::continuum
     }
   } // namespace
 
-  // Two Gauss points are exact, because the integrand is cubic in the coordinate along the edge.
+  namespace
+  {
+    // Two Gauss points are exact, because the integrand is cubic in the coordinate along the edge.
+    const std::array<double, 2> gauss_points = {-1 / std::sqrt(3.), 1 / std::sqrt(3.)};
+
+    double inwards(const BoundaryEdge &edge)
+    {
+      return edge.id == left_side ? 1 : edge.id == right_side ? -1 : 0;
+    }
+  } // namespace
+
   void add_side_pressure(const Discretisation               &mesh,
                          const std::vector<Eigen::Vector2d> &node_position,
                          const double                        pressure,
                          std::vector<double>                &force)
   {
     for (const auto &edge : mesh.edges)
-      if (edge.id == left_side || edge.id == right_side)
-        for (const double xi : {-1 / std::sqrt(3.), 1 / std::sqrt(3.)})
+      if (inwards(edge) != 0)
+        for (const double xi : gauss_points)
           {
             const auto shape = edge_shape(xi, mesh.reference.n_nodes > 4);
             double     dy    = 0;
             for (unsigned int k = 0; k < shape.n; ++k)
               dy += shape.slope[k] * node_position[edge.nodes[k]].y();
             for (unsigned int k = 0; k < shape.n; ++k)
-              force[mesh.nodes[edge.nodes[k]].local[0]] += (edge.id == left_side ? 1 : -1) * pressure * shape.value[k] * dy;
+              force[mesh.nodes[edge.nodes[k]].local[0]] += inwards(edge) * pressure * shape.value[k] * dy;
           }
+  }
+
+  void add_side_stiffness(const BoundaryEdge &edge,
+                          const bool          has_middle,
+                          const double        pressure,
+                          const unsigned int  row_length,
+                          double             *K)
+  {
+    for (const double xi : gauss_points)
+      {
+        const auto shape = edge_shape(xi, has_middle);
+        for (unsigned int a = 0; a < shape.n; ++a)
+          for (unsigned int b = 0; b < shape.n; ++b)
+            K[2 * edge.in_cell[a] * row_length + 2 * edge.in_cell[b] + 1] += inwards(edge) * pressure * shape.value[a] *
+                                                                             shape.slope[b];
+      }
   }
 
   void add_body_force(const Discretisation  &mesh,

@@ -18,6 +18,10 @@ namespace diptych::continuum
                          double                              pressure,
                          std::vector<double>                &force);
 
+  // Derivative of that force by the position of the nodes: adds int N_a dN_b/ds ds at row x of node a and column y of node b,
+  // times `pressure`, of one edge, to a matrix of its cell with `row_length` entries per row.
+  void add_side_stiffness(const BoundaryEdge &edge, bool has_middle, double pressure, unsigned int row_length, double *K);
+
   // f_a = int N_a b dA over the shape of `geometry`. For a weight this is the initial shape, because mass is conserved.
   void add_body_force(const Discretisation  &mesh,
                       const Geometry        &geometry,

@@ -11,7 +11,7 @@ namespace diptych::continuum
   {
     bool is_usable(const Imbalance &imbalance)
     {
-      return imbalance.n_failed == 0 && std::isfinite(imbalance.residual);
+      return imbalance.n_failed + imbalance.n_inverted == 0 && std::isfinite(imbalance.residual);
     }
 
     Imbalance add_with_line_search(BoundaryValueProblem    &problem,
@@ -58,7 +58,9 @@ namespace diptych::continuum
       {
         report.residual = imbalance.relative();
         best            = std::min(best, imbalance.residual);
-        if (!is_usable(imbalance))
+        if (imbalance.n_inverted > 0)
+          report.message = "an element is inverted";
+        else if (!is_usable(imbalance))
           report.message = "the law failed at " + std::to_string(imbalance.n_failed) + " points";
         else if (report.residual <= options.tolerance)
           {

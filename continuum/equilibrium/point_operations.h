@@ -24,30 +24,21 @@ namespace diptych::continuum
       values[cell.local[i]] += force[i];
   }
 
-  // Rotates stress and couple stress by the rotation of the material. The skew part does not depend on the frame, and a
-  // gradient element states the last components on the initial shape.
-  template <class Element> void turn(MaterialState &point, const double angle)
+  // Rotates stress and couple stress by the rotation of the material. The skew part does not depend on the frame. The
+  // last components of a gradient law are no couple stress and stay.
+  inline void turn(MaterialState &point, const double angle, const bool is_gradient = false)
   {
     const double c = std::cos(angle), s = std::sin(angle);
     Stress      &t    = point.stress;
     const double mean = (t[xx] + t[yy]) / 2, a = (t[xx] - t[yy]) / 2, b = t[xy];
     const double cos2 = c * c - s * s, sin2 = 2 * c * s;
-    t[xx]           = mean + a * cos2 - b * sin2;
-    t[yy]           = mean - a * cos2 + b * sin2;
-    t[xy]           = a * sin2 + b * cos2;
-    if constexpr (Element::is_gradient)
+    t[xx] = mean + a * cos2 - b * sin2;
+    t[yy] = mean - a * cos2 + b * sin2;
+    t[xy] = a * sin2 + b * cos2;
+    if (is_gradient)
       return;
     const double mx = t[curvature_x], my = t[curvature_y];
     t[curvature_x] = c * mx - s * my;
     t[curvature_y] = s * mx + c * my;
-  }
-
-  // Half the curl of the increment, anticlockwise.
-  template <class Element> double spin_at(const PointGeometry &point, const ElementVector<Element> &u)
-  {
-    double spin = 0;
-    for (unsigned int node = 0; node < Element::n_nodes; ++node)
-      spin += 0.5 * (point.gradient[node][0] * u[2 * node + 1] - point.gradient[node][1] * u[2 * node]);
-    return spin;
   }
 } // namespace diptych::continuum

@@ -48,8 +48,8 @@ namespace diptych::continuum
     MaterialUpdate plastic_answer(const Trial &trial, const ConeReturn &end) const;
     double         viscous_modulus(double d_time) const { return d_time > 0 ? viscosity / d_time : 0; }
 
-    Stress        conjugate(const Deviatoric &q) const; // q . dg/d(strain)
-    bool          is_outside(const Trial &trial) const;
+    Stress conjugate(const Deviatoric &q) const; // q . dg/d(strain)
+    bool   is_outside(const Trial &trial) const;
 
     YieldCone     cone;
     ElasticModuli moduli_;

@@ -32,8 +32,8 @@ namespace diptych::continuum
   // with slope f, intercept g and dilation d of the cone. At its tip t = lambda_k = 0 and s_k = -(s f_k + g_k)/f.
   void GradientLaw::add_nonlocal_part(const Trial &trial, const ConeReturn &end, MaterialUpdate &answer) const
   {
-    const Cone   c     = cone.of(cone.hardening.by_nonlocal(hardening_state(answer.state)));
-    const double G     = moduli_.shear, B = pressure_modulus, scale = moduli_.skew;
+    const Cone   c = cone.of(cone.hardening.by_nonlocal(hardening_state(answer.state)));
+    const double G = moduli_.shear, B = pressure_modulus, scale = moduli_.skew;
     const double falls = -(end.pressure * c.slope_rate + c.intercept_rate), volume = B * end.multiplier * c.dilation_rate;
     const bool   tip = end.regime == Regime::apex;
     const double F_k = falls - volume * c.slope, multiplier_k = tip ? 0 : F_k * end.multiplier_by_shear;
@@ -41,7 +41,7 @@ namespace diptych::continuum
 
     const Stress n = conjugate(trial.direction);
     Stress       one;
-    one[xx] = one[yy] = 1;
+    one[xx] = one[yy]          = 1;
     const Stress by_nonlocal   = -G * multiplier_k * n - pressure_k * one;
     const Stress multiplier_by = end.multiplier_by_shear * G * n - end.multiplier_by_pressure * B * one;
     Tangent     &D             = answer.tangent;

@@ -108,7 +108,8 @@ namespace diptych::continuum
   {
     if (nonlocal_weight == 0)
       return state.equivalent_plastic_strain;
-    return std::max((1 - nonlocal_weight) * state.equivalent_plastic_strain + nonlocal_weight * state.nonlocal_plastic_strain, 0.);
+    return std::max((1 - nonlocal_weight) * state.equivalent_plastic_strain + nonlocal_weight * state.nonlocal_plastic_strain,
+                    0.);
   }
 
   Strength Hardening::softened(const HardeningState &state, double share) const
@@ -224,9 +225,8 @@ namespace diptych::continuum
     const double decay = std::exp(-softening_variable / softening_strain), rate = -decay / softening_strain;
     const double friction = peak.friction - residual.friction, dilatancy = peak.dilatancy - residual.dilatancy;
     const double cohesion = peak.cohesion - residual.cohesion;
-    return {residual.friction + friction * decay,   friction * rate,
-            residual.dilatancy + dilatancy * decay, dilatancy * rate,
-            residual.cohesion + cohesion * decay,   cohesion * rate};
+    return {residual.friction + friction * decay, friction * rate, residual.dilatancy + dilatancy * decay, dilatancy * rate,
+            residual.cohesion + cohesion * decay, cohesion * rate};
   }
 
   Strength Hardening::interpolated(const std::vector<Point> &table, const double strain_at)

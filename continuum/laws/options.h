@@ -27,7 +27,8 @@ namespace diptych::continuum
                       std::pair{LawKind::cosserat_drucker_prager, "cosserat_drucker_prager"},
                       std::pair{LawKind::gradient_mohr_coulomb, "gradient_mohr_coulomb"},
                       std::pair{LawKind::gradient_drucker_prager, "gradient_drucker_prager"},
-                      std::pair{LawKind::mohr_coulomb, "mohr_coulomb"}, std::pair{LawKind::drucker_prager, "drucker_prager"},
+                      std::pair{LawKind::mohr_coulomb, "mohr_coulomb"},
+                      std::pair{LawKind::drucker_prager, "drucker_prager"},
                       std::pair{LawKind::linear_elastic, "linear_elastic"}};
   }
 
@@ -192,9 +193,10 @@ namespace diptych::continuum
             "Cosserat laws: couple modulus = 2 G length^2; gradient laws: the hardening variable is averaged over this length; "
             "sets the thickness of the band");
     visitor("couple_shear_ratio", o.couple_shear_ratio, "-", {1e-6, 1e6}, "Cosserat laws: skew modulus / shear modulus");
-    visitor("nonlocal_weight", o.nonlocal_weight, "-", {1., 10.},
-            "gradient laws: weight m of the averaged hardening variable, the local one has 1 - m; with 1 the mesh sets the band's "
-            "thickness");
+    visitor(
+      "nonlocal_weight", o.nonlocal_weight, "-", {1., 10.},
+      "gradient laws: weight m of the averaged hardening variable, the local one has 1 - m; with 1 the mesh sets the band's "
+      "thickness");
   }
 
   // The same parameters as stresses and lengths.

@@ -78,8 +78,8 @@ namespace diptych::continuum
 
     CellState cell_state(const BoundaryValueProblem &problem, const Shape &shape, const std::size_t c)
     {
-      const auto      &mesh      = problem.discretisation();
-      const Hardening *hardening = std::visit([](const auto &law) { return law.hardening(); }, problem.law());
+      const auto      &mesh        = problem.discretisation();
+      const Hardening *hardening   = std::visit([](const auto &law) { return law.hardening(); }, problem.law());
       const bool       is_cosserat = mesh.kind == ElementKind::q2_cosserat;
       CellState        state;
       for (unsigned int q = 0; q < mesh.reference.n_points; ++q)
@@ -87,7 +87,7 @@ namespace diptych::continuum
           const std::size_t     i     = c * mesh.reference.n_points + q;
           const auto           &point = problem.committed().points[i];
           const auto           &place = problem.committed().localisation[i];
-          const double          w     = problem.moved_geometry().cells[c].points[q].area;
+          const double          w     = problem.geometry().cells[c].points[q].area;
           const Eigen::Matrix2d F     = jacobian(mesh, mesh.cells[c], q, shape.now) *
                                     jacobian(mesh, mesh.cells[c], q, shape.before).inverse();
           state.strain.topLeftCorner<2, 2>() -= w * ((F + F.transpose()) / 2 - Eigen::Matrix2d::Identity());
@@ -116,9 +116,9 @@ namespace diptych::continuum
       for (auto *tensor : {&state.stress, &state.strain, &state.plastic_strain})
         *tensor /= state.area;
       state.couple_stress /= state.area;
-      for (auto *value : {&state.equivalent_plastic_strain, &state.dissipation, &state.overstress,
-                          &state.share_zz_not_intermediate, &state.friction_angle, &state.solid_fraction,
-                          &state.nonlocal_plastic_strain})
+      for (auto *value :
+           {&state.equivalent_plastic_strain, &state.dissipation, &state.overstress, &state.share_zz_not_intermediate,
+            &state.friction_angle, &state.solid_fraction, &state.nonlocal_plastic_strain})
         *value /= state.area;
       return state;
     }
@@ -268,7 +268,7 @@ namespace diptych::continuum
     {
       const auto &mesh     = problem.discretisation();
       const auto &state    = problem.committed();
-      const auto &geometry = problem.moved_geometry();
+      const auto &geometry = problem.geometry();
       double      area = 0, yielding = 0, unreliable = 0, not_intermediate = 0, viscous = 0, dissipation = 0, largest = 0,
              unstable = 0;
       for (std::size_t i = 0; i < state.points.size(); ++i)
@@ -299,7 +299,7 @@ namespace diptych::continuum
       row.share_zz_not_intermediate     = sum(not_intermediate, mesh.communicator()) / area;
       row.dissipation                   = sum(dissipation, mesh.communicator());
       row.max_equivalent_plastic_strain = dealii::Utilities::MPI::max(largest, mesh.communicator());
-      row.volumetric_strain             = 1 - area / problem.initial_area();
+      row.volumetric_strain             = 1 - sum(problem.moved_geometry().area, mesh.communicator()) / problem.initial_area();
     }
 
     void add_localisation(const BoundaryValueProblem &problem, HistoryRow &row)

@@ -39,8 +39,9 @@ namespace diptych::coupling
 
   int run_material_point(const CommandLine &line)
   {
-    const Scene          scene = scene_of(line);
-    const continuum::Law law   = continuum::make_law(uniform_law(scene.continuum.law), scene.continuum.material, continuum_units(scene));
+    const Scene                        scene = scene_of(line);
+    const continuum::Law               law   = continuum::make_law(uniform_law(scene.continuum.law), scene.continuum.material,
+                                                                   continuum_units(scene));
     const continuum::MaterialPointPath path{scene.loading.pressure, scene.loading.axial_strain, scene.continuum.initial_step};
     try
       {

@@ -153,7 +153,9 @@ namespace
         solver.restart(LinearMethod::umfpack, {});
         for (const double to : {1.2, 0.2})
           {
-            auto increment = problem.zero_vector();
+            Eigen::Matrix2d squeeze = Eigen::Matrix2d::Zero();
+            squeeze(1, 1)           = -to;
+            auto increment          = linear_field(problem, squeeze);
             problem.begin_step(to);
             problem.impose(increment);
             const NewtonReport report = solve_step(problem, solver, {1e-5, 20}, increment);

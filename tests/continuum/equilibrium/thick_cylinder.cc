@@ -84,11 +84,13 @@ namespace
             for (unsigned int p = 0; p < Element::n_points; ++p)
               {
                 const std::size_t k = c * Element::n_points + p;
-                const auto update = law.update(committed[k], strain_at<Element>(mesh.reference, geometry.cells[c], p, local), 0);
+                const Increment   increment(motion_at<Element>(mesh.reference, geometry.cells[c], p, local), false);
+                const auto        update = law.update(committed[k], increment.strain(), 0);
                 EXPECT_NE(update.verdict, Verdict::failed);
                 trial[k] = update.state;
-                add_stress<Element>(mesh.reference, geometry.cells[c], p, update.state.stress, f);
-                add_stiffness<Element>(mesh.reference, geometry.cells[c], p, update.tangent, K);
+                add_force<Element>(mesh.reference, geometry.cells[c], p, increment.force(update.state.stress), f);
+                add_stiffness<Element>(mesh.reference, geometry.cells[c], p,
+                                       increment.tangent(update.state.stress, update.tangent, motions_of<Element>), K);
               }
             for (unsigned int i = 0; i < Element::n_dofs; ++i)
               {

@@ -103,7 +103,7 @@ namespace diptych::continuum::tests
     return law == LawKind::mohr_coulomb || law == LawKind::cosserat_mohr_coulomb || law == LawKind::gradient_mohr_coulomb;
   }
 
-  inline const std::vector<LawKind> plastic_laws = {LawKind::mohr_coulomb, LawKind::drucker_prager,
+  inline const std::vector<LawKind> plastic_laws = {LawKind::mohr_coulomb,          LawKind::drucker_prager,
                                                     LawKind::cosserat_mohr_coulomb, LawKind::cosserat_drucker_prager,
                                                     LawKind::gradient_mohr_coulomb, LawKind::gradient_drucker_prager};
 

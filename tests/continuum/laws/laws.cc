@@ -407,7 +407,8 @@ namespace
   }
 
   // phi = 30 -> 20 degrees over kappa = 0.1, here at kappa = 0.03: (1 - m) 0.03 + m kbar is 0.05 for m = 2, kbar = 0.04, that is
-  // phi = 25. The rise of mobilisation, from 10 degrees, reads kappa only: its softening is 20 + 10 exp(-0.05/0.05), its deficit 20 exp(-0.03/0.03).
+  // phi = 25. The rise of mobilisation, from 10 degrees, reads kappa only: its softening is 20 + 10 exp(-0.05/0.05), its deficit
+  // 20 exp(-0.03/0.03).
   TEST(Gradient, SoftensWithTheNonlocalVariableAndRisesWithTheLocalOne)
   {
     LawOptions o            = constant(30, 0, 0);
@@ -420,8 +421,8 @@ namespace
     EXPECT_NEAR(Hardening(o, {}, 2).at(state).friction, 25 * degree, 1e-12);
     EXPECT_NEAR(Hardening(o, {}, 2).at(state).friction_rate, 100 * degree, 1e-12); // falls with kbar, rises with kappa
     EXPECT_NEAR(Hardening(o, {}, 2).by_nonlocal(state).friction_rate, -200 * degree, 1e-12);
-    o.table_strain         = {0, 0.03, 0.13};
-    o.table_friction_angle = {10, 30, 20}; // rises by 20, and falls from the softening variable 0.03 on
+    o.table_strain          = {0, 0.03, 0.13};
+    o.table_friction_angle  = {10, 30, 20}; // rises by 20, and falls from the softening variable 0.03 on
     o.table_dilatancy_angle = o.table_cohesion = {0, 0, 0};
     EXPECT_NEAR(Hardening(o, {}, 2).at(state).friction, 28 * degree, 1e-12);
     EXPECT_NEAR(Hardening(o, {}, 2).by_nonlocal(state).friction_rate, -200 * degree, 1e-12);
@@ -443,7 +444,7 @@ namespace
         Strain              e  = strain_of(0.003, -0.004, 0.001);
         const auto          b  = update(make_law(uniform_law(name), options), s0, e);
         e[nonlocal]            = b.state.equivalent_plastic_strain - s0.equivalent_plastic_strain;
-        const auto   a         = update(make_law(name, options), s0, e);
+        const auto    a        = update(make_law(name, options), s0, e);
         const Tangent D        = uniform_tangent(a.tangent);
         EXPECT_EQ(b.regime, Regime::plastic);
         EXPECT_NEAR((a.state.stress - b.state.stress).norm(), 0, 1e-12) << name_of(name);
