@@ -2,7 +2,7 @@
 
 packages=(
   g++ cmake ninja-build ccache git ca-certificates libcli11-dev
-  libdeal.ii-dev libsuitesparse-dev libgmsh-dev libeigen3-dev libhdf5-openmpi-dev openmpi-bin nlohmann-json3-dev libgtest-dev
+  libdeal.ii-dev libsuitesparse-dev libopenblas0-serial libgmsh-dev libeigen3-dev libhdf5-openmpi-dev openmpi-bin nlohmann-json3-dev libgtest-dev
   python3 python3-h5py python3-matplotlib python3-jinja2 python3-dev python3-numpy pybind11-dev
   python3-scipy python3-pandas python3-mpi4py python3-meshio python3-emcee
 )

@@ -76,7 +76,7 @@ namespace diptych::continuum
   enum class LinearChoice
   {
     automatic, // depends on the number of unknowns
-    direct,    // UMFPACK on one process, MUMPS on several
+    direct,    // LU in single precision on one process, MUMPS on several
     amg        // ML with GMRES
   };
   constexpr auto choices(LinearChoice)
@@ -168,8 +168,9 @@ namespace diptych::continuum
     visitor("refinement_levels", o.refinement_levels, "-", {1, 6}, "adaptive: number of divisions down to element_size");
     visitor("refinement_threshold", o.refinement_threshold, "-", {1e-6, 1.},
             "adaptive: an element is divided if its plastic strain in a step exceeds this share of the largest one");
-    visitor("linear_solver", o.linear_solver, "-",
-            "direct: UMFPACK on one process, MUMPS on several; amg: ML with GMRES; auto: by size");
+    visitor(
+      "linear_solver", o.linear_solver, "-",
+      "direct: LU factors in single precision on one process, MUMPS on several; amg: ML; all precondition GMRES; auto: by size");
     visitor("initial_step", o.initial_step, "strain (mode time: time)", {1e-9, 1e6}, "first load step");
     visitor("max_step", o.max_step, "strain (mode time: time)", {1e-9, 1e6}, "largest load step");
     visitor("min_step", o.min_step, "strain (mode time: time)", {1e-12, 1e6},

@@ -2,7 +2,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/elements/increment.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+
+#include <Eigen/Core>
+
+#include <deal.II/base/array_view.h>
 
 namespace diptych::continuum
 {
@@ -19,18 +25,27 @@ namespace diptych::continuum
       omega_y
     };
 
-    // Force per area: symmetric part and skew part act on the displacement, twice the skew part against the rotation.
-    PiolaStress unturned(const Stress &s)
+    // Numbers, or rows with one entry per motion: derivatives by all of them at once.
+    template <class V> using Stresses = std::array<V, n_components>;
+    template <class V> using Forces   = std::array<V, n_motions>;
+    using Row                         = Eigen::Array<double, 1, 8>;
+
+    // Symmetric and skew part act on the displacement, twice the skew part against the rotation.
+    template <class V> Forces<V> forces(const Stresses<V> &s)
     {
-      PiolaStress p;
-      p[ux_x]    = s[xx];
-      p[ux_y]    = s[xy] - s[relative_rotation];
-      p[uy_x]    = s[xy] + s[relative_rotation];
-      p[uy_y]    = s[yy];
-      p[omega]   = -2 * s[relative_rotation];
-      p[omega_x] = s[curvature_x];
-      p[omega_y] = s[curvature_y];
-      return p;
+      const V &a = s[relative_rotation];
+      return {s[xx], s[xy] - a, s[xy] + a, s[yy], -2 * a, s[curvature_x], s[curvature_y]};
+    }
+
+    constexpr unsigned int n_nonlocal = 3; // the nonlocal hardening variable and its gradient
+
+    // Takes the nonlocal part out of a stress. It has no skew part and does not turn.
+    template <class V> std::array<V, n_nonlocal> separated(Stresses<V> &s)
+    {
+      const std::array<V, n_nonlocal> part = {s[nonlocal], s[nonlocal_x], s[nonlocal_y]};
+      for (unsigned int k = 0; k < n_nonlocal; ++k)
+        s[nonlocal + k] = V(0 * part[k]);
+      return part;
     }
 
     Strain small_strain(const Motion &m)
@@ -54,24 +69,8 @@ namespace diptych::continuum
     if (is_finite)
       find_strain(motion);
     if (is_gradient)
-      for (unsigned int k = 0; k < n_components - nonlocal; ++k)
+      for (unsigned int k = 0; k < n_nonlocal; ++k)
         strain_[nonlocal + k] = motion[omega + k];
-  }
-
-  // The part that acts on the displacement.
-  Stress Increment::classical(const Stress &stress) const
-  {
-    Stress s = stress;
-    if (is_gradient)
-      s[nonlocal] = s[nonlocal_x] = s[nonlocal_y] = 0;
-    return s;
-  }
-
-  void Increment::add_nonlocal(PiolaStress &force, const Stress &stress) const
-  {
-    if (is_gradient)
-      for (unsigned int k = 0; k < n_components - nonlocal; ++k)
-        force[omega + k] = stress[nonlocal + k];
   }
 
   void Increment::find_strain(const Motion &m)
@@ -106,43 +105,49 @@ namespace diptych::continuum
     strain_[curvature_y]       = half_cosine * mid_gradient[1] - half_sine * mid_gradient[0];
   }
 
-  // The skew part does not depend on the frame.
-  Stress Increment::turned(const Stress &stress) const
-  {
-    const Stress s    = classical(stress);
-    const double mean = (s[xx] + s[yy]) / 2, a = (s[xx] - s[yy]) / 2, cos2 = cosine * cosine - sine * sine,
-                 sin2 = 2 * cosine * sine;
-    Stress t          = s;
-    t[xx]             = mean + a * cos2 - s[xy] * sin2;
-    t[yy]             = mean - a * cos2 + s[xy] * sin2;
-    t[xy]             = a * sin2 + s[xy] * cos2;
-    t[curvature_x]    = cosine * s[curvature_x] - sine * s[curvature_y];
-    t[curvature_y]    = sine * s[curvature_x] + cosine * s[curvature_y];
-    return t;
-  }
-
   namespace
   {
-    // From the force per area at the end to that at the start.
-    void pull_back(PiolaStress &p, const double (&cofactor)[2][2], const double determinant)
+    // Turned by an angle with this cosine and sine. The skew part does not depend on the frame.
+    template <class V> Stresses<V> turned(const Stresses<V> &s, const double cosine, const double sine)
     {
-      for (const unsigned int row : {unsigned(ux_x), unsigned(uy_x), unsigned(omega_x)})
+      const double cos2 = cosine * cosine - sine * sine, sin2 = 2 * cosine * sine;
+      const V      mean = (s[xx] + s[yy]) / 2, a = (s[xx] - s[yy]) / 2, deviator = a * cos2 - s[xy] * sin2;
+      return {mean + deviator,
+              mean - deviator,
+              a * sin2 + s[xy] * cos2,
+              s[relative_rotation],
+              cosine * s[curvature_x] - sine * s[curvature_y],
+              sine * s[curvature_x] + cosine * s[curvature_y]};
+    }
+
+    // From the force per area at the end to that at the start.
+    template <class V> void pull_back(Forces<V> &p, const double (&cofactor)[2][2], const double determinant)
+    {
+      for (const unsigned int k : {unsigned(ux_x), unsigned(uy_x), unsigned(omega_x)})
         {
-          const double x = p[row], y = p[row + 1];
-          p[row]     = x * cofactor[0][0] + y * cofactor[1][0];
-          p[row + 1] = x * cofactor[0][1] + y * cofactor[1][1];
+          const V x = p[k], y = p[k + 1];
+          p[k]     = x * cofactor[0][0] + y * cofactor[1][0];
+          p[k + 1] = x * cofactor[0][1] + y * cofactor[1][1];
         }
       p[omega] *= determinant;
+    }
+
+    Stresses<double> entries(const Stress &s)
+    {
+      return {s[0], s[1], s[2], s[3], s[4], s[5]};
     }
   } // namespace
 
   PiolaStress Increment::force(const Stress &stress) const
   {
-    PiolaStress p = unturned(is_finite ? turned(stress) : classical(stress));
+    Stresses<double> s    = entries(stress);
+    const auto       part = is_gradient ? separated(s) : std::array<double, n_nonlocal>();
+    Forces<double>   p    = forces(is_finite ? turned(s, cosine, sine) : s);
     if (is_finite)
       pull_back(p, cofactor, determinant);
-    add_nonlocal(p, stress);
-    return p;
+    if (is_gradient)
+      std::copy(part.begin(), part.end(), p.begin() + omega);
+    return PiolaStress(dealii::ArrayView<const double>(p.data(), n_motions));
   }
 
   // d strain / d motion[k]. With B = to_mid, the gradient on the middle shape changes by B dF B.
@@ -173,63 +178,71 @@ namespace diptych::continuum
     d[curvature_x] = half_cosine * d_gradient[0] + half_sine * d_gradient[1] + d_angle / 2 * strain_[curvature_y];
     d[curvature_y] = half_cosine * d_gradient[1] - half_sine * d_gradient[0] - d_angle / 2 * strain_[curvature_x];
     if (is_gradient)
-      {
-        d = classical(d);
-        if (k >= omega)
-          d[nonlocal + k - omega] = 1;
-      }
+      for (unsigned int i = 0; i < n_nonlocal; ++i)
+        d[nonlocal + i] = k == omega + i;
     return d;
   }
 
-  PiolaTangent Increment::small_tangent(const Tangent &law) const
+  PiolaTangent Increment::tangent(const Stress &stress, const Tangent &law) const
   {
-    PiolaTangent result;
+    Stresses<Row> d_strain, d_stress;
+    Row           d_angle = Row::Zero();
+    for (Row &row : d_strain)
+      row.setZero();
     for (unsigned int k = 0; k < n_motions; ++k)
       {
         Motion unit;
-        unit[k]               = 1;
-        const Stress d_stress = law * Increment(unit, false, is_gradient).strain();
-        PiolaStress  p        = unturned(classical(d_stress));
-        add_nonlocal(p, d_stress);
-        for (unsigned int row = 0; row < n_motions; ++row)
-          result[row][k] = p[row];
+        unit[k]        = 1;
+        const Strain d = is_finite     ? change_of_strain(k, d_angle[k])
+                         : is_gradient ? Increment(unit, false, true).strain()
+                                       : small_strain(unit);
+        for (unsigned int i = 0; i < n_components; ++i)
+          d_strain[i][k] = d[i];
       }
-    return result;
-  }
-
-  PiolaTangent Increment::tangent(const Stress &stress, const Tangent &law, const unsigned int n_columns) const
-  {
-    if (!is_finite)
-      return small_tangent(law);
-    const Stress      t    = turned(stress);
-    const PiolaStress full = unturned(t);
-    PiolaTangent      result;
-    for (unsigned int k = 0; k < n_columns; ++k)
+    for (unsigned int i = 0; i < n_components; ++i)
       {
-        double       d_angle  = 0;
-        const Strain d_strain = change_of_strain(k, d_angle);
-        const Stress in_law   = law * d_strain;
-        Stress       d_stress = turned(in_law);
-        d_stress[xx] -= 2 * d_angle * t[xy];
-        d_stress[yy] += 2 * d_angle * t[xy];
-        d_stress[xy] += d_angle * (t[xx] - t[yy]);
-        d_stress[curvature_x] -= d_angle * t[curvature_y];
-        d_stress[curvature_y] += d_angle * t[curvature_x];
-        PiolaStress d_force = unturned(d_stress);
+        d_stress[i] = law[i][0] * d_strain[0];
+        for (unsigned int j = 1; j < n_components; ++j)
+          d_stress[i] += law[i][j] * d_strain[j];
+      }
+    Stresses<double>            t = entries(stress);
+    std::array<Row, n_nonlocal> part;
+    if (is_gradient)
+      {
+        part = separated(d_stress);
+        separated(t);
+      }
+    if (is_finite)
+      {
+        d_stress = turned(d_stress, cosine, sine);
+        t        = turned(t, cosine, sine);
+      }
+    d_stress[xx] -= 2 * t[xy] * d_angle;
+    d_stress[yy] += 2 * t[xy] * d_angle;
+    d_stress[xy] += (t[xx] - t[yy]) * d_angle;
+    d_stress[curvature_x] -= t[curvature_y] * d_angle;
+    d_stress[curvature_y] += t[curvature_x] * d_angle;
+    Forces<Row> d_force = forces(d_stress);
+    if (is_finite)
+      {
         pull_back(d_force, cofactor, determinant);
-        if (k < n_classical_motions)
+        const Forces<double> full = forces(t);
+        for (unsigned int k = 0; k < n_classical_motions; ++k)
           {
             // d cofactor is +-1 in the entry opposite to the changed one of F.
             const unsigned int i = 1 - k / 2, j = 1 - k % 2;
             const double       sign = k == ux_x || k == uy_y ? 1 : -1;
             for (const unsigned int row : {unsigned(ux_x), unsigned(uy_x), unsigned(omega_x)})
-              d_force[row + j] += sign * full[row + i];
-            d_force[omega] += full[omega] * cofactor[k / 2][k % 2];
+              d_force[row + j][k] += sign * full[row + i];
+            d_force[omega][k] += full[omega] * cofactor[k / 2][k % 2];
           }
-        add_nonlocal(d_force, in_law);
-        for (unsigned int row = 0; row < n_motions; ++row)
-          result[row][k] = d_force[row];
       }
+    if (is_gradient)
+      std::copy(part.begin(), part.end(), d_force.begin() + omega);
+    PiolaTangent result;
+    for (unsigned int i = 0; i < n_motions; ++i)
+      for (unsigned int k = 0; k < n_motions; ++k)
+        result[i][k] = d_force[i][k];
     return result;
   }
 } // namespace diptych::continuum

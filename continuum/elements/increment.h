@@ -35,15 +35,11 @@ namespace diptych::continuum
 
     // Of a stress of the law, which is not turned yet.
     PiolaStress  force(const Stress &stress) const;
-    PiolaTangent tangent(const Stress &stress, const Tangent &law, unsigned int n_columns) const;
+    PiolaTangent tangent(const Stress &stress, const Tangent &law) const;
 
   private:
-    void         find_strain(const Motion &motion);
-    Stress       turned(const Stress &stress) const;
-    Strain       change_of_strain(unsigned int motion, double &d_angle) const;
-    PiolaTangent small_tangent(const Tangent &law) const;
-    Stress       classical(const Stress &stress) const;
-    void         add_nonlocal(PiolaStress &force, const Stress &stress) const;
+    void   find_strain(const Motion &motion);
+    Strain change_of_strain(unsigned int motion, double &d_angle) const;
 
     Strain strain_;
     bool   is_finite, is_gradient;

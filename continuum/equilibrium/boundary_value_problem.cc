@@ -272,13 +272,13 @@ namespace diptych::continuum
 
   // A point at the apex has hardly any stiffness, and a patch of such points would make the matrix singular. Adding a
   // thousandth of the elastic tangent changes the iterations, but not their limit.
-  PiolaTangent BoundaryValueProblem::point_tangent(const std::size_t point, const unsigned int n_columns) const
+  PiolaTangent BoundaryValueProblem::point_tangent(const std::size_t point) const
   {
     const MaterialUpdate &update = trial[point];
     if (update.regime != Regime::apex)
-      return increments[point].tangent(update.state.stress, update.tangent, n_columns);
+      return increments[point].tangent(update.state.stress, update.tangent);
     const Tangent elastic = std::visit([](const auto &law) { return law.elastic_tangent(); }, material);
-    return increments[point].tangent(update.state.stress, update.tangent + 1e-3 * elastic, n_columns);
+    return increments[point].tangent(update.state.stress, update.tangent + 1e-3 * elastic);
   }
 
   DistributedVector BoundaryValueProblem::linearised_residual(const DistributedVector &increment) const
@@ -295,8 +295,7 @@ namespace diptych::continuum
             {
               const auto &cell   = current.cells[c];
               const auto  motion = motion_at<Element>(mesh.reference, cell, q, u);
-              add_force<Element>(mesh.reference, cell, q,
-                                 PiolaStress(point_tangent(c * Element::n_points + q, motions_of<Element>) * motion), f);
+              add_force<Element>(mesh.reference, cell, q, PiolaStress(point_tangent(c * Element::n_points + q) * motion), f);
             }
           scatter<Element>(mesh.cells[c], f, force);
         }
@@ -320,8 +319,7 @@ namespace diptych::continuum
         {
           ElementMatrix<Element> K{};
           for (unsigned int q = 0; q < Element::n_points; ++q)
-            add_stiffness<Element>(mesh.reference, current.cells[c], q,
-                                   point_tangent(c * Element::n_points + q, motions_of<Element>), K);
+            add_stiffness<Element>(mesh.reference, current.cells[c], q, point_tangent(c * Element::n_points + q), K);
           for (; edge != mesh.edges.end() && edge->cell == c; ++edge)
             add_side_stiffness(*edge, Element::n_nodes > 4, -pressure, row_length<Element>, K.data());
           tangent.add<Element>(c, K);

@@ -133,7 +133,7 @@ namespace diptych::continuum
     Eigen::Vector2d                        trial_platen_force(bool upper) const;
     double                                 platen_scale() const;
     template <class L, class Element> void update_points(const L &law, Element, std::vector<double> &force);
-    PiolaTangent                           point_tangent(std::size_t point, unsigned int n_columns) const;
+    PiolaTangent                           point_tangent(std::size_t point) const;
 
     Options                             options;
     Loading                             loading;

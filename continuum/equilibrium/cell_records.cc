@@ -12,7 +12,7 @@ namespace diptych::continuum
 
   namespace
   {
-    constexpr unsigned int n_state = n_components + 11;
+    constexpr unsigned int n_state = n_components + 11, n_fields = 3; // fields: displacement and LastMotion
 
     std::array<double, n_state> packed(const MaterialState &s)
     {
@@ -102,7 +102,7 @@ namespace diptych::continuum
     {
       CellRecord record = parent;
       record[0] += 1;
-      for (const unsigned int field : {0u, 1u}) // displacement, last increment
+      for (unsigned int field = 0; field < n_fields; ++field)
         {
           const std::size_t start = 1 + field * reference.n_dofs, rotations = start + 2 * reference.n_nodes;
           for (unsigned int node = 0; node < reference.n_nodes; ++node)
@@ -115,7 +115,7 @@ namespace diptych::continuum
         }
       // Stress and the nonlocal hardening variable follow the polynomial; the hardening variable and the record of the past stay
       // within their range.
-      const std::size_t states = 1 + 2 * reference.n_dofs;
+      const std::size_t states = 1 + n_fields * reference.n_dofs;
       for (unsigned int k = 0; k < n_state; ++k)
         {
           const double *values = &parent[states + k];
@@ -131,10 +131,10 @@ namespace diptych::continuum
 
   std::size_t record_length(const ReferenceElement &reference)
   {
-    return 1 + 2 * reference.n_dofs + reference.n_points * n_state;
+    return 1 + n_fields * reference.n_dofs + reference.n_points * n_state;
   }
 
-  std::vector<CellRecord> make_records(const BoundaryValueProblem &problem, const std::vector<double> &last_increment)
+  std::vector<CellRecord> make_records(const BoundaryValueProblem &problem, const LastMotion &last)
   {
     const auto             &mesh = problem.discretisation();
     std::vector<CellRecord> records;
@@ -144,7 +144,7 @@ namespace diptych::continuum
           const std::size_t c    = records.size();
           const auto       &cell = mesh.cells[c];
           CellRecord        record{double(active->level())};
-          for (const auto *values : {&problem.committed().displacement, &last_increment})
+          for (const auto *values : {&problem.committed().displacement, &last.increment, &last.curvature})
             for (unsigned int i = 0; i < mesh.reference.n_dofs; ++i)
               record.push_back((*values)[cell.local[i]]);
           for (unsigned int q = 0; q < mesh.reference.n_points; ++q)
@@ -163,7 +163,7 @@ namespace diptych::continuum
     RestoredState restored;
     restored.state.progress = progress;
     restored.state.displacement.assign(mesh.relevant.n_elements(), 0.);
-    restored.last_increment = restored.state.displacement;
+    restored.last.increment = restored.last.curvature = restored.state.displacement;
     const ChildWeights children(mesh.reference);
     std::size_t        c = 0;
     for (const auto &active : mesh.dof_handler.active_cell_iterators())
@@ -180,10 +180,11 @@ namespace diptych::continuum
           for (unsigned int i = 0; i < mesh.reference.n_dofs; ++i)
             {
               restored.state.displacement[mesh.cells[c].local[i]] = record[1 + i];
-              restored.last_increment[mesh.cells[c].local[i]]     = record[1 + mesh.reference.n_dofs + i];
+              restored.last.increment[mesh.cells[c].local[i]]     = record[1 + mesh.reference.n_dofs + i];
+              restored.last.curvature[mesh.cells[c].local[i]]     = record[1 + 2 * mesh.reference.n_dofs + i];
             }
           for (unsigned int q = 0; q < mesh.reference.n_points; ++q)
-            restored.state.points.push_back(unpacked(&record[1 + 2 * mesh.reference.n_dofs + q * n_state]));
+            restored.state.points.push_back(unpacked(&record[1 + n_fields * mesh.reference.n_dofs + q * n_state]));
           ++c;
         }
     restored.state.localisation.assign(restored.state.points.size(), {});

@@ -8,18 +8,25 @@
 
 namespace diptych::continuum
 {
-  // One row of numbers per cell: refinement level, nodal displacement and last increment (as in Cell::dofs), state of every
-  // point. Records do not depend on how cells are distributed over processes.
+  // Motion of the nodes in the accepted steps, from which the next one is extrapolated; on the relevant dofs.
+  struct LastMotion
+  {
+    std::vector<double> increment; // of the last step
+    std::vector<double> curvature; // second derivative of the displacement by the progress
+  };
+
+  // One row of numbers per cell: refinement level, nodal displacement and last motion (as in Cell::dofs), state of every point.
+  // Records do not depend on how cells are distributed over processes.
   using CellRecord = std::vector<double>;
 
   std::size_t record_length(const ReferenceElement &reference);
 
-  std::vector<CellRecord> make_records(const BoundaryValueProblem &problem, const std::vector<double> &last_increment);
+  std::vector<CellRecord> make_records(const BoundaryValueProblem &problem, const LastMotion &last);
 
   struct RestoredState
   {
-    CommittedState      state;
-    std::vector<double> last_increment; // relevant dofs
+    CommittedState state;
+    LastMotion     last;
   };
 
   // Reads the records of the present cells, or of their parents if the level of a record is lower. Displacement of a child is

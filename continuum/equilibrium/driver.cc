@@ -50,7 +50,8 @@ namespace diptych::continuum
   {
     DriverState start;
     start.step = std::min(options.initial_step, options.max_step);
-    start.last_increment.assign(problem.committed().displacement.size(), 0.);
+    start.last.increment.assign(problem.committed().displacement.size(), 0.);
+    start.last.curvature = start.last.increment;
     restart(start);
   }
 
@@ -137,14 +138,15 @@ namespace diptych::continuum
     return {};
   }
 
-  // Scales the last increment. It already contains the band's pattern of loading and unloading, which a tangent at the
-  // beginning of the step does not. The first step has only the tangent.
+  // Extrapolates the last two increments. They already contain the band's pattern of loading and unloading, which a tangent at
+  // the beginning of the step does not. The first step has only the tangent.
   DistributedVector LoadDriver::predict(const double to)
   {
     if (now.last_step > 0)
       {
-        auto increment = problem.owned_values(now.last_increment);
-        increment *= (to - problem.progress()) / now.last_step;
+        const double size      = to - problem.progress();
+        auto         increment = problem.owned_values(now.last.increment);
+        increment.sadd(size / now.last_step, size * (size + now.last_step) / 2, problem.owned_values(now.last.curvature));
         problem.impose(increment);
         return increment;
       }
@@ -165,7 +167,7 @@ namespace diptych::continuum
     if (options.refinement != Refinement::adaptive)
       return {};
     const RefinementRule rule{options.refinement_levels, options.refinement_threshold};
-    const auto           divided = refine(problem, rule, plastic_increments(problem), now.last_increment);
+    const auto           divided = refine(problem, rule, plastic_increments(problem), now.last);
     if (divided)
       {
         ++now.count.refinements;
@@ -216,7 +218,11 @@ namespace diptych::continuum
   {
     problem.commit();
     solver.forget_memory();
-    now.last_increment = problem.relevant_values(increment);
+    const auto latest = problem.relevant_values(increment);
+    if (now.last_step > 0)
+      for (std::size_t i = 0; i < latest.size(); ++i)
+        now.last.curvature[i] = (latest[i] / size - now.last.increment[i] / now.last_step) / ((size + now.last_step) / 2);
+    now.last.increment = latest;
     now.last_step      = size;
     ++now.count.steps;
     if (iterations <= easy)

@@ -21,11 +21,11 @@ namespace diptych::continuum
 
   struct DriverState
   {
-    StepCounts          count;
-    double              step      = 0;  // intended length of the next step [progress]
-    double              last_step = 0;  // last accepted length; 0: none yet
-    std::vector<double> last_increment; // last accepted one; relevant dofs
-    Divisions           divisions;      // history of the mesh
+    StepCounts count;
+    double     step      = 0; // intended length of the next step [progress]
+    double     last_step = 0; // last accepted length; 0: none yet
+    LastMotion last;
+    Divisions  divisions; // history of the mesh
   };
 
   // Drives the problem along its loading path. A step that does not converge is halved; after an easy step the next one is

@@ -49,7 +49,7 @@ namespace diptych::continuum
   {
     if (choice == LinearChoice::amg || (choice == LinearChoice::automatic && n_unknowns >= 400000))
       return LinearMethod::amg;
-    return Utilities::MPI::n_mpi_processes(communicator) == 1 ? LinearMethod::umfpack : LinearMethod::mumps;
+    return Utilities::MPI::n_mpi_processes(communicator) == 1 ? LinearMethod::supernodal : LinearMethod::mumps;
   }
 
   LinearSolver::LinearSolver(const LinearMethod method)
@@ -62,7 +62,7 @@ namespace diptych::continuum
     method      = new_method;
     rigid_modes = std::move(modes);
     memory.reset();
-    umfpack.forget_pattern();
+    lu.forget_pattern();
     forget();
   }
 
@@ -79,7 +79,6 @@ namespace diptych::continuum
     go_on_counting(before.n_iterations, before.n_factorisations, before.seconds);
     if (before.replaced)
       {
-        umfpack.forget_pattern();
         forget();
         waiting = std::move(before.replaced);
         if (!waiting->factorised.empty()) // otherwise nothing is kept and the next solve() factorises
@@ -99,7 +98,6 @@ namespace diptych::continuum
   {
     keep_what_is_replaced();
     waiting.reset();
-    umfpack.forget_factors();
     mumps.reset();
     amg.reset();
     factorised.reset();
@@ -111,14 +109,13 @@ namespace diptych::continuum
     if (waiting)
       return *waiting;
     KeptPreconditioner kept;
-    if (method == LinearMethod::umfpack)
-      kept = {is_stale, umfpack.analysed(), umfpack.factorised(), {}};
-    if (method == LinearMethod::amg && factorised && is_on_one_process(*factorised))
+    if (method != LinearMethod::mumps && factorised && is_on_one_process(*factorised))
       {
         const auto [values, n] = stored_values(*factorised);
-        kept                   = {is_stale, {}, {values, values + n}, {}};
-        for (const Vector &mode : rigid_modes)
-          kept.rigid_modes.emplace_back(mode.begin(), mode.end());
+        kept                   = {is_stale, {values, values + n}, {}};
+        if (method == LinearMethod::amg)
+          for (const Vector &mode : rigid_modes)
+            kept.rigid_modes.emplace_back(mode.begin(), mode.end());
       }
     return kept;
   }
@@ -129,27 +126,22 @@ namespace diptych::continuum
     if (!is_on_one_process(pattern) || method == LinearMethod::mumps)
       return true;                                         // nothing to restore
     bool fits = kept.is_stale || !kept.factorised.empty(); // if not stale, it preconditions the next solve
-    if (fits && method == LinearMethod::umfpack && !(kept.analysed.empty() && kept.factorised.empty()))
-      fits = umfpack.take_up(pattern, kept.analysed, kept.factorised);
-    if (fits && method == LinearMethod::amg && !kept.factorised.empty())
+    if (fits && !kept.factorised.empty())
       {
         factorised = std::make_unique<TrilinosWrappers::SparseMatrix>();
         factorised->copy_from(pattern);
         const auto [values, n] = stored_values(*factorised);
-        fits                   = n == kept.factorised.size() && kept.rigid_modes.size() == rigid_modes.size();
-        for (std::size_t k = 0; fits && k < rigid_modes.size(); ++k)
+        fits = n == kept.factorised.size() && kept.rigid_modes.size() == (method == LinearMethod::amg ? rigid_modes.size() : 0);
+        for (std::size_t k = 0; fits && k < kept.rigid_modes.size(); ++k)
           std::copy(kept.rigid_modes[k].begin(), kept.rigid_modes[k].end(), rigid_modes[k].begin());
         if (fits)
           std::copy(kept.factorised.begin(), kept.factorised.end(), values);
-        fits = fits && build_amg(*factorised);
+        fits = fits && build();
       }
     if (fits)
       is_stale = kept.is_stale;
     else
-      {
-        umfpack.forget_pattern();
-        forget();
-      }
+      forget();
     return fits;
   }
 
@@ -160,7 +152,7 @@ namespace diptych::continuum
     else if (method == LinearMethod::mumps)
       mumps->solve(x, b);
     else
-      umfpack.solve(x, b);
+      lu.solve(x, b);
   }
 
   bool LinearSolver::solve(const TrilinosWrappers::SparseMatrix &matrix, Vector &x, const Vector &rhs)
@@ -169,26 +161,18 @@ namespace diptych::continuum
     bool       done  = false;
     if (waiting)
       (void)take_up(KeptPreconditioner(*waiting), matrix); // it fitted before; otherwise it is rebuilt
-    is_fresh = is_stale;
+    const bool is_fresh = is_stale;
     if (!is_stale || factorise(matrix))
       done = solve_iteratively(matrix, x, rhs);
     if (!done && !is_fresh && factorise(matrix))
-      {
-        is_fresh = true;
-        done     = solve_iteratively(matrix, x, rhs);
-      }
+      done = solve_iteratively(matrix, x, rhs);
     seconds += double(std::clock() - start) / CLOCKS_PER_SEC;
     return done;
   }
 
   bool LinearSolver::solve_iteratively(const TrilinosWrappers::SparseMatrix &matrix, Vector &x, const Vector &rhs)
   {
-    x = 0;
-    if (is_fresh && method != LinearMethod::amg)
-      {
-        vmult(x, rhs);
-        return std::isfinite(x.l2_norm());
-      }
+    x                                         = 0;
     const auto                          limit = patience(method);
     SolverControl                       control(limit.longest, reduction * rhs.l2_norm(), false, false);
     SolverGMRES<Vector>::AdditionalData settings(std::min(limit.longest, 60u) + 3, true);
@@ -212,17 +196,30 @@ namespace diptych::continuum
     keep_what_is_replaced();
     ++n_factorisations;
     is_stale = false;
-    if (method == LinearMethod::umfpack)
-      {
-        is_stale = !umfpack.factorise(matrix);
-        return !is_stale;
-      }
     mumps.reset();
     amg.reset();
-    factorised = std::make_unique<TrilinosWrappers::SparseMatrix>();
-    factorised->copy_from(matrix);
+    if (factorised && is_on_one_process(matrix))
+      {
+        const auto [from, n] = stored_values(matrix);
+        std::copy(from, from + n, stored_values(*factorised).first);
+      }
+    else
+      {
+        factorised = std::make_unique<TrilinosWrappers::SparseMatrix>();
+        factorised->copy_from(matrix);
+      }
+    if (build())
+      return true;
+    forget();
+    return false;
+  }
+
+  bool LinearSolver::build()
+  {
+    if (method == LinearMethod::supernodal)
+      return lu.factorise(*factorised);
     if (method == LinearMethod::amg)
-      return build_amg(*factorised);
+      return build_amg();
     mumps = std::make_unique<TrilinosWrappers::SolverDirect>(
       direct_control, TrilinosWrappers::SolverDirect::AdditionalData(false, "Amesos_Mumps"));
     try
@@ -231,14 +228,13 @@ namespace diptych::continuum
       }
     catch (const ExceptionBase &) // a singular tangent
       {
-        forget();
         return false;
       }
     return true;
   }
 
   // deal.II's interface accepts only modes that are constant per component. The rotation of the sample goes to ML directly.
-  bool LinearSolver::build_amg(const TrilinosWrappers::SparseMatrix &matrix)
+  bool LinearSolver::build_amg()
   {
     TrilinosWrappers::PreconditionAMG::AdditionalData settings;
     settings.elliptic              = false; // not symmetric
@@ -247,8 +243,8 @@ namespace diptych::continuum
     settings.aggregation_threshold = 0.02;
     Teuchos::ParameterList              parameters;
     std::unique_ptr<Epetra_MultiVector> unused;
-    settings.set_parameters(parameters, unused, matrix.trilinos_matrix());
-    Epetra_MultiVector modes(matrix.trilinos_matrix().DomainMap(), int(rigid_modes.size()));
+    settings.set_parameters(parameters, unused, factorised->trilinos_matrix());
+    Epetra_MultiVector modes(factorised->trilinos_matrix().DomainMap(), int(rigid_modes.size()));
     for (std::size_t k = 0; k < rigid_modes.size(); ++k)
       std::copy(rigid_modes[k].begin(), rigid_modes[k].end(), modes[int(k)]);
     parameters.set("PDE equations", 1);
@@ -258,11 +254,10 @@ namespace diptych::continuum
     amg = std::make_unique<TrilinosWrappers::PreconditionAMG>();
     try
       {
-        amg->initialize(matrix, parameters);
+        amg->initialize(*factorised, parameters);
       }
     catch (const ExceptionBase &)
       {
-        forget();
         return false;
       }
     return true;

@@ -12,7 +12,7 @@
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
-#include "continuum/equilibrium/umfpack.h"
+#include "continuum/equilibrium/supernodal_lu.h"
 #include "continuum/options.h"
 
 namespace diptych::continuum
@@ -22,7 +22,7 @@ namespace diptych::continuum
 
   enum class LinearMethod
   {
-    umfpack, // one process
+    supernodal, // own LU in single precision, on one process
     mumps,
     amg // ML's smoothed aggregation
   };
@@ -30,13 +30,13 @@ namespace diptych::continuum
   // `automatic` selects AMG from `n_unknowns` = 400000 on. At 200000 the direct solver took 22 s, AMG 45 s.
   LinearMethod linear_method(LinearChoice choice, std::size_t n_unknowns, MPI_Comm communicator);
 
-  // State of a solver for a checkpoint: the matrices behind its preconditioner, as values in the order of the tangent's
-  // pattern. On several processes nothing is kept, and the next solve() factorises again.
+  // State of a solver for a checkpoint: the matrix behind its preconditioner, as values in the order of the tangent's pattern.
+  // On several processes nothing is kept, and the next solve() factorises again.
   struct KeptPreconditioner
   {
     bool                             is_stale = true;
-    std::vector<double>              analysed, factorised; // UMFPACK; AMG keeps only the second
-    std::vector<std::vector<double>> rigid_modes;          // AMG
+    std::vector<double>              factorised;
+    std::vector<std::vector<double>> rigid_modes; // AMG
   };
 
   // The factors (or the multigrid hierarchy) of an earlier tangent precondition GMRES on the present one, from the right.
@@ -59,7 +59,7 @@ namespace diptych::continuum
     KeptPreconditioner kept() const;
 
     // A step stopped on request must change nothing. `remember()` saves preconditioner and counts. They are restored by
-    // put_back() and dropped by forget_memory(). Matrices are copied only when replaced; the preconditioner is rebuilt when it
+    // put_back() and dropped by forget_memory(). The matrix is copied only when replaced; the preconditioner is rebuilt when it
     // is needed.
     void remember();
     void put_back();
@@ -89,26 +89,27 @@ namespace diptych::continuum
       bool                              is_stale;
       int                               n_iterations, n_factorisations;
       double                            seconds;
-      std::optional<KeptPreconditioner> replaced; // matrices replaced since then
+      std::optional<KeptPreconditioner> replaced; // since then
     };
 
     void keep_what_is_replaced();
     bool solve_iteratively(const dealii::TrilinosWrappers::SparseMatrix &matrix, Vector &x, const Vector &rhs);
     bool factorise(const dealii::TrilinosWrappers::SparseMatrix &matrix);
-    bool build_amg(const dealii::TrilinosWrappers::SparseMatrix &matrix);
+    bool build(); // the preconditioner, from `factorised`
+    bool build_amg();
 
     LinearMethod          method;
     RigidModes            rigid_modes;
-    Umfpack               umfpack;
+    SupernodalLu          lu;
     dealii::SolverControl direct_control;
-    // MUMPS and ML continue to read this matrix while the problem assembles or changes its structure. It must outlive both.
+    // A copy: the problem assembles again or changes its structure while MUMPS and ML continue to read this matrix.
     std::unique_ptr<dealii::TrilinosWrappers::SparseMatrix>    factorised;
     std::unique_ptr<dealii::TrilinosWrappers::SolverDirect>    mumps;
     std::unique_ptr<dealii::TrilinosWrappers::PreconditionAMG> amg;
-    bool                                                       is_fresh = false, is_stale = true;
+    bool                                                       is_stale     = true;
     int                                                        n_iterations = 0, n_factorisations = 0;
     double                                                     seconds = 0;
     std::optional<Memory>                                      memory;
-    std::optional<KeptPreconditioner>                          waiting; // matrices for the preconditioner of the next solve()
+    std::optional<KeptPreconditioner>                          waiting; // for the next solve()
   };
 } // namespace diptych::continuum

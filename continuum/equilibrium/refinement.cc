@@ -69,12 +69,12 @@ namespace diptych::continuum
   std::optional<DividedCells> refine(BoundaryValueProblem      &problem,
                                      const RefinementRule      &rule,
                                      const std::vector<double> &increments,
-                                     std::vector<double>       &last_increment)
+                                     LastMotion                &last)
   {
     if (!flag_cells(problem, rule, increments))
       return std::nullopt;
     auto      &mesh     = problem.discretisation();
-    const auto records  = make_records(problem, last_increment);
+    const auto records  = make_records(problem, last);
     const auto progress = problem.progress();
 
     mesh.triangulation.prepare_coarsening_and_refinement();
@@ -99,8 +99,8 @@ namespace diptych::continuum
     for (const auto &cell : mesh.triangulation.active_cell_iterators())
       if (cell->is_locally_owned())
         mine.push_back(std::move(received[cell->active_cell_index()]));
-    auto restored  = read_records(problem, mine, progress);
-    last_increment = std::move(restored.last_increment);
+    auto restored = read_records(problem, mine, progress);
+    last          = std::move(restored.last);
     problem.adopt(std::move(restored.state));
     return divided;
   }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "continuum/equilibrium/boundary_value_problem.h"
+#include "continuum/equilibrium/cell_records.h"
 
 namespace diptych::continuum
 {
@@ -25,12 +25,12 @@ namespace diptych::continuum
   using Divisions    = std::vector<DividedCells>;
 
   // Divides elements with one ring of neighbours and transfers the state to the new mesh, where it is not exactly in
-  // equilibrium. `last_increment`: on the relevant dofs, before and after. Returns nothing if the mesh does not change.
+  // equilibrium. `last`: before and after. Returns nothing if the mesh does not change.
   // Collective.
   [[nodiscard]] std::optional<DividedCells> refine(BoundaryValueProblem      &problem,
                                                    const RefinementRule      &rule,
                                                    const std::vector<double> &increments,
-                                                   std::vector<double>       &last_increment);
+                                                   LastMotion                &last);
 
   // Repeats the divisions of another mesh on a fresh one. Every process must have all divisions. Collective.
   void divide_again(Discretisation &mesh, const Divisions &divisions);

@@ -24,9 +24,9 @@ namespace diptych::continuum
       : cone{Hardening(options, units), shape},
         moduli_(elastic_moduli(in_units(options, units), is_cosserat)),
         pressure_modulus(shape == ConeShape::mohr_coulomb ? moduli_.plane_bulk : moduli_.bulk),
-        elastic(continuum::elastic_tangent(moduli_)),
         viscosity(in_units(options, units).viscosity),
-        couple_scale(is_cosserat ? std::sqrt(2.) * in_units(options, units).internal_length : 0)
+        couple_scale(is_cosserat ? std::sqrt(2.) * in_units(options, units).internal_length : 0),
+        elastic(continuum::elastic_tangent(moduli_))
   {
     // Sum over the unit vectors of g: the outer product of the conjugate stress with itself.
     for (unsigned int k = 0; k < Deviatoric::dimension; ++k)
@@ -85,15 +85,21 @@ namespace diptych::continuum
 
   MaterialUpdate ConeLaw::update(const MaterialState &s0, const Strain &d_strain, const double d_time) const
   {
-    const Trial trial = elastic_trial(s0, d_strain);
-    return is_outside(trial) ? plastic_answer(trial, radial_return(trial, d_time)) : elastic_answer(trial);
+    const Trial     trial = elastic_trial(s0, d_strain);
+    const ConeStart start = start_of(s0);
+    return is_outside(trial, start.cone) ? plastic_answer(trial, radial_return(trial, start, d_time)) : elastic_answer(trial);
   }
 
-  bool ConeLaw::is_outside(const Trial &trial) const
+  bool ConeLaw::is_outside(const Trial &trial, const Cone &c) const
   {
-    const Cone   c     = cone.at(hardening_state(trial.state));
     const double yield = trial.shear - trial.pressure * c.slope - c.intercept;
     return !(yield <= 1e-12 * (trial.shear + std::abs(trial.pressure) + c.intercept));
+  }
+
+  ConeStart ConeLaw::start_of(const MaterialState &s0) const
+  {
+    const HardeningState state = hardening_state(s0);
+    return {state, cone.at(state)};
   }
 
   ConeLaw::Trial ConeLaw::elastic_trial(const MaterialState &s0, const Strain &d_strain) const
@@ -110,14 +116,14 @@ namespace diptych::continuum
     return trial;
   }
 
-  ConeReturn ConeLaw::radial_return(const Trial &trial, const double d_time) const
+  ConeReturn ConeLaw::radial_return(const Trial &trial, const ConeStart &start, const double d_time) const
   {
     ReturnPath path;
     path.shear                     = trial.shear;
     path.pressure                  = trial.pressure;
     path.shear_loss                = moduli_.shear;
     path.pressure_gain_by_dilation = pressure_modulus;
-    return return_to_cone(cone, hardening_state(trial.state), path, viscous_modulus(d_time), moduli_.shear);
+    return return_to_cone(cone, start, path, viscous_modulus(d_time), moduli_.shear);
   }
 
   MaterialUpdate ConeLaw::elastic_answer(const Trial &trial) const
@@ -151,9 +157,10 @@ namespace diptych::continuum
     state.densification             = hardened.densification;
     state.overstress                = end.overstress;
 
-    answer.tangent = ratio * G * metric + G * (end.shear_by_shear - ratio) * outer_product(n, n) -
-                     B * end.shear_by_pressure * outer_product(n, one) - G * end.pressure_by_shear * outer_product(one, n) +
-                     B * end.pressure_by_pressure * outer_product(one, one);
+    const Stress by_shear    = G * ((end.shear_by_shear - ratio) * n - end.pressure_by_shear * one); // coefficient of n.dg
+    const Stress by_pressure = B * (end.pressure_by_pressure * one - end.shear_by_pressure * n);     // coefficient of tr(de)
+    for (unsigned int i = 0; i < n_components; ++i)
+      answer.tangent[i] = ratio * G * metric[i] + by_shear[i] * n + by_pressure[i] * one;
     answer.tangent[relative_rotation][relative_rotation] = moduli_.skew;
     return answer;
   }

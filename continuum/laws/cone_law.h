@@ -43,13 +43,14 @@ namespace diptych::continuum
     };
 
     Trial          elastic_trial(const MaterialState &s0, const Strain &d_strain) const;
-    ConeReturn     radial_return(const Trial &trial, double d_time) const;
+    ConeStart      start_of(const MaterialState &s0) const;
+    ConeReturn     radial_return(const Trial &trial, const ConeStart &start, double d_time) const;
     MaterialUpdate elastic_answer(const Trial &trial) const;
     MaterialUpdate plastic_answer(const Trial &trial, const ConeReturn &end) const;
     double         viscous_modulus(double d_time) const { return d_time > 0 ? viscosity / d_time : 0; }
 
     Stress conjugate(const Deviatoric &q) const; // q . dg/d(strain)
-    bool   is_outside(const Trial &trial) const;
+    bool   is_outside(const Trial &trial, const Cone &cone) const;
 
     YieldCone     cone;
     ElasticModuli moduli_;

@@ -18,26 +18,35 @@ namespace diptych::continuum
     double pressure_gain = 0, pressure_gain_by_dilation = 0;
   };
 
+  // The hardening at the start of a step and the cone there.
+  struct ConeStart
+  {
+    HardeningState hardening;
+    Cone           cone;
+  };
+
   // End of the return and its derivatives by the trial's shear t0 and pressure s0.
   struct ConeReturn
   {
     double  multiplier = 0, multiplier_by_shear = 0, multiplier_by_pressure = 0;
     double  shear = 0, shear_by_shear = 0, shear_by_pressure = 0;
     double  pressure = 0, pressure_by_shear = 0, pressure_by_pressure = 0;
-    double  overstress = 0; // viscous_modulus * multiplier [pressure]
+    double  dilation = 0, dilation_rate = 0; // of the cone over the step
+    double  overstress = 0;                  // viscous_modulus * multiplier [pressure]
     Regime  regime     = Regime::plastic;
     Verdict verdict    = Verdict::reliable;
   };
 
   // Solves F(lambda) = t - s slope - intercept - viscous_modulus lambda = 0 with the cone at the end of the step. Newton's
-  // iteration stays inside a bracket and converges to 1e-13 of the trial stress. F must be positive at lambda = 0. If F is
-  // still positive when t has shrunk to zero, the stress returns to the tip of the cone: t = 0, s = -(intercept +
-  // viscous_modulus lambda)/slope. Opening at the tip adds nothing to lambda, so the answer is continuous in the trial stress.
+  // iteration starts at lambda = 0, stays inside a bracket and converges to 1e-13 of the trial stress. F must be positive at
+  // lambda = 0. If F is still positive when t has shrunk to zero, the stress returns to the tip of the cone: t = 0, s =
+  // -(intercept + viscous_modulus lambda)/slope. This is examined only where the pressure may become negative on the way.
+  // Opening at the tip adds nothing to lambda, so the answer is continuous in the trial stress.
   // The verdict is `unreliable` if -dF/dlambda < 0.1 `reference_modulus` at the root or at lambda = 0. It is `failed` if no
   // root was found or F(0) <= 0.
-  ConeReturn return_to_cone(const YieldCone      &cone,
-                            const HardeningState &start_state,
-                            const ReturnPath     &path,
-                            double                viscous_modulus,
-                            double                reference_modulus);
+  ConeReturn return_to_cone(const YieldCone  &cone,
+                            const ConeStart  &start,
+                            const ReturnPath &path,
+                            double            viscous_modulus,
+                            double            reference_modulus);
 } // namespace diptych::continuum

@@ -18,10 +18,11 @@ namespace diptych::continuum
   {
     MaterialState start = s0;
     start.nonlocal_plastic_strain += d_strain[nonlocal];
-    const Trial trial = elastic_trial(start, d_strain);
-    if (!is_outside(trial))
+    const Trial     trial    = elastic_trial(start, d_strain);
+    const ConeStart at_start = start_of(trial.state);
+    if (!is_outside(trial, at_start.cone))
       return elastic_answer(trial);
-    const ConeReturn end    = radial_return(trial, d_time);
+    const ConeReturn end    = radial_return(trial, at_start, d_time);
     MaterialUpdate   answer = plastic_answer(trial, end);
     add_nonlocal_part(trial, end, answer);
     return answer;
@@ -32,7 +33,7 @@ namespace diptych::continuum
   // with slope f, intercept g and dilation d of the cone. At its tip t = lambda_k = 0 and s_k = -(s f_k + g_k)/f.
   void GradientLaw::add_nonlocal_part(const Trial &trial, const ConeReturn &end, MaterialUpdate &answer) const
   {
-    const Cone   c = cone.of(cone.hardening.by_nonlocal(hardening_state(answer.state)));
+    const Cone   c = cone.by_nonlocal(hardening_state(answer.state));
     const double G = moduli_.shear, B = pressure_modulus, scale = moduli_.skew;
     const double falls = -(end.pressure * c.slope_rate + c.intercept_rate), volume = B * end.multiplier * c.dilation_rate;
     const bool   tip = end.regime == Regime::apex;

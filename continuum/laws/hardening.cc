@@ -3,7 +3,6 @@
 #include "continuum/laws/hardening.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "continuum/require.h"
@@ -14,13 +13,9 @@ namespace diptych::continuum
   {
     constexpr double one_degree = 3.14159265358979323846 / 180;
 
-    // The angle of a sine and its rate. The sine is cut off at 0.95, because the rate diverges at 1.
-    std::array<double, 2> angle(const double sine, const double sine_rate)
+    double cosine(const double sine)
     {
-      constexpr double most   = 0.95;
-      const bool       is_cut = std::abs(sine) > most;
-      const double     kept   = std::clamp(sine, -most, most);
-      return {std::asin(kept), is_cut ? 0 : sine_rate / std::sqrt(1 - kept * kept)};
+      return std::sqrt((1 - sine) * (1 + sine));
     }
 
     void add(Strength &s, const Strength &more)
@@ -28,6 +23,14 @@ namespace diptych::continuum
       s.friction += more.friction, s.friction_rate += more.friction_rate;
       s.dilatancy += more.dilatancy, s.dilatancy_rate += more.dilatancy_rate;
       s.cohesion += more.cohesion, s.cohesion_rate += more.cohesion_rate;
+    }
+
+    // A square root gives the cosine faster than std::cos. All angles lie between -90 and 90 degrees.
+    StrengthBySines by_sines(const Strength &s)
+    {
+      const double sin_phi = std::sin(s.friction), sin_psi = std::sin(s.dilatancy), cos_phi = cosine(sin_phi);
+      return {sin_phi,    cos_phi * s.friction_rate, sin_psi, cosine(sin_psi) * s.dilatancy_rate,
+              s.cohesion, s.cohesion_rate,           cos_phi};
     }
   } // namespace
 
@@ -73,7 +76,7 @@ namespace diptych::continuum
   void Hardening::separate_rises()
   {
     rises.assign(table.size(), {});
-    for (std::size_t k = table.size(); k-- > 1;) // downwards, as differences of neighbours are still needed
+    for (std::size_t k = 1; k < table.size(); ++k)
       for (double Point::*value : {&Point::friction, &Point::dilatancy, &Point::cohesion})
         rises[k].*value = std::max(0., table[k].*value - table[k - 1].*value);
     for (std::size_t k = 1; k < table.size(); ++k)
@@ -87,20 +90,10 @@ namespace diptych::continuum
       }
   }
 
-  Strength Hardening::at(const HardeningState &state) const
+  Strength Hardening::angles_at(const HardeningState &state) const
   {
-    if (critical_state.is_on)
-      return critical(state);
     Strength s = softened(state, 1 - nonlocal_weight);
     add(s, risen(state));
-    return s;
-  }
-
-  Strength Hardening::by_nonlocal(const HardeningState &state) const
-  {
-    Strength       s = softened(state, nonlocal_weight);
-    const Strength r = risen(state);
-    add(s, {r.friction, 0, r.dilatancy, 0, r.cohesion, 0});
     return s;
   }
 
@@ -133,6 +126,32 @@ namespace diptych::continuum
     return {-lacks, lacks / mobilisation_strain};
   }
 
+  Strength Hardening::at(const HardeningState &state) const
+  {
+    if (!critical_state.is_on)
+      return angles_at(state);
+    const StrengthBySines s = critical(state);
+    return {std::asin(s.friction),
+            s.friction_rate / s.friction_cosine,
+            std::asin(s.dilatancy),
+            s.dilatancy_rate / cosine(s.dilatancy),
+            s.cohesion,
+            s.cohesion_rate};
+  }
+
+  StrengthBySines Hardening::sines_at(const HardeningState &state) const
+  {
+    return critical_state.is_on ? critical(state) : by_sines(angles_at(state));
+  }
+
+  StrengthBySines Hardening::sines_by_nonlocal(const HardeningState &state) const
+  {
+    Strength       s = softened(state, nonlocal_weight);
+    const Strength r = risen(state);
+    add(s, {r.friction, 0, r.dilatancy, 0, r.cohesion, 0});
+    return by_sines(s);
+  }
+
   double Hardening::solid_fraction(const HardeningState &state) const
   {
     return critical_state.is_on ? critical_state.solid_fraction * std::exp(state.densification) : 0;
@@ -144,15 +163,20 @@ namespace diptych::continuum
             critical_state.start_possible + critical_state.by_density * state.densification};
   }
 
-  // sin phi = eta and sin psi = (eta - eta_c)/beta, both cut off at 0.95.
-  Strength Hardening::critical(const HardeningState &state) const
+  // sin phi = eta and sin psi = (eta - eta_c)/beta, both cut off.
+  StrengthBySines Hardening::critical(const HardeningState &state) const
   {
-    const Excess e         = excess(state);
-    const double rate      = (e.possible - e.mobilised) / critical_state.mobilisation_strain;
-    const auto   friction  = angle(std::max(0., critical_state.stress_ratio + e.mobilised),
-                                critical_state.stress_ratio + e.mobilised > 0 ? rate : 0);
-    const auto   dilatancy = angle(dilation(state), rate / critical_state.dilatancy_ratio);
-    return {friction[0], friction[1], dilatancy[0], dilatancy[1], peak.cohesion, 0};
+    const Excess   e         = excess(state);
+    const double   rate      = (e.possible - e.mobilised) / critical_state.mobilisation_strain;
+    const double   eta       = critical_state.stress_ratio + e.mobilised;
+    const Dilation friction  = cut_off(std::max(0., eta), eta > 0 ? rate : 0);
+    const Dilation dilatancy = cut_off(dilation(state), rate / critical_state.dilatancy_ratio);
+    return {friction.sine, friction.rate, dilatancy.sine, dilatancy.rate, peak.cohesion, 0, cosine(friction.sine)};
+  }
+
+  Dilation Hardening::cut_off(const double sine, const double rate)
+  {
+    return {std::clamp(sine, -largest_sine, largest_sine), std::abs(sine) > largest_sine ? 0 : rate};
   }
 
   double Hardening::dilation(const HardeningState &state) const
@@ -160,30 +184,22 @@ namespace diptych::continuum
     return excess(state).mobilised / critical_state.dilatancy_ratio;
   }
 
-  Strength Hardening::over(const HardeningState &start, const double multiplier) const
+  std::optional<Dilation> Hardening::mean_dilation(const HardeningState &start,
+                                                   const HardeningState &end,
+                                                   const double          multiplier) const
   {
-    const HardeningState end = after(start, multiplier);
-    Strength             s   = at(end);
     if (!critical_state.is_on)
-      return s;
+      return {};
     constexpr double short_step = 1e-6; // in a shorter step the densification is round-off; the midpoint value is exact to 1e-9
-    double           mean = 0, rate = 0;
     if (multiplier > short_step)
       {
-        mean = (start.densification - end.densification) / multiplier;
-        rate = (dilation(end) - mean) / multiplier;
+        const double mean = (start.densification - end.densification) / multiplier;
+        return cut_off(mean, (dilation(end) - mean) / multiplier);
       }
-    else
-      {
-        const HardeningState middle = after(start, 0.5 * multiplier);
-        const Excess         e      = excess(middle);
-        mean                        = dilation(middle);
-        rate = 0.5 * (e.possible - e.mobilised) / (critical_state.mobilisation_strain * critical_state.dilatancy_ratio);
-      }
-    const auto dilatancy = angle(mean, rate);
-    s.dilatancy          = dilatancy[0];
-    s.dilatancy_rate     = dilatancy[1];
-    return s;
+    const HardeningState middle = after(start, 0.5 * multiplier);
+    const Excess         e      = excess(middle);
+    return cut_off(dilation(middle),
+                   0.5 * (e.possible - e.mobilised) / (critical_state.mobilisation_strain * critical_state.dilatancy_ratio));
   }
 
   // y = eta - eta_c and z = eta_p - eta_c obey y' = (z - y)/g and z' = -w y with w = A nu_c / beta. M is the matrix of this

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "continuum/laws/law.h"
@@ -15,6 +16,21 @@ namespace diptych::continuum
     double friction = 0, friction_rate = 0;   // phi [radians]
     double dilatancy = 0, dilatancy_rate = 0; // psi [radians]
     double cohesion = 0, cohesion_rate = 0;   // c [pressure]
+  };
+
+  // The same with the sines of the angles in place of the angles.
+  struct StrengthBySines
+  {
+    double friction = 0, friction_rate = 0;   // sin phi
+    double dilatancy = 0, dilatancy_rate = 0; // sin psi
+    double cohesion = 0, cohesion_rate = 0;   // c [pressure]
+    double friction_cosine = 1;               // cos phi
+  };
+
+  // sin psi over a step, with its derivative by the multiplier.
+  struct Dilation
+  {
+    double sine = 0, rate = 0;
   };
 
   // The part of a MaterialState on which the strength depends.
@@ -46,11 +62,14 @@ namespace diptych::continuum
 
     // Strength at a state with an equivalent plastic strain >= 0. At a point of the table the rate is that of the following
     // interval.
-    Strength at(const HardeningState &state) const;
-    Strength at(const double equivalent_plastic_strain) const { return at(HardeningState{equivalent_plastic_strain}); }
-
+    Strength        at(const HardeningState &state) const;
+    Strength        at(const double equivalent_plastic_strain) const { return at(HardeningState{equivalent_plastic_strain}); }
+    StrengthBySines sines_at(const HardeningState &state) const;
     // The same values; the rates are derivatives by the nonlocal hardening variable at a constant local one.
-    Strength by_nonlocal(const HardeningState &state) const;
+    StrengthBySines sines_by_nonlocal(const HardeningState &state) const;
+
+    // A lower bound of sin psi at any state. Only critical_state contracts.
+    double least_dilation() const { return critical_state.is_on ? -largest_sine : 0; }
 
     // Solid fraction of a critical-state law; 0 for any other.
     double solid_fraction(const HardeningState &state) const;
@@ -58,21 +77,27 @@ namespace diptych::continuum
     // The state after plastic shear strain `multiplier` >= 0.
     HardeningState after(const HardeningState &state, double multiplier) const;
 
-    // Strength at the end of a step. For critical_state the dilatancy is its mean over the step, so that volume and solid
-    // fraction stay consistent. Rates are derivatives by the multiplier.
-    Strength over(const HardeningState &start, double multiplier) const;
+    // Mean dilation of a critical-state law over the step from `start` to `end` = after(start, multiplier). It keeps volume and
+    // solid fraction consistent. The flow of any other law uses the dilation at the end: no value.
+    std::optional<Dilation> mean_dilation(const HardeningState &start, const HardeningState &end, double multiplier) const;
 
   private:
+    static constexpr double largest_sine = 0.95; // critical_state cuts its sines off, because the rate of an angle diverges at 1
+
     struct Point
     {
       double strain = 0, friction = 0, dilatancy = 0, cohesion = 0;
     };
-    double   softening_variable(const HardeningState &state) const;
-    Strength softened(const HardeningState &state, double share) const; // share: d softening variable / d variable of the rates
+    static Strength interpolated(const std::vector<Point> &table, double strain);
+    void            separate_rises();
+    Strength        decayed(double softening_variable) const;
+    Strength softened(const HardeningState &state, double share) const; // share: d softening variable / d variable of rates
     Strength risen(const HardeningState &state) const;                  // in addition
-    Strength decayed(double softening_variable) const;
-    Strength critical(const HardeningState &state) const;
-    double   dilation(const HardeningState &state) const; // sin psi for critical_state
+    Strength angles_at(const HardeningState &state) const;              // not for critical_state
+    double   softening_variable(const HardeningState &state) const;
+    StrengthBySines critical(const HardeningState &state) const;
+    double          dilation(const HardeningState &state) const; // sin psi for critical_state
+    static Dilation cut_off(double sine, double rate);
 
     // Excess of eta and of eta_p over eta_c.
     struct Excess
@@ -95,10 +120,6 @@ namespace diptych::continuum
     double             unmobilised = 0, mobilisation_strain = 1; // deficit of friction at the start [radians]; its decay
     std::vector<Point> table;                                    // empty: exponential or mobilisation; one point: constant
     std::vector<Point> rises;                                    // gradient laws: the part of the table that rises, from 0
-
-    void            separate_rises();
-    static Strength interpolated(const std::vector<Point> &table, double strain);
-
-    double nonlocal_weight;
+    double             nonlocal_weight;                          // 0: local law
   };
 } // namespace diptych::continuum

@@ -58,18 +58,20 @@ namespace diptych::continuum
 
   MaterialUpdate MohrCoulomb::update(const MaterialState &s0, const Strain &d_strain, const double d_time) const
   {
-    const Trial  trial = elastic_trial(s0, d_strain);
-    const Outer  o     = outer(trial.state);
-    const double scale = o.shear() + std::abs(o.pressure()) + cone.at(hardening_state(s0)).intercept;
-    if (!std::isfinite(scale) || yield_function(trial.state) <= 1e-12 * scale)
+    const Trial     trial = elastic_trial(s0, d_strain);
+    const ConeStart start = start_of(s0);
+    const double    zz    = trial.state.stress_zz;
+    const Outer     o     = outer(trial.shear, trial.pressure, zz);
+    const double    scale = o.shear() + std::abs(o.pressure()) + start.cone.intercept;
+    const double    yield = o.shear() - o.pressure() * start.cone.slope - start.cone.intercept;
+    if (!std::isfinite(scale) || yield <= 1e-12 * scale)
       return elastic_answer(trial);
 
-    const double zz      = trial.state.stress_zz;
     const Places p       = places(trial.shear, trial.pressure, zz);
     const bool   between = p.zz == 1;
     if (between)
       {
-        const ConeReturn r = radial_return(trial, d_time);
+        const ConeReturn r = radial_return(trial, start, d_time);
         if (r.verdict != Verdict::failed && r.regime == Regime::plastic)
           {
             const MaterialUpdate answer = plastic_answer(trial, r);
@@ -81,7 +83,7 @@ namespace diptych::continuum
     sorted[p.major]          = trial.shear - trial.pressure;
     sorted[p.minor]          = -trial.shear - trial.pressure;
     sorted[p.zz]             = zz;
-    const auto     principal = return_in_principal_space(cone, moduli_, hardening_state(s0), sorted, viscous_modulus(d_time));
+    const auto     principal = return_in_principal_space(cone, moduli_, start, sorted, viscous_modulus(d_time));
     MaterialUpdate answer    = plastic_answer(trial, plane_part(trial, principal));
     answer.state.stress_zz   = principal.stress[p.zz];
     return answer;

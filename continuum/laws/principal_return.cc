@@ -96,11 +96,11 @@ namespace diptych::continuum
 
     struct Problem
     {
-      const YieldCone      &cone;
-      const ElasticModuli  &moduli;
-      const HardeningState &start;
-      const Principal      &trial;
-      double                viscous_modulus;
+      const YieldCone     &cone;
+      const ElasticModuli &moduli;
+      const ConeStart     &start;
+      const Principal     &trial;
+      double               viscous_modulus;
 
       ConeReturn solve(const Branch branch) const
       {
@@ -115,9 +115,8 @@ namespace diptych::continuum
       if (r.verdict == Verdict::failed || r.regime == Regime::apex)
         return {};
       PrincipalReturn answer = assemble(Branch::plane, r);
-      const Cone      c      = problem.cone.over(problem.start, r.multiplier);
-      const double    loss   = problem.moduli.lateral * (c.dilation + c.dilation_rate * r.multiplier);
-      answer.stress[1]       = problem.trial[1] - problem.moduli.lateral * c.dilation * r.multiplier;
+      const double    loss   = problem.moduli.lateral * (r.dilation + r.dilation_rate * r.multiplier);
+      answer.stress[1]       = problem.trial[1] - problem.moduli.lateral * r.dilation * r.multiplier;
       answer.jacobian[1]     = gradient(weights(Branch::plane), -loss * r.multiplier_by_shear, -loss * r.multiplier_by_pressure);
       answer.jacobian[1][1] += 1;
       if (answer.stress[1] > answer.stress[0] || answer.stress[1] < answer.stress[2])
@@ -133,19 +132,18 @@ namespace diptych::continuum
       if (r.verdict == Verdict::failed)
         return {};
       const bool   right      = branch == Branch::right_edge;
-      const double dilation   = problem.cone.over(problem.start, r.multiplier).dilation;
       const double difference = right ? problem.trial[1] - problem.trial[2] : problem.trial[0] - problem.trial[1];
-      if (difference > problem.moduli.shear * (1 + (right ? -dilation : dilation)) * r.multiplier * (1 + 1e-10))
+      if (difference > problem.moduli.shear * (1 + (right ? -r.dilation : r.dilation)) * r.multiplier * (1 + 1e-10))
         return {};
       return assemble(branch, r);
     }
   } // namespace
 
-  PrincipalReturn return_in_principal_space(const YieldCone      &cone,
-                                            const ElasticModuli  &moduli,
-                                            const HardeningState &start,
-                                            const Principal      &trial,
-                                            const double          viscous_modulus)
+  PrincipalReturn return_in_principal_space(const YieldCone     &cone,
+                                            const ElasticModuli &moduli,
+                                            const ConeStart     &start,
+                                            const Principal     &trial,
+                                            const double         viscous_modulus)
   {
     const Problem problem{cone, moduli, start, trial, viscous_modulus};
     if (const auto answer = return_to_plane(problem))

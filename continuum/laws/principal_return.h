@@ -27,9 +27,9 @@ namespace diptych::continuum
   // at the apex does not harden. Method: de Souza Neto, Peric, Owen, Computational Methods for Plasticity (2008), chapter 8.
   // The difference of the two multipliers of an edge makes two trial stresses equal, so only their sum remains to be solved
   // for.
-  PrincipalReturn return_in_principal_space(const YieldCone      &cone,
-                                            const ElasticModuli  &moduli,
-                                            const HardeningState &start,
-                                            const Principal      &trial,
-                                            double                viscous_modulus);
+  PrincipalReturn return_in_principal_space(const YieldCone     &cone,
+                                            const ElasticModuli &moduli,
+                                            const ConeStart     &start,
+                                            const Principal     &trial,
+                                            double               viscous_modulus);
 } // namespace diptych::continuum

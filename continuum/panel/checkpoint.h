@@ -28,10 +28,10 @@ namespace diptych::continuum
     int    steps = 0, cut_backs = 0, newton_iterations = 0, refinements = 0, linear_iterations = 0, factorisations = 0;
     double point_cpu_s = 0, assembly_cpu_s = 0, geometry_cpu_s = 0, solve_cpu_s = 0;
 
-    // Matrices behind the preconditioner, as values in the order of the tangent's pattern. Without them the linear solves would
+    // The matrix behind the preconditioner, as values in the order of the tangent's pattern. Without it the linear solves would
     // take other iterations. Empty if the panel ran on several processes.
     bool                             preconditioner_is_stale = true;
-    std::vector<double>              analysed_matrix, factorised_matrix;
+    std::vector<double>              factorised_matrix;
     std::vector<std::vector<double>> rigid_modes;
   };
 
@@ -60,7 +60,6 @@ namespace diptych::continuum
     visit("geometry_cpu_s", c.geometry_cpu_s);
     visit("solve_cpu_s", c.solve_cpu_s);
     visit("preconditioner_is_stale", c.preconditioner_is_stale);
-    visit("analysed_matrix", c.analysed_matrix);
     visit("factorised_matrix", c.factorised_matrix);
     visit("rigid_modes", c.rigid_modes);
   }

@@ -35,7 +35,7 @@ namespace diptych::continuum
       const auto          n_points = problem.discretisation().reference.n_points;
       std::vector<double> values;
       std::size_t         point = 0;
-      for (const auto &record : make_records(problem, driver.state().last_increment))
+      for (const auto &record : make_records(problem, driver.state().last))
         {
           values.insert(values.end(), record.begin(), record.end());
           for (unsigned int q = 0; q < n_points; ++q, ++point)
@@ -108,7 +108,6 @@ namespace diptych::continuum
 
     KeptPreconditioner kept   = driver.linear_solver().kept();
     c.preconditioner_is_stale = kept.is_stale;
-    c.analysed_matrix         = std::move(kept.analysed);
     c.factorised_matrix       = std::move(kept.factorised);
     c.rigid_modes             = std::move(kept.rigid_modes);
     return c;
@@ -148,15 +147,14 @@ namespace diptych::continuum
     problem.go_on_counting({c.point_cpu_s, c.assembly_cpu_s, c.geometry_cpu_s});
 
     DriverState state;
-    state.last_increment = std::move(restored.last_increment);
+    state.last      = std::move(restored.last);
     state.divisions = Utilities::MPI::this_mpi_process(mesh.communicator()) == 0 ? c.divisions : Divisions(c.divisions.size());
     state.step      = c.step;
     state.last_step = c.last_step;
     state.count     = {c.steps, c.cut_backs, c.newton_iterations, c.refinements};
     driver.restart(std::move(state));
     auto &solver = driver.linear_solver();
-    require(solver.take_up({c.preconditioner_is_stale, c.analysed_matrix, c.factorised_matrix, c.rigid_modes},
-                           problem.tangent_matrix()),
+    require(solver.take_up({c.preconditioner_is_stale, c.factorised_matrix, c.rigid_modes}, problem.tangent_matrix()),
             "the matrices of the checkpoint belong to another mesh or loading");
     solver.go_on_counting(c.linear_iterations, c.factorisations, c.solve_cpu_s);
   }

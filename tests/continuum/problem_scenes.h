@@ -20,7 +20,8 @@ namespace diptych::continuum::tests
     std::vector<double> wish;
     for (const Cell &cell : mesh.cells)
       wish.push_back((mesh.nodes[cell.nodes[0]].initial - at).norm() < radius ? 1 : 0);
-    std::vector<double> last(mesh.relevant.n_elements(), 0.);
+    const std::vector<double> zero(mesh.relevant.n_elements(), 0.);
+    LastMotion                last{zero, zero};
     ASSERT_TRUE(refine(problem, {1, 0.5}, wish, last));
   }
 

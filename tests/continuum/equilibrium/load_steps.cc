@@ -85,8 +85,8 @@ namespace
           }
         const CommittedState  before = tried.committed();
         const Eigen::Vector2d force  = tried.platen_force(true);
-        LinearSolver          solver(LinearMethod::umfpack);
-        solver.restart(LinearMethod::umfpack, {});
+        LinearSolver          solver(LinearMethod::supernodal);
+        solver.restart(LinearMethod::supernodal, {});
         auto increment = tried.zero_vector();
         tried.begin_step(0.1);
         tried.impose(increment);
@@ -149,8 +149,8 @@ namespace
       {
         const Options        options = with(elastic(), Platens::smooth, geometry);
         BoundaryValueProblem problem(mesh, Units(), straight_loading(1, {0, -6}, {2}), options);
-        LinearSolver         solver(LinearMethod::umfpack);
-        solver.restart(LinearMethod::umfpack, {});
+        LinearSolver         solver(LinearMethod::supernodal);
+        solver.restart(LinearMethod::supernodal, {});
         for (const double to : {1.2, 0.2})
           {
             Eigen::Matrix2d squeeze = Eigen::Matrix2d::Zero();

@@ -122,7 +122,7 @@ namespace
           const HistoryRow before = make_history_row(problem, driver, loading);
           const double     work   = plastic_work(problem);
           auto             state  = driver.state();
-          ASSERT_TRUE(refine(problem, {1, 0.5}, plastic_increments(problem), state.last_increment));
+          ASSERT_TRUE(refine(problem, {1, 0.5}, plastic_increments(problem), state.last));
           driver.restart(state);
           const HistoryRow after = make_history_row(problem, driver, loading);
           EXPECT_GT(work, 0);

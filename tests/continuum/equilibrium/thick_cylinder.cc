@@ -90,7 +90,7 @@ namespace
                 trial[k] = update.state;
                 add_force<Element>(mesh.reference, geometry.cells[c], p, increment.force(update.state.stress), f);
                 add_stiffness<Element>(mesh.reference, geometry.cells[c], p,
-                                       increment.tangent(update.state.stress, update.tangent, motions_of<Element>), K);
+                                       increment.tangent(update.state.stress, update.tangent), K);
               }
             for (unsigned int i = 0; i < Element::n_dofs; ++i)
               {

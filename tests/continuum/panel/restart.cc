@@ -170,12 +170,6 @@ namespace
             cut.factorised_matrix.resize(length);
             EXPECT_THROW(go_on(cut), std::invalid_argument) << length;
           }
-        Checkpoint without_analysis = whole;
-        without_analysis.analysed_matrix.clear();
-        if (choice == LinearChoice::direct)
-          {
-            EXPECT_THROW(go_on(without_analysis), std::invalid_argument);
-          }
       }
   }
 
