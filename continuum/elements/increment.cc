@@ -48,6 +48,16 @@ namespace diptych::continuum
       return part;
     }
 
+    template <class V> Forces<V> forces(Stresses<V> s, const bool is_gradient)
+    {
+      if (!is_gradient)
+        return forces(s);
+      const auto part = separated(s);
+      Forces<V>  p    = forces(s);
+      std::copy(part.begin(), part.end(), p.begin() + omega);
+      return p;
+    }
+
     Strain small_strain(const Motion &m)
     {
       Strain e;
@@ -183,66 +193,86 @@ namespace diptych::continuum
     return d;
   }
 
+  namespace
+  {
+    Stresses<Row> product(const Tangent &law, const Stresses<Row> &d_strain)
+    {
+      Stresses<Row> d_stress;
+      for (unsigned int i = 0; i < n_components; ++i)
+        {
+          d_stress[i] = law[i][0] * d_strain[0];
+          for (unsigned int j = 1; j < n_components; ++j)
+            d_stress[i] += law[i][j] * d_strain[j];
+        }
+      return d_stress;
+    }
+
+    PiolaTangent table(const Forces<Row> &rows)
+    {
+      PiolaTangent result;
+      for (unsigned int i = 0; i < n_motions; ++i)
+        for (unsigned int k = 0; k < n_motions; ++k)
+          result[i][k] = rows[i][k];
+      return result;
+    }
+
+    // The strain is linear in the motion, by the transpose of forces().
+    PiolaTangent small_tangent(const Tangent &law, const bool is_gradient)
+    {
+      Stresses<Row> d_stress;
+      for (unsigned int i = 0; i < n_components; ++i)
+        {
+          const Forces<double> by_motion = forces(entries(law[i]), is_gradient);
+          d_stress[i].setZero();
+          std::copy(by_motion.begin(), by_motion.end(), d_stress[i].data());
+        }
+      return table(forces(d_stress, is_gradient));
+    }
+  } // namespace
+
   PiolaTangent Increment::tangent(const Stress &stress, const Tangent &law) const
   {
-    Stresses<Row> d_strain, d_stress;
-    Row           d_angle = Row::Zero();
-    for (Row &row : d_strain)
-      row.setZero();
+    if (!is_finite)
+      return small_tangent(law, is_gradient);
+    Stresses<Row> d_strain;
+    d_strain.fill(Row::Zero());
+    Row d_angle = Row::Zero();
     for (unsigned int k = 0; k < n_motions; ++k)
       {
-        Motion unit;
-        unit[k]        = 1;
-        const Strain d = is_finite     ? change_of_strain(k, d_angle[k])
-                         : is_gradient ? Increment(unit, false, true).strain()
-                                       : small_strain(unit);
+        const Strain d = change_of_strain(k, d_angle[k]);
         for (unsigned int i = 0; i < n_components; ++i)
           d_strain[i][k] = d[i];
       }
-    for (unsigned int i = 0; i < n_components; ++i)
-      {
-        d_stress[i] = law[i][0] * d_strain[0];
-        for (unsigned int j = 1; j < n_components; ++j)
-          d_stress[i] += law[i][j] * d_strain[j];
-      }
-    Stresses<double>            t = entries(stress);
+    Stresses<double>            t        = entries(stress);
+    Stresses<Row>               d_stress = product(law, d_strain);
     std::array<Row, n_nonlocal> part;
     if (is_gradient)
       {
         part = separated(d_stress);
         separated(t);
       }
-    if (is_finite)
-      {
-        d_stress = turned(d_stress, cosine, sine);
-        t        = turned(t, cosine, sine);
-      }
+    t        = turned(t, cosine, sine);
+    d_stress = turned(d_stress, cosine, sine);
     d_stress[xx] -= 2 * t[xy] * d_angle;
     d_stress[yy] += 2 * t[xy] * d_angle;
     d_stress[xy] += (t[xx] - t[yy]) * d_angle;
     d_stress[curvature_x] -= t[curvature_y] * d_angle;
     d_stress[curvature_y] += t[curvature_x] * d_angle;
-    Forces<Row> d_force = forces(d_stress);
-    if (is_finite)
+
+    Forces<Row>          d_force = forces(d_stress);
+    const Forces<double> full    = forces(t);
+    pull_back(d_force, cofactor, determinant);
+    for (unsigned int k = 0; k < n_classical_motions; ++k)
       {
-        pull_back(d_force, cofactor, determinant);
-        const Forces<double> full = forces(t);
-        for (unsigned int k = 0; k < n_classical_motions; ++k)
-          {
-            // d cofactor is +-1 in the entry opposite to the changed one of F.
-            const unsigned int i = 1 - k / 2, j = 1 - k % 2;
-            const double       sign = k == ux_x || k == uy_y ? 1 : -1;
-            for (const unsigned int row : {unsigned(ux_x), unsigned(uy_x), unsigned(omega_x)})
-              d_force[row + j][k] += sign * full[row + i];
-            d_force[omega][k] += full[omega] * cofactor[k / 2][k % 2];
-          }
+        // d cofactor is +-1 in the entry opposite to the changed one of F.
+        const unsigned int i = 1 - k / 2, j = 1 - k % 2;
+        const double       sign = k == ux_x || k == uy_y ? 1 : -1;
+        for (const unsigned int row : {unsigned(ux_x), unsigned(uy_x), unsigned(omega_x)})
+          d_force[row + j][k] += sign * full[row + i];
+        d_force[omega][k] += full[omega] * cofactor[k / 2][k % 2];
       }
     if (is_gradient)
       std::copy(part.begin(), part.end(), d_force.begin() + omega);
-    PiolaTangent result;
-    for (unsigned int i = 0; i < n_motions; ++i)
-      for (unsigned int k = 0; k < n_motions; ++k)
-        result[i][k] = d_force[i][k];
-    return result;
+    return table(d_force);
   }
 } // namespace diptych::continuum

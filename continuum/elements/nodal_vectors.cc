@@ -41,6 +41,23 @@ namespace diptych::continuum
     return vector;
   }
 
+  std::vector<std::vector<double>> gathered(const std::vector<double> &mine, const MPI_Comm communicator)
+  {
+    const int n = int(dealii::Utilities::MPI::n_mpi_processes(communicator)), length = int(mine.size());
+    if (n == 1)
+      return {mine};
+    const auto       lengths = dealii::Utilities::MPI::gather(communicator, length);
+    std::vector<int> starts(lengths.size(), 0);
+    for (std::size_t k = 1; k < starts.size(); ++k)
+      starts[k] = starts[k - 1] + lengths[k - 1];
+    std::vector<double> all(lengths.empty() ? 0 : std::size_t(starts.back() + lengths.back()));
+    MPI_Gatherv(mine.data(), length, MPI_DOUBLE, all.data(), lengths.data(), starts.data(), MPI_DOUBLE, 0, communicator);
+    std::vector<std::vector<double>> parts;
+    for (std::size_t k = 0; k < starts.size(); ++k)
+      parts.emplace_back(all.begin() + starts[k], all.begin() + starts[k] + lengths[k]);
+    return parts;
+  }
+
   void condense(const Discretisation &mesh, const AffineConstraints<double> &constraints, std::vector<double> &relevant)
   {
     for (const auto &line : constraints.get_lines())

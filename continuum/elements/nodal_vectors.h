@@ -24,6 +24,10 @@ namespace diptych::continuum
   // Sums the contributions of all processes to the relevant dofs. Collective.
   DistributedVector assembled(const Discretisation &mesh, const std::vector<double> &relevant);
 
+  // The values of every process on the first one; on the others an empty list. Unlike deal.II's gather() it does not compress
+  // them. Collective.
+  std::vector<std::vector<double>> gathered(const std::vector<double> &mine, MPI_Comm communicator);
+
   // Moves forces from constrained dofs to their masters and sets those on prescribed dofs to zero.
   void condense(const Discretisation &mesh, const dealii::AffineConstraints<double> &constraints, std::vector<double> &relevant);
 } // namespace diptych::continuum

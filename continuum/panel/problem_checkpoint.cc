@@ -77,7 +77,7 @@ namespace diptych::continuum
     const auto &mesh  = problem.discretisation();
     const auto &state = driver.state();
     const auto  ids   = Utilities::MPI::gather(mesh.communicator(), owned_cells(mesh));
-    const auto  parts = Utilities::MPI::gather(mesh.communicator(), rows_of(problem, driver));
+    const auto  parts = gathered(rows_of(problem, driver), mesh.communicator());
 
     Checkpoint c;
     c.values_per_cell = int(values_per_cell(mesh.reference));

@@ -345,7 +345,7 @@ namespace diptych::continuum
     Snapshot snapshot;
     set_progress(problem, loading, snapshot);
     std::map<std::array<double, 3>, unsigned int> node_of_key;
-    for (const auto &part : dealii::Utilities::MPI::gather(mesh.communicator(), mine))
+    for (const auto &part : gathered(mine, mesh.communicator()))
       for (std::size_t at = 0; at < part.size(); at += 9 * entry_length + n_state)
         add_cell(snapshot, node_of_key, &part[at], mesh.kind == ElementKind::q2_cosserat);
     snapshot.mean_stress /= std::max(snapshot.area, 1e-300);
