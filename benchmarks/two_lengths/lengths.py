@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # diptych: two internal lengths beside each other: Cosserat rotations and the gradient of the hardening variable
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""lengths.py bands PROGRAM [--output DIR] [--reuse]: thickness of the band of ../cosserat_band/oblique.prm for both kinds of law, by
-element, internal length, sample size and strain. Exit code 1: elements of l and l/2 differ by more than 3 %, the two exponents of
+"""lengths.py bands PROGRAM [--output DIR] [--reuse]: thickness of the band of oblique.prm for both kinds of law, by element, internal
+length, sample size and strain. Exit code 1: elements of l and l/2 differ by more than 3 %, the two exponents of
 l and W do not add up to 1, or a run ends early.
 lengths.py grains [cosserat|gradient...]: calibrates each law on the same samples and predicts others (PYTHONPATH:
 build/release/python). Results in results/two_lengths; --resume is implied."""
@@ -35,7 +35,7 @@ def row(label, folder):
 def bands(options):
     failed = []
     with tempfile.TemporaryDirectory() as scratch:
-        runs = Runs(options, options.output or scratch)
+        runs = Runs(options, options.output or scratch, HERE)
         for name, law in LAWS.items():
             print(f"\n{name}: thickness [d] at " + ", ".join(f"{100 * e:g} %" for e in STRAINS))
             found = {(l, h): row(f"W = 60, l = {l}, h = {h}", runs("oblique", **law, internal_length=l, element_size=h))

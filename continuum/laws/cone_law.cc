@@ -24,9 +24,9 @@ namespace diptych::continuum
       : cone{Hardening(options, units), shape},
         moduli_(elastic_moduli(in_units(options, units), is_cosserat)),
         pressure_modulus(shape == ConeShape::mohr_coulomb ? moduli_.plane_bulk : moduli_.bulk),
+        elastic(continuum::elastic_tangent(moduli_)),
         viscosity(in_units(options, units).viscosity),
-        couple_scale(is_cosserat ? std::sqrt(2.) * in_units(options, units).internal_length : 0),
-        elastic(continuum::elastic_tangent(moduli_))
+        couple_scale(is_cosserat ? std::sqrt(2.) * in_units(options, units).internal_length : 0)
   {
     // Sum over the unit vectors of g: the outer product of the conjugate stress with itself.
     for (unsigned int k = 0; k < Deviatoric::dimension; ++k)
