@@ -123,6 +123,8 @@ namespace diptych::coupling
       double outside = 0; // at rest all three stresses are equal, and nothing depends on their order
       for (const continuum::HistoryRow &row : rows)
         outside = row.step > 0 ? std::max(outside, row.share_zz_not_intermediate) : outside;
+      if (part.is_coarse)
+        text << "\n  this second run shows the effect of the mesh; comparison/coarse_element_size = 0 leaves it out";
       if (continuum::traits(scene.continuum.law).stays_in_plane && outside > 0)
         text << "\n  sigma_zz is not the intermediate principal stress in up to " << 100 * outside
              << " % of the area, where this law's in-plane form is not exact"

@@ -78,9 +78,9 @@ namespace diptych::coupling
     visitor(
       "window_edges", o.window_edges, "strain (mode time: time)", {0., 1e12},
       "edges of the windows over which displacement increments are compared; each must be a stage (mode time: a time) or 0");
-    visitor(
-      "coarse_element_size", o.coarse_element_size, "mean diameters", {0., 100.},
-      "element size, at least 0.1, of a second continuum run that shows the effect of the mesh on the band; 0: no such run");
+    visitor("coarse_element_size", o.coarse_element_size, "mean diameters", {0., 100.},
+            "element size, at least 0.1, of a second continuum run that shows the effect of the mesh; 0: no such run. Twice "
+            "element_size costs about a quarter of the first run");
     visitor("averaging_strain", o.averaging_strain, "strain", {1e-9, 0.5},
             "last part of a stage over which stress ratio and platen forces are averaged, in both panels; mode time: the whole "
             "stage");

@@ -180,9 +180,10 @@ def elements(of_elements=0.002, of_steps=2.0, of_law=0.0, is_local=False, longes
     return run
 
 
-def continuum_plan(law, accuracy=0.02, **known):
+def continuum_plan(law, accuracy=0.02, hardening="exponential", **known):
     scene = scenes.read({"continuum": {"mesh": "rectangle", "rectangle_width": 60, "rectangle_height": 80, "law": law,
-                                       "geometry": "small_strain", "internal_length": 2}, "loading": {"stage_strain": 0.01}})
+                                       "geometry": "small_strain", "internal_length": 2, "hardening": hardening},
+                         "loading": {"stage_strain": 0.01}})
     return ContinuumPlan(question(accuracy), scene, elements(**known)).make()
 
 
@@ -205,6 +206,12 @@ def test_an_internal_length_is_kept_where_it_matters(of_law, used):
 def test_a_mesh_dependent_law_is_replaced_and_reported():
     plan = continuum_plan("mohr_coulomb", is_local=True)
     assert plan.reaches and any("used instead: cosserat_mohr_coulomb" in one for one in plan.decisions)
+    assert not any("rough platens" in one for one in plan.decisions)
+
+
+def test_rough_platens_and_perfect_plasticity_are_reported_to_need_small_elements():
+    plan = continuum_plan("mohr_coulomb", hardening="constant")
+    assert any("rough platens" in one for one in plan.decisions)
 
 
 def test_a_size_without_effect_is_not_convergence():

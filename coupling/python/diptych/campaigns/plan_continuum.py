@@ -74,6 +74,9 @@ class ContinuumPlan:
         self.plan.decisions.append(text)
 
     def make(self) -> PanelPlan:
+        if self.options["platens"] == "rough" and self.options["hardening"] == "constant":
+            self._note("rough platens with continuum/hardening = constant: the error of the force in fully plastic flow "
+                       "falls with the element size to the power 0.9; 16 elements per side leave 9 % (benchmarks/referee)")
         if self.options["mesh"] not in ("outline", "rectangle"):
             self._note("elements: from the mesh file; their error is unknown and not in the budget")
         elif not self._settle_elements():
