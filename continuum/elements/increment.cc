@@ -69,54 +69,7 @@ namespace diptych::continuum
       e[curvature_y]       = m[omega_y];
       return e;
     }
-  } // namespace
 
-  Increment::Increment(const Motion &motion, const bool is_finite, const bool is_gradient)
-      : strain_(small_strain(motion)),
-        is_finite(is_finite),
-        is_gradient(is_gradient)
-  {
-    if (is_finite)
-      find_strain(motion);
-    if (is_gradient)
-      for (unsigned int k = 0; k < n_nonlocal; ++k)
-        strain_[nonlocal + k] = motion[omega + k];
-  }
-
-  void Increment::find_strain(const Motion &m)
-  {
-    const double F[2][2] = {{1 + m[ux_x], m[ux_y]}, {m[uy_x], 1 + m[uy_y]}};
-    cofactor[0][0] = F[1][1], cofactor[0][1] = -F[1][0], cofactor[1][0] = -F[0][1], cofactor[1][1] = F[0][0];
-    determinant = F[0][0] * F[1][1] - F[0][1] * F[1][0];
-
-    const double mid[2][2] = {{1 + m[ux_x] / 2, m[ux_y] / 2}, {m[uy_x] / 2, 1 + m[uy_y] / 2}};
-    const double det       = mid[0][0] * mid[1][1] - mid[0][1] * mid[1][0];
-    to_mid[0][0] = mid[1][1] / det, to_mid[0][1] = -mid[0][1] / det;
-    to_mid[1][0] = -mid[1][0] / det, to_mid[1][1] = mid[0][0] / det;
-    const auto by_mid = [&](const double x, const double y, const unsigned int k) { return x * to_mid[0][k] + y * to_mid[1][k]; };
-    const double exx = by_mid(m[ux_x], m[ux_y], 0), eyy = by_mid(m[uy_x], m[uy_y], 1);
-    const double xy_part = by_mid(m[ux_x], m[ux_y], 1), yx_part = by_mid(m[uy_x], m[uy_y], 0);
-    mid_gradient[0] = by_mid(m[omega_x], m[omega_y], 0), mid_gradient[1] = by_mid(m[omega_x], m[omega_y], 1);
-
-    const double t = (yx_part - xy_part) / 4; // tan(angle/2)
-    angle_by_spin  = 1 / (1 + t * t);
-    cosine         = (1 - t * t) * angle_by_spin;
-    sine           = 2 * t * angle_by_spin;
-    half_cosine    = std::sqrt(angle_by_spin);
-    half_sine      = t * half_cosine;
-    angle_         = 2 * std::atan(t);
-
-    const double mean = (exx + eyy) / 2, a = (exx - eyy) / 2, b = (xy_part + yx_part) / 2;
-    strain_[xx]                = mean + cosine * a + sine * b;
-    strain_[yy]                = mean - cosine * a - sine * b;
-    strain_[xy]                = 2 * (cosine * b - sine * a);
-    strain_[relative_rotation] = 2 * (angle_ - m[omega]);
-    strain_[curvature_x]       = half_cosine * mid_gradient[0] + half_sine * mid_gradient[1];
-    strain_[curvature_y]       = half_cosine * mid_gradient[1] - half_sine * mid_gradient[0];
-  }
-
-  namespace
-  {
     // Turned by an angle with this cosine and sine. The skew part does not depend on the frame.
     template <class V> Stresses<V> turned(const Stresses<V> &s, const double cosine, const double sine)
     {
@@ -146,55 +99,7 @@ namespace diptych::continuum
     {
       return {s[0], s[1], s[2], s[3], s[4], s[5]};
     }
-  } // namespace
 
-  PiolaStress Increment::force(const Stress &stress) const
-  {
-    Stresses<double> s    = entries(stress);
-    const auto       part = is_gradient ? separated(s) : std::array<double, n_nonlocal>();
-    Forces<double>   p    = forces(is_finite ? turned(s, cosine, sine) : s);
-    if (is_finite)
-      pull_back(p, cofactor, determinant);
-    if (is_gradient)
-      std::copy(part.begin(), part.end(), p.begin() + omega);
-    return PiolaStress(dealii::ArrayView<const double>(p.data(), n_motions));
-  }
-
-  // d strain / d motion[k]. With B = to_mid, the gradient on the middle shape changes by B dF B.
-  Strain Increment::change_of_strain(const unsigned int k, double &d_angle) const
-  {
-    Strain d;
-    double d_gradient[2] = {0, 0};
-    d_angle              = 0;
-    if (k == omega)
-      d[relative_rotation] = -2;
-    else if (k >= omega_x)
-      d_gradient[0] = to_mid[k - omega_x][0], d_gradient[1] = to_mid[k - omega_x][1];
-    else
-      {
-        const unsigned int i = k / 2, j = k % 2;
-        const double       exx = to_mid[0][i] * to_mid[j][0], eyy = to_mid[1][i] * to_mid[j][1];
-        const double       xy_part = to_mid[0][i] * to_mid[j][1], yx_part = to_mid[1][i] * to_mid[j][0];
-        d_angle           = angle_by_spin * (yx_part - xy_part) / 2;
-        const double mean = (exx + eyy) / 2, a = (exx - eyy) / 2, b = (xy_part + yx_part) / 2;
-        const double d_a     = cosine * a + sine * b + d_angle * strain_[xy] / 2;
-        d[xx]                = mean + d_a;
-        d[yy]                = mean - d_a;
-        d[xy]                = 2 * (cosine * b - sine * a) - d_angle * (strain_[xx] - strain_[yy]);
-        d[relative_rotation] = 2 * d_angle;
-        for (const unsigned int c : {0u, 1u})
-          d_gradient[c] = -mid_gradient[i] * to_mid[j][c] / 2;
-      }
-    d[curvature_x] = half_cosine * d_gradient[0] + half_sine * d_gradient[1] + d_angle / 2 * strain_[curvature_y];
-    d[curvature_y] = half_cosine * d_gradient[1] - half_sine * d_gradient[0] - d_angle / 2 * strain_[curvature_x];
-    if (is_gradient)
-      for (unsigned int i = 0; i < n_nonlocal; ++i)
-        d[nonlocal + i] = k == omega + i;
-    return d;
-  }
-
-  namespace
-  {
     Stresses<Row> product(const Tangent &law, const Stresses<Row> &d_strain)
     {
       Stresses<Row> d_stress;
@@ -229,6 +134,101 @@ namespace diptych::continuum
       return table(forces(d_stress, is_gradient));
     }
   } // namespace
+
+  Increment::Increment(const Motion &motion, const bool is_finite, const bool is_gradient)
+      : strain_(small_strain(motion)),
+        is_finite(is_finite),
+        is_gradient(is_gradient)
+  {
+    if (is_finite)
+      find_strain(motion);
+    if (is_gradient)
+      for (unsigned int k = 0; k < n_nonlocal; ++k)
+        strain_[nonlocal + k] = motion[omega + k];
+  }
+
+  void Increment::find_strain(const Motion &m)
+  {
+    const double F[2][2] = {{1 + m[ux_x], m[ux_y]}, {m[uy_x], 1 + m[uy_y]}};
+    cofactor[0][0]       = F[1][1];
+    cofactor[0][1]       = -F[1][0];
+    cofactor[1][0]       = -F[0][1];
+    cofactor[1][1]       = F[0][0];
+    determinant          = F[0][0] * F[1][1] - F[0][1] * F[1][0];
+
+    const double mid[2][2] = {{1 + m[ux_x] / 2, m[ux_y] / 2}, {m[uy_x] / 2, 1 + m[uy_y] / 2}};
+    const double det       = mid[0][0] * mid[1][1] - mid[0][1] * mid[1][0];
+    to_mid[0][0]           = mid[1][1] / det;
+    to_mid[0][1]           = -mid[0][1] / det;
+    to_mid[1][0]           = -mid[1][0] / det;
+    to_mid[1][1]           = mid[0][0] / det;
+    const auto by_mid = [&](const double x, const double y, const unsigned int k) { return x * to_mid[0][k] + y * to_mid[1][k]; };
+    const double exx = by_mid(m[ux_x], m[ux_y], 0), eyy = by_mid(m[uy_x], m[uy_y], 1);
+    const double xy_part = by_mid(m[ux_x], m[ux_y], 1), yx_part = by_mid(m[uy_x], m[uy_y], 0);
+    mid_gradient[0] = by_mid(m[omega_x], m[omega_y], 0);
+    mid_gradient[1] = by_mid(m[omega_x], m[omega_y], 1);
+
+    const double t = (yx_part - xy_part) / 4; // tan(angle/2)
+    angle_by_spin  = 1 / (1 + t * t);
+    cosine         = (1 - t * t) * angle_by_spin;
+    sine           = 2 * t * angle_by_spin;
+    half_cosine    = std::sqrt(angle_by_spin);
+    half_sine      = t * half_cosine;
+    angle_         = 2 * std::atan(t);
+
+    const double mean = (exx + eyy) / 2, a = (exx - eyy) / 2, b = (xy_part + yx_part) / 2;
+    strain_[xx]                = mean + cosine * a + sine * b;
+    strain_[yy]                = mean - cosine * a - sine * b;
+    strain_[xy]                = 2 * (cosine * b - sine * a);
+    strain_[relative_rotation] = 2 * (angle_ - m[omega]);
+    strain_[curvature_x]       = half_cosine * mid_gradient[0] + half_sine * mid_gradient[1];
+    strain_[curvature_y]       = half_cosine * mid_gradient[1] - half_sine * mid_gradient[0];
+  }
+
+  PiolaStress Increment::force(const Stress &stress) const
+  {
+    Stresses<double> s    = entries(stress);
+    const auto       part = is_gradient ? separated(s) : std::array<double, n_nonlocal>();
+    Forces<double>   p    = forces(is_finite ? turned(s, cosine, sine) : s);
+    if (is_finite)
+      pull_back(p, cofactor, determinant);
+    if (is_gradient)
+      std::copy(part.begin(), part.end(), p.begin() + omega);
+    return PiolaStress(dealii::ArrayView<const double>(p.data(), n_motions));
+  }
+
+  // d strain / d motion[k]. With B = to_mid, the gradient on the middle shape changes by B dF B.
+  Strain Increment::change_of_strain(const unsigned int k, double &d_angle) const
+  {
+    Strain d;
+    double d_gradient[2] = {0, 0};
+    d_angle              = 0;
+    if (k == omega)
+      d[relative_rotation] = -2;
+    else if (k >= omega_x)
+      std::copy(to_mid[k - omega_x], to_mid[k - omega_x] + 2, d_gradient);
+    else
+      {
+        const unsigned int i = k / 2, j = k % 2;
+        const double       exx = to_mid[0][i] * to_mid[j][0], eyy = to_mid[1][i] * to_mid[j][1];
+        const double       xy_part = to_mid[0][i] * to_mid[j][1], yx_part = to_mid[1][i] * to_mid[j][0];
+        d_angle           = angle_by_spin * (yx_part - xy_part) / 2;
+        const double mean = (exx + eyy) / 2, a = (exx - eyy) / 2, b = (xy_part + yx_part) / 2;
+        const double d_a     = cosine * a + sine * b + d_angle * strain_[xy] / 2;
+        d[xx]                = mean + d_a;
+        d[yy]                = mean - d_a;
+        d[xy]                = 2 * (cosine * b - sine * a) - d_angle * (strain_[xx] - strain_[yy]);
+        d[relative_rotation] = 2 * d_angle;
+        for (const unsigned int c : {0u, 1u})
+          d_gradient[c] = -mid_gradient[i] * to_mid[j][c] / 2;
+      }
+    d[curvature_x] = half_cosine * d_gradient[0] + half_sine * d_gradient[1] + d_angle / 2 * strain_[curvature_y];
+    d[curvature_y] = half_cosine * d_gradient[1] - half_sine * d_gradient[0] - d_angle / 2 * strain_[curvature_x];
+    if (is_gradient)
+      for (unsigned int i = 0; i < n_nonlocal; ++i)
+        d[nonlocal + i] = k == omega + i;
+    return d;
+  }
 
   PiolaTangent Increment::tangent(const Stress &stress, const Tangent &law) const
   {

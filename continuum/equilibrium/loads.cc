@@ -24,10 +24,7 @@ namespace diptych::continuum
         return {{xi * (xi - 1) / 2, xi * (xi + 1) / 2, 1 - xi * xi}, {xi - 0.5, xi + 0.5, -2 * xi}, 3};
       return {{(1 - xi) / 2, (1 + xi) / 2, 0}, {-0.5, 0.5, 0}, 2};
     }
-  } // namespace
 
-  namespace
-  {
     // Two Gauss points are exact, because the integrand is cubic in the coordinate along the edge.
     const std::array<double, 2> gauss_points = {-1 / std::sqrt(3.), 1 / std::sqrt(3.)};
 

@@ -3,6 +3,7 @@
 #include "continuum/equilibrium/supernodal_lu.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <dlfcn.h>
@@ -25,22 +26,24 @@ namespace diptych::continuum
         reinterpret_cast<void (*)(int)>(function)(1);
     }
 
-    // C = alpha A B + beta C; columns of a matrix lie `rows_*` apart.
-    void multiply(const char  *transpose,
-                  const int    m,
-                  const int    n,
-                  const int    k,
-                  const float  alpha,
-                  const float *A,
-                  const int    rows_a,
-                  const float *B,
-                  const int    rows_b,
-                  const float  beta,
-                  float       *C,
-                  const int    rows_c)
+    // A dense block within columns that lie `stride` apart.
+    struct Columns
     {
+      float *data;
+      int    stride;
+    };
+
+    // C = alpha A B + beta C, with A^T and B^T if `transpose` is "T". C has m x n entries, A has k columns.
+    void multiply(const char                   *transpose,
+                  const std::array<int, 3>     &mnk,
+                  const std::array<float, 2>   &factors,
+                  const std::array<Columns, 3> &abc)
+    {
+      const auto &[m, n, k]     = mnk;
+      const auto &[alpha, beta] = factors;
+      const auto &[A, B, C]     = abc;
       if (m > 0 && n > 0)
-        dealii::gemm(transpose, transpose, &m, &n, &k, &alpha, A, &rows_a, B, &rows_b, &beta, C, &rows_c);
+        dealii::gemm(transpose, transpose, &m, &n, &k, &alpha, A.data, &A.stride, B.data, &B.stride, &beta, C.data, &C.stride);
     }
   } // namespace
 
@@ -62,8 +65,11 @@ namespace diptych::continuum
     auto           *start = static_cast<int *>(half->p), *rows = static_cast<int *>(half->i);
     start[0] = 0;
     for (int i = 0; i < n; ++i)
-      rows         = std::copy_if(columns + row_start[i], columns + row_start[i + 1], rows, [&](const int j) { return j >= i; }),
-      start[i + 1] = int(rows - static_cast<int *>(half->i));
+      {
+        const int *row = columns + row_start[i], *end = columns + row_start[i + 1];
+        rows         = std::copy_if(row, end, rows, [&](const int j) { return j >= i; });
+        start[i + 1] = int(rows - static_cast<int *>(half->i));
+      }
     half->sorted           = 0;
     cholmod_factor *factor = cholmod_analyze(half, &common);
 
@@ -177,8 +183,11 @@ namespace diptych::continuum
     dealii::types::blas_int info = 0;
     dealii::getrf(&k, &k, F, &m, pivots.data(), &info);
     for (int i = 0; i < k; ++i)
-      if (float &pivot = F[std::size_t(i) * (m + 1)]; std::abs(pivot) < smallest_pivot)
-        pivot = std::copysign(smallest_pivot, pivot);
+      {
+        float &pivot = F[std::size_t(i) * (m + 1)];
+        if (std::abs(pivot) < smallest_pivot)
+          pivot = std::copysign(smallest_pivot, pivot);
+      }
     const int n_work = int(work.size());
     dealii::getri(&k, F, &m, pivots.data(), work.data(), &n_work, &info);
 
@@ -186,17 +195,16 @@ namespace diptych::continuum
     for (int i = 0; i < k; ++i)
       for (int j = 0; j < k; ++j)
         upper[i + std::size_t(m) * j] = F[j + std::size_t(m) * i];
-    const float *B = F + std::size_t(m) * k, *C = F + k;
-    multiply("T", n, k, k, -1, B, m, F, m, 0, upper + k, m);
-    multiply("N", n, k, k, 1, C, m, F, m, 0, lower, n);
+    const Columns A{F, m}, B{F + std::size_t(m) * k, m}, C{F + k, m}, D{F + std::size_t(m) * k + k, m};
+    multiply("T", {n, k, k}, {-1, 0}, {B, A, {upper + k, m}});
+    multiply("N", {n, k, k}, {1, 0}, {C, A, {lower, n}});
     if (n == 0)
       return;
-    float *D = F + std::size_t(m) * k + k;
-    multiply("N", n, n, k, -1, lower, n, B, m, 1, D, m);
+    multiply("N", {n, n, k}, {-1, 1}, {Columns{lower, n}, B, D});
     auto &update = updates[&block - blocks.data()];
     update.resize(std::size_t(n) * n);
     for (int j = 0; j < n; ++j)
-      std::copy(D + std::size_t(m) * j, D + std::size_t(m) * j + n, update.data() + std::size_t(n) * j);
+      std::copy(D.data + std::size_t(m) * j, D.data + std::size_t(m) * j + n, update.data() + std::size_t(n) * j);
   }
 
   bool SupernodalLu::factorise(const dealii::TrilinosWrappers::SparseMatrix &matrix)

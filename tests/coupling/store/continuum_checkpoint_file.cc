@@ -186,7 +186,6 @@ namespace
     const Folder                                                     folder;
     const std::string                                                file      = folder / "checkpoint.h5";
     const std::pair<const char *, void (*)(continuum::Checkpoint &)> changes[] = {
-      {"analysed_matrix", [](continuum::Checkpoint &c) { c.analysed_matrix[2] = NAN; }},
       {"factorised_matrix", [](continuum::Checkpoint &c) { c.factorised_matrix[0] = INFINITY; }},
       {"rigid_modes/1", [](continuum::Checkpoint &c) { c.rigid_modes[1][0] = NAN; }},
       {"progress", [](continuum::Checkpoint &c) { c.progress = NAN; }},
@@ -205,7 +204,7 @@ namespace
   {
     const Folder      folder;
     const std::string file = folder / "checkpoint.h5";
-    for (const std::string name : {"factorised_matrix", "analysed_matrix", "rigid_modes/1", "divisions/1"})
+    for (const std::string name : {"factorised_matrix", "rigid_modes/1", "divisions/1"})
       {
         write_continuum_checkpoint(file, example_checkpoint());
         const hid_t handle = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
