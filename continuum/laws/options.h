@@ -138,7 +138,7 @@ namespace diptych::continuum
     double                viscosity          = 0;   // [Units::stress x progress]; a positive value eases the onset of a band
     double                internal_length    = 1;   // Cosserat and gradient laws [Units::length]
     double                couple_shear_ratio = 0.5; // Cosserat laws: skew modulus / shear modulus [-]
-    double                nonlocal_weight    = 2;   // gradient laws: weight of the nonlocal hardening variable [-]
+    double                nonlocal_weight    = 4;   // gradient laws: weight of the nonlocal hardening variable [-]
   };
 
   template <class Visitor> void visit_parameters(LawOptions &o, Visitor &&visitor)
