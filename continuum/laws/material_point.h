@@ -1,41 +1,36 @@
-// diptych: one homogeneous point along the biaxial path
+// diptych: one homogeneous point along a path of strains and stresses
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "continuum/laws/any_law.h"
 #include "continuum/laws/material_point_row.h"
+#include "continuum/laws/options.h"
+#include "continuum/laws/point_path.h"
 
 namespace diptych::continuum
 {
-  // Plane strain at constant lateral pressure. The axial strain grows in equal steps from an isotropic stress.
-  struct MaterialPointPath
-  {
-    double pressure     = 1;    // [pressure], positive
-    double axial_strain = 0.1;  // final shortening / initial height, in (0, 1)
-    double step         = 1e-3; // increment of the axial strain; the last step may be shorter
-  };
-
   enum class MaterialPointStatus
   {
     finished,
-    law_failed,       // the law found no stress
-    lateral_not_found // no lateral strain gave the prescribed pressure
+    law_failed,      // the law found no stress
+    strain_not_found // no strain gave the prescribed stresses
   };
 
   struct MaterialPointReport
   {
-    MaterialPointStatus           status       = MaterialPointStatus::finished;
-    double                        axial_strain = 0; // axial strain reached
-    std::string                   message;          // how the path ended
-    std::vector<MaterialPointRow> rows;             // the start, then every finished step
+    MaterialPointStatus           status = MaterialPointStatus::finished;
+    std::string                   message; // how the path ended
+    std::vector<MaterialPointRow> rows;    // the start, every finished row, and the place where the path stopped between two rows
   };
 
-  void validate(const MaterialPointPath &path);
-
-  // Newton's iteration on the law's tangent finds the lateral strain of every step, to 1e-10 of the pressure. Throws under the
-  // same conditions as validate(path).
-  [[nodiscard]] MaterialPointReport drive_material_point(const Law &law, const MaterialPointPath &path);
+  // Plane strain. Prescribed strains hold to round-off. Newton's iteration on the law's tangent finds the other strains from the
+  // prescribed stresses, to 1e-10 of the larger of pressure and prescribed stress. If it fails, the step between two rows is
+  // halved up to ten times. A Cosserat law sees no rotation, a gradient law kbar = kappa. Throws like make_law() and
+  // validate(path).
+  [[nodiscard]] MaterialPointReport drive_material_point(LawKind           law,
+                                                         const LawOptions &options,
+                                                         const Units      &units,
+                                                         const PointPath  &path);
 } // namespace diptych::continuum

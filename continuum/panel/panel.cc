@@ -45,6 +45,22 @@ namespace diptych::continuum
       require(mean[upper_platen].y() > mean[lower_platen].y(), "mesh: upper_platen lies below lower_platen");
       require(mean[left_side].x() < mean[right_side].x(), "mesh: left_side lies to the right of right_side");
     }
+
+    // Ways out if a step fails. A local law that softens or whose flow is not associated may lose its solution (Rudnicki and Rice
+    // 1975). Its constant associated form keeps a unique stress.
+    std::string advice(const Options &options)
+    {
+      const LawTraits   is       = traits(options.law);
+      const LawOptions &material = options.material;
+      if (!is.is_plastic || is.is_cosserat || material.viscosity > 0 ||
+          (material.hardening == HardeningKind::constant && material.dilatancy_angle_peak == material.friction_angle_peak))
+        return "";
+      return ". " + name_of(options.law) +
+             " has neither an internal length nor viscosity: where it softens, or where its dilatancy angle is below its "
+             "friction "
+             "angle, a step may have no solution. A Cosserat law (continuum/law = cosserat_mohr_coulomb), continuum/viscosity or "
+             "a smaller difference of the two angles helps";
+    }
   } // namespace
 
   class Panel::Course
@@ -185,7 +201,7 @@ namespace diptych::continuum
       if (stop_requested())
         return note_stop();
       if (const auto why = driver_.step_towards(end); !why.empty())
-        return end_early(why);
+        return end_early(why + advice(options_));
       report_row();
     }
 

@@ -217,9 +217,9 @@ namespace diptych::coupling
         add_overwrite(continuum);
         add_quiet(continuum);
 
-        CLI::App *point = add(Command::material_point,
-                              "compute the continuum's law at one point along the biaxial path: material_point.csv");
+        CLI::App *point = add(Command::material_point, "compute the continuum's law at one point: material_point.csv");
         add_scene_output_set(point);
+        point->add_option("--path", line.path, path_help())->check(path_or_table)->type_name("PATH");
         add_overwrite(point);
         add_quiet(point);
       }

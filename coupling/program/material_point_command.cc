@@ -6,32 +6,107 @@
 
 #include "coupling/program/commands.h"
 #include "continuum/laws/material_point.h"
+#include "coupling/scene/keys.h"
 #include "coupling/scene/scene_error.h"
 #include "coupling/store/file_names.h"
 #include "coupling/store/provenance.h"
 #include "coupling/store/result_folder.h"
+#include "discrete/files/csv_file.h"
 #include "discrete/files/table_file.h"
+#include "discrete/files/words.h"
 
 namespace diptych::coupling
 {
   namespace
   {
-    std::string summary(const continuum::MaterialPointReport &report)
+    using continuum::MaterialPointRow;
+
+    // A table that contains the start, refined to the steps of the scene.
+    continuum::PointPath path_of_table(const std::string &file, const Scene &scene)
     {
-      const auto         peak = std::max_element(report.rows.begin(), report.rows.end(),
+      const std::vector<std::string> controls = choices_of(continuum::Control());
+      discrete::CsvHeader            header{{}, controls};
+      header.optional.push_back("progress");
+      const discrete::CsvTable table = discrete::read_csv(file, header);
+      const double             P     = scene.loading.pressure;
+      continuum::PointPath     path{P, P * Eigen::Matrix2d::Identity(), P, {}, {}, {}};
+      std::vector<std::size_t> places;
+      for (std::size_t c = 0; c < table.columns.size(); ++c)
+        if (const auto control = continuum::value_of<continuum::Control>(table.columns[c]))
+          {
+            if (places.size() < 3)
+              path.controls[places.size()] = *control;
+            places.push_back(c);
+          }
+      const std::string first = file + ", header line: ";
+      if (places.size() != 3)
+        throw SceneError(first + std::to_string(places.size()) + " of the columns prescribe strain or stress; give three of " +
+                         discrete::listed(controls) + ", for example eyy, sxx, exy");
+      const auto progress = table.find("progress");
+      if (!progress && scene.continuum.material.viscosity > 0 && continuum::traits(scene.continuum.law).is_plastic)
+        throw SceneError(first +
+                         "column 'progress' is missing, which continuum/viscosity needs; give strain or time of each row");
+      for (const std::vector<double> &row : table.rows)
+        {
+          path.values.emplace_back(row[places[0]], row[places[1]], row[places[2]]);
+          path.progress.push_back(progress ? row[*progress] : double(path.progress.size()));
+        }
+      try
+        {
+          continuum::validate(path);
+          return continuum::refined(path, scene.continuum.initial_step);
+        }
+      catch (const continuum::WrongPath &wrong)
+        {
+          const bool is_header = wrong.row == continuum::WrongPath::header;
+          throw SceneError((is_header ? first : text_of(Place(file, table.line[wrong.row])) + ": ") + wrong.what());
+        }
+    }
+
+    continuum::PointPath path_of(const CommandLine &line, const Scene &scene)
+    {
+      const auto name = continuum::value_of<continuum::NamedPath>(line.path);
+      if (!name)
+        return path_of_table(line.path, scene);
+      try
+        {
+          return continuum::named_path(*name, {scene.loading.pressure, scene.loading.axial_strain, scene.continuum.initial_step});
+        }
+      catch (const std::invalid_argument &error)
+        {
+          throw SceneError(line.target + ": loading/pressure, loading/axial_strain or continuum/initial_step: " + error.what());
+        }
+    }
+
+    std::string summary(const CommandLine &line, const std::vector<MaterialPointRow> &rows)
+    {
+      const auto name = continuum::value_of<continuum::NamedPath>(line.path);
+      const auto at   = [&](const MaterialPointRow &row) {
+        if (!name)
+          return "progress " + discrete::exact_text(discrete::tidy(row.progress));
+        const bool shears = *name == continuum::NamedPath::simple_shear;
+        return text_of(shears ? continuum::LoadingVariable::shear_strain : continuum::LoadingVariable::axial_strain,
+                       row.progress);
+      };
+      const auto         peak = std::max_element(rows.begin(), rows.end(),
                                                  [](const auto &a, const auto &b) { return a.stress_ratio < b.stress_ratio; });
       std::ostringstream text;
       text.precision(6);
-      text << "peak stress ratio " << peak->stress_ratio << " at "
-           << text_of(continuum::LoadingVariable::axial_strain, peak->axial_strain) << ", " << report.rows.back().stress_ratio
-           << " at " << text_of(continuum::LoadingVariable::axial_strain, report.axial_strain);
+      text << "peak stress ratio " << peak->stress_ratio << " at " << at(*peak) << ", " << rows.back().stress_ratio << " at "
+           << at(rows.back());
+      const auto outside = std::find_if(rows.begin(), rows.end(),
+                                        [](const auto &row) { return row.verdict == continuum::PointVerdict::zz_outside; });
+      if (outside != rows.end())
+        text << "\n  from " << at(*outside)
+             << " on sigma_zz is beyond the yield surface, which this law ignores: its answer is not "
+             << "exact; check with continuum/law = mohr_coulomb or cosserat_drucker_prager";
       return text.str();
     }
 
-    void write(const continuum::MaterialPointReport &report, const std::string &csv)
+    void write(const std::vector<MaterialPointRow> &rows, const std::string &csv)
     {
-      discrete::TableFile table(csv, discrete::csv_header<continuum::MaterialPointRow>());
-      for (const continuum::MaterialPointRow &row : report.rows)
+      discrete::TableFile table(csv, discrete::csv_header<MaterialPointRow>());
+      for (const MaterialPointRow &row : rows)
         table.add(discrete::csv_line(row));
       table.flush();
     }
@@ -39,26 +114,20 @@ namespace diptych::coupling
 
   int run_material_point(const CommandLine &line)
   {
-    const Scene                        scene = scene_of(line);
-    const continuum::Law               law   = continuum::make_law(uniform_law(scene.continuum.law), scene.continuum.material,
-                                                                   continuum_units(scene));
-    const continuum::MaterialPointPath path{scene.loading.pressure, scene.loading.axial_strain, scene.continuum.initial_step};
-    try
-      {
-        continuum::validate(path);
-      }
-    catch (const std::invalid_argument &error)
-      {
-        throw SceneError(line.target + ": loading/pressure, loading/axial_strain or continuum/initial_step: " + error.what());
-      }
+    const Scene                scene = scene_of(line);
+    const continuum::PointPath path  = path_of(line, scene);
     return writing(scene.output.directory, [&](FolderLock &lock) {
-      ResultFolder(scene).open(lock, opening_of(line, true));
+      Opening opening = opening_of(line, true);
+      if (!continuum::value_of<continuum::NamedPath>(line.path))
+        opening.inputs.emplace_back("--path", line.path);
+      ResultFolder(scene).open(lock, opening);
       const PhaseTimer                     timer("material_point");
-      const continuum::MaterialPointReport report = continuum::drive_material_point(law, path);
+      const continuum::MaterialPointReport report = continuum::drive_material_point(scene.continuum.law, scene.continuum.material,
+                                                                                    continuum_units(scene), path);
       const std::string                    csv    = material_point_csv(scene.output.directory);
-      write(report, csv);
+      write(report.rows, csv);
       record_phases(scene.output.directory, {scene.name, {scene.sample.seed}, line.text}, {timer.stop()});
-      std::cout << summary(report) << std::endl;
+      std::cout << summary(line, report.rows) << std::endl;
       say(line, "material point: " + csv);
       if (report.status == continuum::MaterialPointStatus::finished)
         return int(done);

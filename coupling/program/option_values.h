@@ -9,6 +9,7 @@
 
 #include <CLI/App.hpp>
 
+#include "continuum/laws/point_path.h"
 #include "coupling/scene/keys.h"
 #include "discrete/files/nearest_name.h"
 #include "discrete/files/words.h"
@@ -53,6 +54,23 @@ namespace diptych::coupling
     return is_good ? ""
                    : "'" + text + "' is neither a format (" + discrete::listed(names) + "; the nearest is '" +
                        discrete::nearest_name(text, names) + "') nor a Python file";
+  }
+
+  inline std::string path_help()
+  {
+    return "path of the loading: " + discrete::listed(choices_of(continuum::NamedPath())) +
+           " (default: drained), or a table .csv with three of " + discrete::listed(choices_of(continuum::Control())) +
+           " (first row: the start), and progress for viscosity";
+  }
+
+  // A named path of a material point, or a table.
+  inline std::string path_or_table(const std::string &text)
+  {
+    const std::vector<std::string> names   = choices_of(continuum::NamedPath());
+    const bool                     is_good = std::count(names.begin(), names.end(), text) > 0 || CLI::ExistingFile(text).empty();
+    return is_good ? ""
+                   : "'" + text + "' is neither a path (" + discrete::listed(names) + "; the nearest is '" +
+                       discrete::nearest_name(text, names) + "') nor a file";
   }
 
   // The choices of an option, separated by spaces; empty if it has none. CLI11 describes them as TEXT:{a,b}.

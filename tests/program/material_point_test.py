@@ -4,8 +4,9 @@
 """Usage: material_point_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
 
 import math
+import os
 
-from running import diptych, finished, Folder, history, listing, main, QUICK, setting
+from running import QUICK, Folder, diptych, finished, history, listing, main, setting, write
 
 
 class MaterialPoint(Folder):
@@ -20,15 +21,48 @@ class MaterialPoint(Folder):
         self.assertIn("%.6g at 4 %% axial strain" % rows["stress_ratio"][-1], result.stdout)
         self.assertEqual(listing(self.folder), ["material_point.csv", "provenance.json", "scene.prm"])
 
-    def test_a_path_that_ends_early_keeps_what_was_reached(self):
-        """Stresses of 1e10 P x 1e-3 round to 1e-9 P: no lateral strain holds the pressure to 1e-10 of it."""
-        weak = setting(continuum_friction_angle_peak=22, continuum_friction_angle_residual=17, continuum_dilatancy_angle_peak=10,
-                       continuum_softening_strain=0.8, continuum_hardening="exponential", continuum_initial_step=0.001)
-        result = diptych("material-point", QUICK, *weak, *setting(continuum_youngs_modulus=1e10), "--output", self.folder)
-        self.assertEqual(result.returncode, 3, result.stderr)
-        self.assertIn("no lateral strain", result.stderr)
+    def test_an_undrained_test_is_one_line(self):
+        """At constant volume and psi = 0 the mean stress stays 1, so t = sin 30 + 0.1 cos 30."""
+        words = setting(continuum_law="mohr_coulomb", continuum_hardening="constant", continuum_friction_angle_peak=30,
+                        continuum_dilatancy_angle_peak=0, continuum_cohesion=0.1, loading_axial_strain=0.04)
+        finished("material-point", QUICK, *words, "--path", "constant_volume", "--output", self.folder)
         rows = history(self.folder, "material_point.csv")
-        self.assertEqual(len(rows["axial_strain"]), 2)  # the start and the step that still held
+        self.assertAlmostEqual(rows["stress_ratio"][-1], 0.5 + 0.1 * math.cos(math.pi / 6), places=6)
+        self.assertLess(abs(rows["volumetric_strain"]).max(), 1e-15)
+
+    def test_a_table_drives_the_point_and_a_stress_beyond_the_strength_keeps_what_was_reached(self):
+        """Loading, unloading to half of it with E / (1 - nu^2) = 520.8, then a stress above s1 = 3 + 0.2 sqrt 3 = 3.3464."""
+        words = setting(continuum_law="mohr_coulomb", continuum_hardening="constant", continuum_friction_angle_peak=30,
+                        continuum_cohesion=0.1, continuum_youngs_modulus=500)
+        table = write(os.path.join(self.work, "path.csv"), "# an unloading\nprogress, syy, sxx, exy\n0, 1, 1, 0\n1, 3, 1, 0\n"
+                                                           "2, 1.5, 1, 0\n3, 4, 1, 0\n")
+        result = diptych("material-point", QUICK, *words, "--path", table, "--output", self.folder)
+        self.assertEqual(result.returncode, 3, result.stderr)
+        self.assertIn("reached sxx = 1, syy = 3.346", result.stderr)
+        rows = history(self.folder, "material_point.csv")
+        self.assertAlmostEqual(rows["syy"][-1], 3 + 0.2 * math.sqrt(3), places=4)
+        unloading = rows["progress"].searchsorted([1, 2])
+        (syy, again), (eyy, end) = rows["syy"][unloading], rows["eyy"][unloading]
+        self.assertAlmostEqual((syy - again) / (eyy - end), 500 / 0.96, places=4)
+
+    def test_a_wrong_table_is_refused_with_file_line_and_column(self):
+        for text, place, words in (
+                ("eyy,sxx\n0,1\n1,1\n", "header", "2 of the columns prescribe strain or stress; give three of exx"),
+                ("eyy,sxx,exy,volume\n0,1,0,0\n", "header", "4 of the columns"),
+                ("eyy,sxx,exz\n0,1,0\n", "line 1", "unknown column 'exz'; the nearest is 'exx'"),
+                ("volume,mean_stress,exy\n0,1,0\n", "header", "one follows from the others"),
+                ("eyy,sxx,exy\n0,100,0\n1,100,0\n", "line 2", "column 'sxx' = 100 is not the stress of the start"),
+                ("eyy,sxx,exy,progress\n0,1,0,0\n0.1,1,0,0\n", "line 3", "column 'progress'"),
+                ("eyy,sxx,exy\n0,1,0\n0.1,many,0\n", "line 3", "column 'sxx' = 'many'")):
+            table = write(os.path.join(self.work, "path.csv"), text)
+            result = diptych("material-point", QUICK, "--path", table, "--output", self.folder)
+            self.assertEqual(result.returncode, 2, text)
+            for expected in (table, place, words):
+                self.assertIn(expected, result.stderr)
+        result = diptych("material-point", QUICK, "--path", "constant_volum", "--output", self.folder)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("nearest is 'constant_volume'", result.stderr)
+        self.assertFalse(os.path.exists(self.folder))
 
 
 if __name__ == "__main__":

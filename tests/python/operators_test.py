@@ -143,6 +143,10 @@ def test_an_elastic_law_follows_hooke():
     np.testing.assert_allclose(answer.stress_zz, answer.stress[:, 0, 0], rtol=1e-12)
     shear = diptych.integrate({"law": "linear_elastic", "youngs_modulus": e, "poisson_ratio": nu}, [[0, 0, 0], [0, 0, 1e-3]])
     assert shear.stress[-1, 0, 1] == pytest.approx(e / (1 + nu) * 1e-3)  # 2 G eps_xy
+    tied = diptych.integrate({"law": "linear_elastic", "youngs_modulus": e, "poisson_ratio": nu},
+                             {"eyy": strain, "volume": 0, "sxy": 1e-2 * (strain > 0)})
+    np.testing.assert_allclose(tied.stress[:, 1, 1] - 1, e / (1 + nu) * strain, atol=1e-12)
+    np.testing.assert_allclose(tied.strain[-1], [[-1e-3, 1e-2 * (1 + nu) / e], [1e-2 * (1 + nu) / e, 1e-3]], rtol=1e-9)
 
 
 def test_mohr_coulomb_has_its_strength_and_its_path_again():
@@ -151,12 +155,29 @@ def test_mohr_coulomb_has_its_strength_and_its_path_again():
     path = diptych.biaxial(law, axial_strain=0.05)
     t = (np.sin(np.radians(30)) + 0.1 * np.cos(np.radians(30))) / (1 - np.sin(np.radians(30)))
     assert 0.5 * (path["syy"] - path["sxx"])[-1] == pytest.approx(t, rel=1e-6)
-    strain = np.column_stack([-np.log1p(-path["lateral_strain"]), -np.log1p(-path["axial_strain"]), 0 * path["sxx"]])
-    again = diptych.integrate(law, strain)
+    again = diptych.integrate(law, np.column_stack([path["exx"], path["eyy"], path["exy"]]))
     np.testing.assert_allclose(again.stress[:, 1, 1], path["syy"], rtol=1e-8)
     np.testing.assert_allclose(again.stress[:, 0, 0], 1, rtol=1e-8)
     np.testing.assert_allclose(again.equivalent_plastic_strain, path["equivalent_plastic_strain"], atol=1e-10)
     assert again.reliable.all()
+    mixed = diptych.integrate(law, {"eyy": path["eyy"], "sxx": 1, "exy": 0})
+    np.testing.assert_allclose(mixed.stress[:, 1, 1], path["syy"], rtol=1e-10)
+
+
+def test_the_result_says_where_the_law_is_not_exact_and_how_far_a_stress_was_reached():
+    """Equal strains in the plane, nu = 0.2: the stress in the plane grows 2.5 times faster than sigma_zz, t/s -> 0.43 in space.
+    t/s = 0 in the plane, all that cosserat_mohr_coulomb sees. Strength in the second path: s1 = 3 + 0.2 sqrt 3 = 3.3464."""
+    law = {"law": "cosserat_mohr_coulomb", "hardening": "constant", "friction_angle_peak": 20, "dilatancy_angle_peak": 5,
+           "youngs_modulus": 500}
+    grown = np.linspace(0, 0.05, 51)
+    answer = diptych.integrate(law, {"exx": grown, "eyy": grown, "exy": 0})
+    assert answer.reliable[1] and not answer.reliable[-1] and answer.verdict[-1] == "zz_outside"
+    law["law"] = "mohr_coulomb"
+    assert diptych.integrate(law, {"exx": grown, "eyy": grown, "exy": 0}).reliable.all()
+    law.update(friction_angle_peak=30, cohesion=0.1)
+    with pytest.raises(diptych.NotConverged, match="syy = 3.346") as stopped:
+        diptych.integrate(law, {"syy": np.linspace(1, 4, 31), "sxx": 1, "exy": 0})
+    assert stopped.value.reached.stress[-1, 1, 1] == pytest.approx(3 + 0.2 * np.sqrt(3), abs=2e-4)
 
 
 def test_one_contact_is_solved_by_hand():
@@ -190,7 +211,12 @@ def test_stored_problems_are_solved_as_by_the_program():
     (lambda: diptych.find_bands(np.full((50, 2), np.nan), np.ones((50, 2)), 1.0), ValueError, "finite"),
     (lambda: diptych.probe(column(2, 1)[0], [(0, 0), (0, 1), (1, 0)], column(2, 1)[1]), ValueError, "anticlockwise"),
     (lambda: diptych.integrate({"law": "rubber"}, [[0, 0, 0]]), diptych.SceneError, "continuum/law"),
-    (lambda: diptych.integrate({}, [[[0, 1], [0, 0]]]), ValueError, r"strain_path\[0\] must be finite and symmetric"),
+    (lambda: diptych.integrate({}, [[[0, 1], [0, 0]]]), ValueError, r"path\[0\] must be finite and symmetric"),
+    (lambda: diptych.integrate({}, {"eyy": [0, 1], "sxx": 2, "exy": 0}), ValueError, r"path\[0\]: column 'sxx' = 2 is not"),
+    (lambda: diptych.integrate({}, {"eyy": [0, 1], "sxx": 1}), ValueError, "path has 2 columns"),
+    (lambda: diptych.integrate({}, {"eyy": 0, "szz": 1, "exy": 0}), ValueError, "'szz' is not allowed; give one of exx"),
+    (lambda: diptych.integrate({}, {"exx": 0, "eyy": [0, 1], "volume": 0}), ValueError, "one follows from the others"),
+    (lambda: diptych.biaxial({}, path="undrained"), ValueError, "constant_volume"),
     (lambda: diptych.solve((np.eye(3), [1, 2], [0.3])), ValueError, "must have 2 rows"),
     (lambda: diptych.solve("nowhere.h5"), ValueError, "nowhere.h5"),
     (lambda: diptych.solve((np.eye(2), [1, 2], [0.3]), solver="gauss"), diptych.SceneError, "discrete/solver"),

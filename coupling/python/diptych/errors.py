@@ -21,7 +21,11 @@ class SceneError(ValueError):
 
 
 class NotConverged(RuntimeError):
-    """A panel or a law did not converge. The panel keeps the results so far."""
+    """A panel or a law did not converge. The panel keeps the results so far. `reached`: those of a law; None for a panel."""
+
+    def __init__(self, text: str, reached: object = None) -> None:
+        super().__init__(text)
+        self.reached = reached
 
 
 class Stopped(RuntimeError):

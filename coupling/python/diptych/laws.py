@@ -21,47 +21,78 @@ def _law_scene(law: Any, pressure: float) -> _diptych.Scene:
     return scenes.read(law, {"loading": {"pressure": pressure}})
 
 
-def integrate(law: Any, strain_path: Any, stress: Any = None, pressure: float = 1.0, time: Any = None) -> Record:
-    """Drives a law along prescribed strains, in plane strain.
-
-    law          keys of the section continuum: {"law": "mohr_coulomb", "friction_angle_peak": 30, ...}, or a scene (dict or path)
-    strain_path  (n, 2, 2), or (n, 3) with xx, yy, xy: total strain, positive in compression; xy is the tensor's component. The first
-                 row is the start. The law takes the increments as given: use logarithmic strain for finite deformation.
-    stress       (2, 2) at the start, positive in compression; default: the isotropic `pressure`, also out of the plane
-    pressure     unit of the law's moduli and cohesion [pressure]
-    time         (n), only for laws with viscosity; default: rate independent
-
-    Returns stress (n, 2, 2) [pressure], stress_zz (n), equivalent_plastic_strain (n), dissipation (n) [pressure], reliable (n).
-    Raises NotConverged with the step at which the law found no stress, SceneError for a wrong law, ValueError for a wrong path.
-    """
-    strain = np.asarray(strain_path, dtype=float)
+def _columns(path: Any) -> dict[str, Any]:
+    """Columns of a path: those of a mapping, or the components of strain tensors."""
+    if hasattr(path, "keys"):
+        return {name: path[name] for name in path.keys()}
+    strain = np.asarray(path, dtype=float)
     if strain.ndim == 2 and strain.shape[1] == 3:
         strain = strain[:, [0, 2, 2, 1]].reshape(-1, 2, 2)
-    scene = _law_scene(law, pressure)
+    if strain.ndim != 3 or strain.shape[1:] != (2, 2):
+        raise ValueError(f"path must be columns by name, or strains (n, 2, 2) or (n, 3), not {strain.shape}")
+    for k, tensor in enumerate(strain):
+        if not (np.isfinite(tensor).all() and tensor[0, 1] == tensor[1, 0]):
+            raise ValueError(f"path[{k}] must be finite and symmetric")
+    return {"exx": strain[:, 0, 0], "eyy": strain[:, 1, 1], "exy": strain[:, 0, 1]}
+
+
+def _tensors(rows: Mapping[str, Any], letter: str) -> Array:
+    return np.stack([rows[letter + k] for k in ("xx", "xy", "xy", "yy")], axis=1).reshape(-1, 2, 2)
+
+
+def integrate(law: Any, path: Any, stress: Any = None, pressure: float = 1.0, time: Any = None) -> Record:
+    """Drives a law along prescribed strains and stresses, in plane strain, positive in compression.
+
+    law       keys of the section continuum: {"law": "mohr_coulomb", "friction_angle_peak": 30, ...}, or a scene (dict or path)
+    path      three columns by name, numbers or (n), such as {"eyy": numpy.linspace(0, 0.04, 81), "sxx": 1, "exy": 0}.
+              Strains: exx, eyy, exy, volume (exx + eyy); stresses [pressure]: sxx, syy, sxy, mean_stress ((sxx + syy)/2).
+              Also strains alone: (n, 2, 2), or (n, 3) with xx, yy, xy. The first row is the start; every row is one step.
+              Strains are total; exy is the tensor's component. The law takes the increments as given: use logarithmic strain
+              for finite deformation.
+    stress    (2, 2) at the start; default: the isotropic `pressure`, also out of the plane
+    pressure  unit of the law's moduli and cohesion [pressure]
+    time      (n) ascending, or a column "progress" of the path; only for laws with viscosity; default: rate independent
+
+    Returns stress (n, 2, 2) [pressure], stress_zz (n), strain (n, 2, 2) since the start, equivalent_plastic_strain (n),
+    dissipation (n) [pressure], verdict (n texts) and reliable (n), verdict == "reliable". "zz_outside": the law ignores
+    sigma_zz, which lies beyond the yield surface; "unreliable": softening is too fast. Raises NotConverged, whose `reached` is
+    the result so far, if there is no such stress or strain, SceneError for a wrong law, ValueError for a wrong path.
+    """
+    columns = _columns(path)
+    time = columns.pop("progress", time)
+    if len(columns) != 3:
+        raise ValueError(f"path has {len(columns)} columns ({', '.join(columns)}); give three, for example eyy, sxx, exy")
+    arrays = np.broadcast_arrays(*(np.asarray(column, dtype=float) for column in columns.values()))
     start = (pressure * np.eye(2) if stress is None else np.asarray(stress, dtype=float), pressure)
     compiled = importlib.import_module("diptych._continuum")
-    result = compiled.integrate(scene, strain, start, time)
-    reached = len(result["stress_zz"])
-    if reached < len(strain):
-        raise NotConverged(f"the law found no stress for strain_path[{reached}]")
-    result["reliable"] = result["reliable"].astype(bool)
-    return Record(result)
+    named = {name: np.atleast_1d(array) for name, array in zip(columns, arrays)}
+    rows, failure = compiled.integrate(_law_scene(law, pressure), start, named, time)
+    result = Record({"stress": _tensors(rows, "s"), "stress_zz": rows["szz"], "strain": _tensors(rows, "e"),
+                     "equivalent_plastic_strain": rows["equivalent_plastic_strain"], "dissipation": rows["dissipation"],
+                     "verdict": np.array(rows["verdict"]), "reliable": np.array(rows["verdict"]) == "reliable"})
+    if failure:
+        raise NotConverged(failure, result)
+    return result
 
 
-def biaxial(law: Any, axial_strain: float = 0.1, pressure: float = 1.0, step: float = 1e-3) -> History:
-    """Drives a law along the biaxial path, in plane strain. The lateral stress stays at `pressure`; the axial strain grows in equal
-    steps to `axial_strain`, from an isotropic stress. Newton's iteration finds the lateral strain to 1e-10 of the pressure.
+def biaxial(law: Any, axial_strain: float = 0.1, pressure: float = 1.0, step: float = 1e-3, path: str = "drained") -> History:
+    """Drives a law along a named path from an isotropic stress, in plane strain. The axial strain grows in equal steps to
+    `axial_strain`. Newton's iteration finds the other strains to 1e-10 of the pressure.
 
-    law  as in integrate()
+    law   as in integrate()
+    path  "drained": the lateral stress stays at `pressure` (the biaxial test); "constant_volume" (undrained);
+          "constant_mean_stress": (sxx + syy)/2; "simple_shear": 2 exy grows in place of the axial strain, syy and the width
+          are constant
 
-    Returns the columns of material_point.csv (axial_strain, volumetric_strain, stress_ratio, ...). Raises NotConverged if the law or
-    the lateral strain does not converge, SceneError, ValueError.
+    Returns the columns of material_point.csv (axial_strain, volumetric_strain, stress_ratio, ...). Raises NotConverged, whose
+    `reached` is the result so far, if there is no such stress or strain, SceneError, ValueError.
     """
     compiled = importlib.import_module("diptych._continuum")
-    columns, failure = compiled.biaxial(_law_scene(law, pressure), axial_strain, step)
+    columns, failure = compiled.named_path(_law_scene(law, pressure), path, axial_strain, step)
+    result = History(columns, compiled.point_columns())
     if failure:
-        raise NotConverged(failure)
-    return History(columns, compiled.point_columns())
+        raise NotConverged(failure, result)
+    return result
 
 
 def principal(stress: Any) -> tuple[Array, Array, Array]:

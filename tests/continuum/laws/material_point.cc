@@ -1,11 +1,10 @@
-// diptych: one point along the biaxial path
+// diptych: one point along paths of strains and stresses
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/laws/material_point.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "continuum/laws/strain_path.h"
 #include "tests/continuum/laws/law_states.h"
 #include "tests/files.h"
 
@@ -14,11 +13,14 @@ namespace
   using namespace diptych::continuum;
   using namespace diptych::continuum::tests;
 
-  MaterialPointReport drive(const LawKind law, const LawOptions &options, const MaterialPointPath &path)
+  MaterialPointReport drive(const LawKind     law,
+                            const LawOptions &options,
+                            const PathSize   &size,
+                            const NamedPath   name = NamedPath::drained)
   {
-    const MaterialPointReport report = drive_material_point(make_law(law, options), path);
+    const MaterialPointReport report = drive_material_point(law, options, {}, named_path(name, size));
     EXPECT_EQ(report.status, MaterialPointStatus::finished) << report.message;
-    EXPECT_NEAR(report.axial_strain, path.axial_strain, 1e-15);
+    EXPECT_EQ(report.rows.back().progress, size.strain);
     return report;
   }
 
@@ -153,45 +155,10 @@ namespace
     for (const double step : {1e-3, 0.0011, 0.0012, 0.0017})
       {
         const auto report = drive(LawKind::mohr_coulomb, constant(30, 12, 0.1), {1, 0.0405, step});
-        EXPECT_EQ(report.axial_strain, 0.0405);
-        EXPECT_EQ(report.rows.back().axial_strain, 0.0405);
+        EXPECT_NEAR(report.rows.back().axial_strain, 0.0405, 1e-15);
         EXPECT_EQ(report.rows.size(), std::ceil(0.0405 / step) + 1);
         EXPECT_NEAR(report.rows[10].axial_strain, 10 * step, 1e-15);
       }
-  }
-
-  // Prescribes the strains of a biaxial path: the same increments must give the same stress. The strains are logarithmic,
-  // because the path uses logarithmic increments.
-  TEST(StrainPath, StrainsOfTheBiaxialPathGiveItsStress)
-  {
-    for (const LawKind law : plastic_laws)
-      {
-        const LawOptions          options = constant(30, 10, 0.1);
-        const MaterialPointReport report  = drive(law, options, {1, 0.03, 1e-3});
-        StrainPath                path;
-        path.stress    = Eigen::Matrix2d::Identity();
-        path.stress_zz = 1;
-        for (const MaterialPointRow &row : report.rows)
-          path.strain.emplace_back(
-            Eigen::Vector2d(-std::log1p(-row.lateral_strain), -std::log1p(-row.axial_strain)).asDiagonal());
-        const auto rows = drive_strain_path(law, options, {}, path);
-        ASSERT_EQ(rows.size(), report.rows.size()) << name_of(law);
-        for (std::size_t k = 0; k < rows.size(); ++k)
-          {
-            EXPECT_NEAR(rows[k].stress(1, 1), report.rows[k].syy, 1e-8 * report.rows[k].syy) << name_of(law) << ", row " << k;
-            EXPECT_NEAR(rows[k].stress(0, 0), 1, 1e-8) << name_of(law) << ", row " << k;
-            EXPECT_NEAR(rows[k].dissipation, report.rows[k].dissipation, 1e-9) << name_of(law) << ", row " << k;
-          }
-      }
-  }
-
-  TEST(StrainPath, ReportsTheInvalidStrain)
-  {
-    StrainPath path;
-    EXPECT_THROW((void)drive_strain_path(LawKind::linear_elastic, {}, {}, path), std::invalid_argument);
-    path.strain.assign(3, Eigen::Matrix2d::Zero());
-    path.strain[2](0, 1) = 1;
-    diptych::tests::expect_refused({"strain_path[2]"}, [&] { (void)drive_strain_path(LawKind::linear_elastic, {}, {}, path); });
   }
 
   // Friction that drops within a strain far below the elastic one: the step fails or is called unreliable, never reliable.
@@ -201,18 +168,17 @@ namespace
     options.friction_angle_peak     = 40;
     options.friction_angle_residual = 5;
     options.softening_strain        = 1e-4;
-    const auto report               = drive_material_point(make_law(LawKind::mohr_coulomb, options), {1, 0.05, 1e-3});
-    const bool doubted              = std::any_of(report.rows.begin(), report.rows.end(),
-                                                  [](const auto &row) { return row.verdict == Verdict::unreliable; });
+    const auto report = drive_material_point(LawKind::mohr_coulomb, options, {}, named_path(NamedPath::drained, {1, 0.05, 1e-3}));
+    const bool doubted = std::any_of(report.rows.begin(), report.rows.end(),
+                                     [](const auto &row) { return row.verdict == PointVerdict::unreliable; });
     EXPECT_TRUE(doubted || report.status != MaterialPointStatus::finished);
   }
 
   TEST(MaterialPoint, ImpossiblePathsAreRefusedByName)
   {
-    const std::pair<MaterialPointPath, const char *> cases[] = {
+    const std::pair<PathSize, const char *> cases[] = {
       {{0, 0.1, 1e-3}, "pressure"}, {{1, 1, 1e-3}, "axial_strain"}, {{1, 0, 1e-3}, "axial_strain"}, {{1, 0.1, 0}, "step"}};
-    for (const auto &[path, key] : cases)
-      EXPECT_EQ(diptych::tests::refusal([&] { (void)drive_material_point(make_law(LawKind::mohr_coulomb, {}), path); }).find(key),
-                0u);
+    for (const auto &[size, key] : cases)
+      EXPECT_EQ(diptych::tests::refusal([&] { (void)named_path(NamedPath::drained, size); }).find(key), 0u);
   }
 } // namespace

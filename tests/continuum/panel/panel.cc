@@ -142,6 +142,10 @@ namespace
       {
         EXPECT_EQ(c.snapshots.back().axial_strain, c.report.axial_strain) << "the snapshot holds the state reached";
       }
+    EXPECT_EQ(c.report.message.find("internal length"), std::string::npos) << "the Cosserat law has one";
+    options.law = LawKind::mohr_coulomb;
+    diptych::tests::expect_words(course(mesh, straight_loading(1, {20, -20}, {0.02}), options).report.message,
+                                 {"Newton", "cosserat_mohr_coulomb", "continuum/viscosity", "difference of the two angles"});
   }
 
   // One element under smooth platens with hardly any hardening range. The acoustic tensor loses its positive determinant where

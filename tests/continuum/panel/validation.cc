@@ -74,7 +74,8 @@ namespace
   TEST(Validation, ForceAndVolumeAreOfSecondOrderInTheStep)
   {
     const Options             options = one_element({LawKind::mohr_coulomb, Displacement::q2}, 10, 0.01);
-    const MaterialPointReport exact   = drive_material_point(make_law(options.law, options.material), {1., 0.2, 1e-3});
+    const PointPath           path    = named_path(NamedPath::drained, {1., 0.2, 1e-3});
+    const MaterialPointReport exact   = drive_material_point(options.law, options.material, {}, path);
     const MaterialPointRow   &end     = exact.rows.back();
     const double              force   = end.syy * (1 - end.lateral_strain);
     double                    before[2]{};

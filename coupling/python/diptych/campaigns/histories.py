@@ -29,8 +29,6 @@ def panel_table(folder: str, source: str) -> pd.DataFrame | None:
                             float_precision="round_trip")
     except (ValueError, pd.errors.ParserError) as error:
         raise ValueError(f"{path}: {error}") from error
-    if source == "material_point":  # the loading variable of a point is its axial strain
-        table["progress"] = table["axial_strain"]
     return table if len(table) else None
 
 
