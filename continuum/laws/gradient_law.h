@@ -13,7 +13,8 @@ namespace diptych::continuum
   //   max(0, (1 - m) kappa + m kbar),  m = nonlocal_weight.
   // With m = 1 a band may still be infinitely thin. With m > 1 the law hardens at a constant kbar (over-nonlocal: Vermeer and
   // Brinkgreve 1994; Stroemberg and Ristinmaa 1996; Di Luzio and Bazant 2005). A uniform shear layer then has a plastic zone of
-  //   2 a (pi - atan(l/a)),  a = l sqrt(m - 1), and a half-maximum width of 2 a acos((1 - sqrt(1 - 1/m))/2);  m = 4: 9.1 l, 5.2 l.
+  //   2 a (pi - atan(l/a)),  a = l sqrt(m - 1), and a half-maximum width of 2 a acos((1 - sqrt(1 - 1/m))/2);  m = 4: 9.1 l, 5.2
+  //   l.
   // The scale s of the equation is the shear modulus. ElasticModuli has s as `skew` and s l^2 as `couple`.
   class GradientLaw : public ConeLaw
   {

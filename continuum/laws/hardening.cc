@@ -20,9 +20,12 @@ namespace diptych::continuum
 
     void add(Strength &s, const Strength &more)
     {
-      s.friction += more.friction, s.friction_rate += more.friction_rate;
-      s.dilatancy += more.dilatancy, s.dilatancy_rate += more.dilatancy_rate;
-      s.cohesion += more.cohesion, s.cohesion_rate += more.cohesion_rate;
+      s.friction += more.friction;
+      s.friction_rate += more.friction_rate;
+      s.dilatancy += more.dilatancy;
+      s.dilatancy_rate += more.dilatancy_rate;
+      s.cohesion += more.cohesion;
+      s.cohesion_rate += more.cohesion_rate;
     }
 
     // A square root gives the cosine faster than std::cos. All angles lie between -90 and 90 degrees.

@@ -57,7 +57,7 @@ namespace
   // The softening variable is uniform in the plastic zone, so that kappa = cos(x/a) - cos(w/(2a)) up to a factor, with a = l
   // sqrt(m - 1) and the zone w = 2 a (pi - atan(l/a)), where kappa = 0. For m = 2 this is w = 4.71 l and a standard deviation of
   // 0.976 l. For m = 1 there is no such solution: the band is as thin as the mesh permits.
-  TEST(Gradient, ShearLayerHasTheWidthOfTheClosedFormOnAnyMesh)
+  TEST(GradientLayer, HasTheWidthOfTheClosedFormOnAnyMesh)
   {
     const double coarse = half_width(2, layer(2, 2)), fine = half_width(1, layer(2, 2));
     EXPECT_NEAR(coarse / fine, 1, 0.03);
