@@ -138,15 +138,18 @@ namespace diptych::continuum
     return {};
   }
 
-  // Extrapolates the last two increments. They already contain the band's pattern of loading and unloading, which a tangent at
-  // the beginning of the step does not. The first step has only the tangent.
+  // Extrapolates the last increment, or the last two while the motion is smooth: where it is not, a bold guess leads to
+  // another of several solutions. The increments already contain the band's pattern of loading and unloading, which a tangent
+  // at the beginning of the step does not. The first step has only the tangent.
   DistributedVector LoadDriver::predict(const double to)
   {
     if (now.last_step > 0)
       {
         const double size      = to - problem.progress();
         auto         increment = problem.owned_values(now.last.increment);
-        increment.sadd(size / now.last_step, size * (size + now.last_step) / 2, problem.owned_values(now.last.curvature));
+        increment *= size / now.last_step;
+        if (now.is_smooth)
+          increment.add(size * (size + now.last_step) / 2, problem.owned_values(now.last.curvature));
         problem.impose(increment);
         return increment;
       }
@@ -205,7 +208,8 @@ namespace diptych::continuum
             accept(increment, size, report.iterations);
             return refine_and_equilibrate();
           }
-        now.step = size / 2;
+        now.step      = size / 2;
+        now.is_smooth = false;
         if (now.step >= options.min_step)
           continue;
         std::ostringstream why;
@@ -220,8 +224,16 @@ namespace diptych::continuum
     solver.forget_memory();
     const auto latest = problem.relevant_values(increment);
     if (now.last_step > 0)
-      for (std::size_t i = 0; i < latest.size(); ++i)
-        now.last.curvature[i] = (latest[i] / size - now.last.increment[i] / now.last_step) / ((size + now.last_step) / 2);
+      {
+        const double between  = (size + now.last_step) / 2;
+        auto         expected = now.last.curvature;
+        for (std::size_t i = 0; i < latest.size(); ++i)
+          now.last.curvature[i] = (latest[i] / size - now.last.increment[i] / now.last_step) / between;
+        auto         surprise = problem.owned_values(now.last.curvature);
+        const double change   = surprise.l2_norm();
+        surprise -= problem.owned_values(expected);
+        now.is_smooth = surprise.l2_norm() < 0.5 * change;
+      }
     now.last.increment = latest;
     now.last_step      = size;
     ++now.count.steps;

@@ -22,8 +22,9 @@ namespace diptych::continuum
   struct DriverState
   {
     StepCounts count;
-    double     step      = 0; // intended length of the next step [progress]
-    double     last_step = 0; // last accepted length; 0: none yet
+    double     step      = 0;     // intended length of the next step [progress]
+    double     last_step = 0;     // last accepted length; 0: none yet
+    bool       is_smooth = false; // the motion of the last step was closer to the extrapolated one than to that before
     LastMotion last;
     Divisions  divisions; // history of the mesh
   };

@@ -18,7 +18,8 @@ namespace diptych::continuum
 
   namespace
   {
-    constexpr double reduction = 1e-2; // of the residual; a Newton iteration needs no more
+    // Of the residual. A Newton iteration needs no more, unless it is difficult: then its tangent was factorised.
+    constexpr double reduction = 1e-2, fresh_reduction = 1e-6;
     // Number of allowed iterations, and the number above which a new preconditioner pays. Multigrid always needs many.
     struct Patience
     {
@@ -163,18 +164,21 @@ namespace diptych::continuum
       (void)take_up(KeptPreconditioner(*waiting), matrix); // it fitted before; otherwise it is rebuilt
     const bool is_fresh = is_stale;
     if (!is_stale || factorise(matrix))
-      done = solve_iteratively(matrix, x, rhs);
+      done = solve_iteratively(matrix, x, rhs, is_fresh ? fresh_reduction : reduction);
     if (!done && !is_fresh && factorise(matrix))
-      done = solve_iteratively(matrix, x, rhs);
+      done = solve_iteratively(matrix, x, rhs, fresh_reduction);
     seconds += double(std::clock() - start) / CLOCKS_PER_SEC;
     return done;
   }
 
-  bool LinearSolver::solve_iteratively(const TrilinosWrappers::SparseMatrix &matrix, Vector &x, const Vector &rhs)
+  bool LinearSolver::solve_iteratively(const TrilinosWrappers::SparseMatrix &matrix,
+                                       Vector                               &x,
+                                       const Vector                         &rhs,
+                                       const double                          wanted)
   {
     x                                         = 0;
     const auto                          limit = patience(method);
-    SolverControl                       control(limit.longest, reduction * rhs.l2_norm(), false, false);
+    SolverControl                       control(limit.longest, wanted * rhs.l2_norm(), false, false);
     SolverGMRES<Vector>::AdditionalData settings(std::min(limit.longest, 60u) + 3, true);
     SolverGMRES<Vector>                 gmres(control, settings);
     try

@@ -93,7 +93,7 @@ namespace diptych::continuum
     };
 
     void keep_what_is_replaced();
-    bool solve_iteratively(const dealii::TrilinosWrappers::SparseMatrix &matrix, Vector &x, const Vector &rhs);
+    bool solve_iteratively(const dealii::TrilinosWrappers::SparseMatrix &matrix, Vector &x, const Vector &rhs, double wanted);
     bool factorise(const dealii::TrilinosWrappers::SparseMatrix &matrix);
     bool build(); // the preconditioner, from `factorised`
     bool build_amg();

@@ -22,6 +22,7 @@ namespace diptych::continuum
 
     int                            stage    = 0; // number of stages reached
     double                         progress = 0, step = 0, last_step = 0;
+    bool                           motion_is_smooth = false;
     std::array<Eigen::Vector2d, 2> platen_force{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}; // on the sample
     std::optional<double>          localisation_progress;
     double                         localisation_angle = 0;
@@ -45,6 +46,7 @@ namespace diptych::continuum
     visit("progress", c.progress);
     visit("step", c.step);
     visit("last_step", c.last_step);
+    visit("motion_is_smooth", c.motion_is_smooth);
     visit("lower_platen_force", c.platen_force[0]);
     visit("upper_platen_force", c.platen_force[1]);
     visit("localisation_progress", c.localisation_progress);

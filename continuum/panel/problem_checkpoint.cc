@@ -94,6 +94,7 @@ namespace diptych::continuum
     c.progress          = problem.progress();
     c.step              = state.step;
     c.last_step         = state.last_step;
+    c.motion_is_smooth  = state.is_smooth;
     c.platen_force      = problem.committed().platen_force;
     c.steps             = state.count.steps;
     c.cut_backs         = state.count.cut_backs;
@@ -151,6 +152,7 @@ namespace diptych::continuum
     state.divisions = Utilities::MPI::this_mpi_process(mesh.communicator()) == 0 ? c.divisions : Divisions(c.divisions.size());
     state.step      = c.step;
     state.last_step = c.last_step;
+    state.is_smooth = c.motion_is_smooth;
     state.count     = {c.steps, c.cut_backs, c.newton_iterations, c.refinements};
     driver.restart(std::move(state));
     auto &solver = driver.linear_solver();
