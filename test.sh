@@ -33,10 +33,10 @@ case "$preset" in
   fuzz) targets=(fuzz_scene fuzz_table fuzz_problem)
         packages+=(clang) ;;
 esac
-# Only the tests need these packages. They open report.html, read the ParaView files, build a package and the manual, and use the
-# Python package and its notebooks.
+# Only the tests need these packages. They open report.html, read the ParaView files, build a package and the manual, use the Python
+# package and its notebooks, and solve cone programs.
 packages+=(chromium python3-vtk9 dpkg-dev clang-format mkdocs mkdocs-material fish man-db)
-packages+=(python3-pytest python3-nbconvert python3-ipykernel python3-openturns)
+packages+=(python3-pytest python3-nbconvert python3-ipykernel python3-openturns python3-cvxopt)
 install_missing
 build "$preset" "${targets[@]}"
 if [ "$preset" = fuzz ]; then

@@ -32,15 +32,12 @@ namespace diptych::continuum
     require_keys(!traits(options.law).has_length() || options.element != Displacement::q1_bbar, {"element", "law"},
                  "element = ", name_of(options.element), " with law = ", name_of(options.law),
                  ": laws with an internal length need q2 (equal orders of displacement and rotation lock)");
-    require_keys(!traits(options.law).is_gradient || options.material.hardening != HardeningKind::critical_state,
-                 {"hardening", "law"}, "hardening = critical_state with law = ", name_of(options.law),
-                 ": gradient laws need another hardening; Cosserat laws take this one");
     require_keys(options.mesh.kind != MeshOption::Kind::rectangle ||
                    (options.rectangle_width > 0 && options.rectangle_height > 0),
                  {"rectangle_width", "rectangle_height", "mesh"}, "rectangle_width = ", options.rectangle_width,
                  ", rectangle_height = ", options.rectangle_height, ": mesh = rectangle needs both");
     if (traits(options.law).is_plastic)
-      validate(options.material);
+      validate(options.law, options.material);
     else
       validate(options.material.elastic);
   }

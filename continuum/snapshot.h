@@ -34,7 +34,7 @@ namespace diptych::continuum
     double          acoustic_determinant      = 1; // least det(n C n) over all n and points, relative to the elastic one
     double          localisation_angle        = 0; // of the band that could form, from the horizontal [degrees], (-90, 90]
     double          friction_angle            = 0; // mobilised or remaining friction of the law [degrees]; elastic: 0
-    double          solid_fraction            = 0; // hardening = critical_state [-]; else 0
+    double          solid_fraction            = 0; // hardening = critical_state, kinematic [-]; else 0
     double          nonlocal_plastic_strain   = 0; // gradient laws: nonlocal hardening variable [-]; else 0
   };
 

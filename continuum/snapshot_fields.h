@@ -40,7 +40,8 @@ namespace diptych::continuum
     visit("cells/localisation_angle", c.localisation_angle, "degrees", "angle of the band that could form, from the horizontal");
     visit("cells/friction_angle", c.friction_angle, "degrees",
           "friction angle of the law at its current state; 0 for linear_elastic");
-    visit("cells/solid_fraction", c.solid_fraction, "-", "solid fraction if hardening = critical_state, otherwise 0");
+    visit("cells/solid_fraction", c.solid_fraction, "-",
+          "solid fraction if hardening = critical_state or kinematic, otherwise 0");
     visit("cells/nonlocal_plastic_strain", c.nonlocal_plastic_strain, "-",
           "nonlocal hardening variable of a gradient law, otherwise 0");
   }

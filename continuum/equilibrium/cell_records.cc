@@ -12,7 +12,7 @@ namespace diptych::continuum
 
   namespace
   {
-    constexpr unsigned int n_state = n_components + 11, n_fields = 3; // fields: displacement and LastMotion
+    constexpr unsigned int n_state = 2 * n_components + 11, n_fields = 3; // fields: displacement and LastMotion
 
     std::array<double, n_state> packed(const MaterialState &s)
     {
@@ -24,6 +24,8 @@ namespace diptych::continuum
         s.plastic_strain.yy, s.plastic_strain.zz,       s.plastic_strain.xy,         s.dissipation, s.stress_ratio_gain,
         s.densification};
       std::copy(std::begin(rest), std::end(rest), values.begin() + n_components);
+      for (unsigned int k = 0; k < n_components; ++k)
+        values[n_state - n_components + k] = s.back_stress_ratio[k];
       return values;
     }
 
@@ -41,6 +43,8 @@ namespace diptych::continuum
       s.dissipation               = rest[8];
       s.stress_ratio_gain         = rest[9];
       s.densification             = rest[10];
+      for (unsigned int k = 0; k < n_components; ++k)
+        s.back_stress_ratio[k] = values[n_state - n_components + k];
       return s;
     }
 

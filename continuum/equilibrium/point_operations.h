@@ -24,12 +24,11 @@ namespace diptych::continuum
       values[cell.local[i]] += force[i];
   }
 
-  // Rotates stress and couple stress by the rotation of the material. The skew part does not depend on the frame. The
-  // last components of a gradient law are no couple stress and stay.
-  inline void turn(MaterialState &point, const double angle, const bool is_gradient = false)
+  // Rotates stress and couple stress by an angle. The skew part does not depend on the frame. The last components of a gradient
+  // law are no couple stress and stay.
+  inline void turn(Stress &t, const double angle, const bool is_gradient = false)
   {
     const double c = std::cos(angle), s = std::sin(angle);
-    Stress      &t    = point.stress;
     const double mean = (t[xx] + t[yy]) / 2, a = (t[xx] - t[yy]) / 2, b = t[xy];
     const double cos2 = c * c - s * s, sin2 = 2 * c * s;
     t[xx] = mean + a * cos2 - b * sin2;
@@ -40,5 +39,12 @@ namespace diptych::continuum
     const double mx = t[curvature_x], my = t[curvature_y];
     t[curvature_x] = c * mx - s * my;
     t[curvature_y] = s * mx + c * my;
+  }
+
+  // Rotates a state by the rotation of the material.
+  inline void turn(MaterialState &point, const double angle, const bool is_gradient = false)
+  {
+    turn(point.stress, angle, is_gradient);
+    turn(point.back_stress_ratio, angle);
   }
 } // namespace diptych::continuum

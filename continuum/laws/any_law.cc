@@ -14,6 +14,14 @@ namespace diptych::continuum
 
   Law make_law(const LawKind law, const LawOptions &options, const Units &units)
   {
+    if (traits(law).is_plastic && options.hardening == HardeningKind::kinematic)
+      {
+        validate(law, options);
+        if (law == LawKind::drucker_prager)
+          return KinematicLaw<false>(options, ConeShape::drucker_prager, units);
+        return KinematicLaw<true>(
+          options, law == LawKind::cosserat_mohr_coulomb ? ConeShape::mohr_coulomb : ConeShape::drucker_prager, units);
+      }
     switch (law)
       {
       case LawKind::linear_elastic:

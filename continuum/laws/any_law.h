@@ -8,6 +8,7 @@
 #include "continuum/laws/cosserat_mohr_coulomb.h"
 #include "continuum/laws/drucker_prager.h"
 #include "continuum/laws/gradient_law.h"
+#include "continuum/laws/kinematic_cone.h"
 #include "continuum/laws/linear_elastic.h"
 #include "continuum/laws/mohr_coulomb.h"
 
@@ -18,9 +19,11 @@ namespace diptych::continuum
                            DruckerPrager,
                            CosseratMohrCoulomb,
                            CosseratDruckerPrager,
+                           KinematicLaw<false>,
+                           KinematicLaw<true>,
                            GradientMohrCoulomb,
                            GradientDruckerPrager>;
 
-  // Throws std::invalid_argument under the same conditions as validate(options).
+  // Throws std::invalid_argument under the same conditions as validate(options), and if validate(law, options) does.
   Law make_law(LawKind law, const LawOptions &options, const Units &units = {});
 } // namespace diptych::continuum

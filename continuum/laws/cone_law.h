@@ -56,11 +56,10 @@ namespace diptych::continuum
     ElasticModuli moduli_;
     double        pressure_modulus; // B [pressure]
     Tangent       elastic;
+    Deviatoric    deviatoric(const MaterialState &state) const;
+    double        pressure(const MaterialState &state) const;
 
   private:
-    Deviatoric deviatoric(const MaterialState &state) const;
-    double     pressure(const MaterialState &state) const;
-
     double  viscosity;
     double  couple_scale; // sqrt2 l; zero for a law without couple stress
     Tangent metric;       // (dg/d strain)^T (dg/d strain)

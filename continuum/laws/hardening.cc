@@ -53,7 +53,7 @@ namespace diptych::continuum
         unmobilised         = (o.friction_angle_peak - o.friction_angle_start) * one_degree;
         mobilisation_strain = o.mobilisation_strain;
       }
-    if (o.hardening == HardeningKind::critical_state)
+    if (follows_solid_fraction(o.hardening))
       {
         const double start = o.solid_fraction_start.value_or(o.critical_solid_fraction);
         critical_state     = {true,

@@ -58,7 +58,8 @@ namespace diptych::continuum
     double        stress_ratio_gain         = 0; // critical state: increase of the mobilised t/s since the start [-]
     double        densification             = 0; // critical state: ln(solid fraction / initial one), from plastic strain [-]
     double        nonlocal_plastic_strain   = 0; // gradient laws: kbar, the nonlocal hardening variable [-]
-    double        overstress                = 0; // excess of the yield function that viscosity carries [pressure]
+    Stress        back_stress_ratio;             // kinematic: axis of the cone, a deviatoric stress over the pressure [-]
+    double        overstress = 0;                // excess of the yield function that viscosity carries [pressure]
     PlasticStrain plastic_strain;                // updated by add_plastic_flow(), not by update()
     double        dissipation = 0;               // plastic work per initial area [pressure]; from add_plastic_flow()
   };

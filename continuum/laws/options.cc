@@ -112,6 +112,14 @@ namespace diptych::continuum
         }
     }
 
+    void check_kinematic(const LawOptions &o)
+    {
+      require_range("elastic_stress_ratio", o.elastic_stress_ratio, 0.001, 0.9);
+      require_keys(o.elastic_stress_ratio < o.critical_stress_ratio, {"elastic_stress_ratio", "critical_stress_ratio"},
+                   "elastic_stress_ratio = ", o.elastic_stress_ratio,
+                   " must be below critical_stress_ratio = ", o.critical_stress_ratio);
+    }
+
     // Values are linear between the points, so checking the points is sufficient.
     void check_table(const LawOptions &o)
     {
@@ -169,6 +177,7 @@ namespace diptych::continuum
     const std::vector<const char *> mobilised = {"mobilisation_strain"};
     const std::vector<const char *> critical  = {"critical_stress_ratio", "critical_solid_fraction", "strength_by_density",
                                                  "dilatancy_ratio",       "stress_ratio_start",      "solid_fraction_start"};
+    const std::vector<const char *> kinematic = {"elastic_stress_ratio"};
     const std::vector<const char *> table = {"table_strain", "table_friction_angle", "table_dilatancy_angle", "table_cohesion"};
     unless(is.has_length(), of_law, {"internal_length"});
     unless(is.is_cosserat, of_law, {"couple_shear_ratio"});
@@ -179,16 +188,18 @@ namespace diptych::continuum
     unless(is.is_plastic, of_law, start);
     unless(is.is_plastic, of_law, mobilised);
     unless(is.is_plastic, of_law, critical);
+    unless(is.is_plastic, of_law, kinematic);
     unless(is.is_plastic, of_law, table);
     if (is.is_plastic)
       {
-        const bool has_state = o.hardening == HardeningKind::critical_state;
+        const bool has_state = follows_solid_fraction(o.hardening);
         unless(o.hardening != HardeningKind::table && !has_state, of_hardening, {"friction_angle_peak", "dilatancy_angle_peak"});
         unless(o.hardening != HardeningKind::table, of_hardening, {"cohesion"});
         unless(o.hardening == HardeningKind::exponential || o.hardening == HardeningKind::mobilisation, of_hardening, residual);
         unless(o.hardening == HardeningKind::mobilisation, of_hardening, start);
         unless(o.hardening == HardeningKind::mobilisation || has_state, of_hardening, mobilised);
         unless(has_state, of_hardening, critical);
+        unless(o.hardening == HardeningKind::kinematic, of_hardening, kinematic);
         unless(o.hardening == HardeningKind::table, of_hardening, table);
       }
     return unused;
@@ -205,7 +216,7 @@ namespace diptych::continuum
     validate(o.elastic);
     if (o.hardening == HardeningKind::table)
       check_table(o);
-    else if (o.hardening == HardeningKind::critical_state)
+    else if (follows_solid_fraction(o.hardening))
       check_critical_state(o);
     else
       check_peak(o);
@@ -213,9 +224,20 @@ namespace diptych::continuum
       check_residual(o);
     if (o.hardening == HardeningKind::mobilisation)
       check_mobilisation(o);
+    if (o.hardening == HardeningKind::kinematic)
+      check_kinematic(o);
     require_range("viscosity", o.viscosity, 0, greatest);
     require_range("internal_length", o.internal_length, 1e-6, 1e6);
     require_range("couple_shear_ratio", o.couple_shear_ratio, 1e-6, 1e6);
     require_range("nonlocal_weight", o.nonlocal_weight, 1, 10);
+  }
+
+  void validate(const LawKind law, const LawOptions &o)
+  {
+    validate(o);
+    require_keys(law != LawKind::mohr_coulomb || o.hardening != HardeningKind::kinematic, {"law", "hardening"},
+                 "law = mohr_coulomb with hardening = kinematic: take drucker_prager, or a law with rotations");
+    require_keys(!traits(law).is_gradient || !follows_solid_fraction(o.hardening), {"law", "hardening"}, "law = ", name_of(law),
+                 " with hardening = ", name_of(o.hardening), ": take another hardening, or a law with rotations");
   }
 } // namespace diptych::continuum

@@ -77,14 +77,18 @@ namespace diptych::continuum
     mobilisation, // exponential, but friction starts lower and rises first
     table,
     critical_state, // strength and dilatancy follow solid fraction and mobilisation (hardening.h)
+    kinematic,      // critical_state whose mobilised stress ratio has a direction (kinematic_return.h)
     constant
   };
 
   constexpr auto choices(HardeningKind)
   {
     return std::array{std::pair{HardeningKind::exponential, "exponential"},
-                      std::pair{HardeningKind::mobilisation, "mobilisation"}, std::pair{HardeningKind::table, "table"},
-                      std::pair{HardeningKind::critical_state, "critical_state"}, std::pair{HardeningKind::constant, "constant"}};
+                      std::pair{HardeningKind::mobilisation, "mobilisation"},
+                      std::pair{HardeningKind::table, "table"},
+                      std::pair{HardeningKind::critical_state, "critical_state"},
+                      std::pair{HardeningKind::kinematic, "kinematic"},
+                      std::pair{HardeningKind::constant, "constant"}};
   }
 
   // Units of a law's parameters. Stresses and moduli are multiples of the lateral pressure of the loading, lengths of the mean
@@ -134,6 +138,7 @@ namespace diptych::continuum
     double                strength_by_density     = 5.5;   // d(t/s that can be mobilised) / d(solid fraction) [-]
     double                dilatancy_ratio         = 0.55;  // (t/s - t/s of steady flow) / sin(dilatancy angle) [-]
     double                stress_ratio_start      = 0.1;   // mobilised t/s of the prepared sample [-]
+    double                elastic_stress_ratio    = 0.05;  // kinematic: half the elastic range of t/s after long shear [-]
     std::optional<double> solid_fraction_start;            // of the prepared sample [-]; empty: mapped from the grains
     double                viscosity          = 0;   // [Units::stress x progress]; a positive value eases the onset of a band
     double                internal_length    = 1;   // Cosserat and gradient laws [Units::length]
@@ -149,14 +154,14 @@ namespace diptych::continuum
       "exponential: decay from peak to residual values with exp(-strain / softening_strain); mobilisation: the "
       "same, but friction starts at friction_angle_start and is lower by (peak - start) exp(-strain / mobilisation_strain); "
       "table: the four lists, linear between their points and constant beyond them; critical_state: both angles follow "
-      "solid fraction and mobilisation; constant: the peak values");
+      "solid fraction and mobilisation; kinematic: critical_state that unloads and reverses; constant: the peak values");
     visitor("friction_angle_peak", o.friction_angle_peak, "degrees", {0., 60.},
             "friction angle before any plastic strain; hardening = mobilisation: the value it would have if fully mobilised");
     visitor("friction_angle_start", o.friction_angle_start, "degrees", {0., 60.},
             "hardening = mobilisation: friction angle before any plastic strain; at most the peak angle");
-    visitor(
-      "mobilisation_strain", o.mobilisation_strain, "-", {1e-6, 1e6},
-      "hardening = mobilisation, critical_state: equivalent plastic strain over which the deficit of friction decays by 1/e");
+    visitor("mobilisation_strain", o.mobilisation_strain, "-", {1e-6, 1e6},
+            "hardening = mobilisation, critical_state, kinematic: equivalent plastic strain over which the deficit of friction "
+            "decays by 1/e");
     visitor("friction_angle_residual", o.friction_angle_residual, "degrees", {0., 60.},
             "friction angle after long shear; at most the peak angle");
     visitor("dilatancy_angle_peak", o.dilatancy_angle_peak, "degrees", {0., 60.},
@@ -168,17 +173,21 @@ namespace diptych::continuum
             "cohesion after long shear; auto: equal to cohesion");
     visitor("softening_strain", o.softening_strain, "-", {1e-6, 1e6},
             "equivalent plastic strain over which angles and cohesion decay by 1/e");
-    visitor("critical_stress_ratio", o.critical_stress_ratio, "-", {0.01, 0.9}, "hardening = critical_state: t/s of steady flow");
+    visitor("critical_stress_ratio", o.critical_stress_ratio, "-", {0.01, 0.9},
+            "hardening = critical_state, kinematic: t/s of steady flow");
     visitor("critical_solid_fraction", o.critical_solid_fraction, "-", {0.1, 1.},
-            "hardening = critical_state: solid fraction of steady flow");
+            "hardening = critical_state, kinematic: solid fraction of steady flow");
     visitor("strength_by_density", o.strength_by_density, "-", {1e-6, 1e3},
-            "hardening = critical_state: d(t/s that can be mobilised) / d(solid fraction)");
+            "hardening = critical_state, kinematic: d(t/s that can be mobilised) / d(solid fraction)");
     visitor("dilatancy_ratio", o.dilatancy_ratio, "-", {0.05, 20.},
-            "hardening = critical_state: (t/s - t/s of steady flow) / sine of the dilatancy angle");
+            "hardening = critical_state, kinematic: (t/s - t/s of steady flow) / sine of the dilatancy angle");
     visitor("stress_ratio_start", o.stress_ratio_start, "-", {0., 0.9},
-            "hardening = critical_state: mobilised t/s of the prepared sample");
-    visitor("solid_fraction_start", o.solid_fraction_start, "-", {0.1, 1.},
-            "hardening = critical_state: solid fraction of the prepared sample; auto: mapped from its grains, cell by cell");
+            "hardening = critical_state, kinematic: mobilised t/s of the prepared sample");
+    visitor("elastic_stress_ratio", o.elastic_stress_ratio, "-", {0.001, 0.9},
+            "hardening = kinematic: half the elastic range of t/s after long shear");
+    visitor(
+      "solid_fraction_start", o.solid_fraction_start, "-", {0.1, 1.},
+      "hardening = critical_state, kinematic: solid fraction of the prepared sample; auto: mapped from its grains, cell by cell");
     visitor("table_strain", o.table_strain, "-", {0., 1e6}, "hardening = table: equivalent plastic strains, ascending from 0");
     visitor("table_friction_angle", o.table_friction_angle, "degrees", {0., 60.},
             "hardening = table: friction angles at table_strain");
@@ -199,6 +208,12 @@ namespace diptych::continuum
       "thickness");
   }
 
+  // Whether the law starts from a solid fraction, given or mapped from the grains.
+  constexpr bool follows_solid_fraction(const HardeningKind hardening)
+  {
+    return hardening == HardeningKind::critical_state || hardening == HardeningKind::kinematic;
+  }
+
   // The same parameters as stresses and lengths.
   LawOptions in_units(LawOptions options, const Units &units);
 
@@ -215,4 +230,6 @@ namespace diptych::continuum
   // negative. A residual value must not exceed the peak value. Friction and cohesion must not both be zero.
   void validate(const ElasticOptions &options);
   void validate(const LawOptions &options);
+  // The same for a plastic law with its hardening: kinematic has no return in principal space, which mohr_coulomb needs.
+  void validate(LawKind law, const LawOptions &options);
 } // namespace diptych::continuum

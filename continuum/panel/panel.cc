@@ -109,7 +109,7 @@ namespace diptych::continuum
     {
       require(options_.initial_stress == InitialStress::isotropic || has_stress_,
               "initial_stress = mapped: no stress was given to map");
-      require(options_.material.hardening != HardeningKind::critical_state || !traits(options_.law).is_plastic ||
+      require(!follows_solid_fraction(options_.material.hardening) || !traits(options_.law).is_plastic ||
                 options_.material.solid_fraction_start || has_solid_fraction_,
               "solid_fraction_start = auto: no solid fraction was given to map");
       if (report.status == Status::stopped_by_user)

@@ -211,7 +211,7 @@ namespace diptych::coupling
       const continuum::MeshOption &mesh = scene.continuum.mesh;
       using Kind                        = continuum::MeshOption::Kind;
       const continuum::LawOptions &law  = scene.continuum.material;
-      if (mesh.kind != Kind::outline && law.hardening == continuum::HardeningKind::critical_state && !law.solid_fraction_start)
+      if (mesh.kind != Kind::outline && continuum::follows_solid_fraction(law.hardening) && !law.solid_fraction_start)
         throw SceneError("continuum/solid_fraction_start = auto with continuum/mesh = " + text_of(mesh) +
                          ": only continuum/mesh = outline has grains whose density can be mapped; give a number");
       if (mesh.kind != Kind::outline && scene.continuum.initial_stress == continuum::InitialStress::mapped)

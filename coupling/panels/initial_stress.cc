@@ -116,7 +116,7 @@ namespace diptych::coupling
         panel.set_initial_stress(stress);
       }
     const continuum::LawOptions &law = options.material;
-    if (law.hardening == continuum::HardeningKind::critical_state && !law.solid_fraction_start)
+    if (continuum::follows_solid_fraction(law.hardening) && !law.solid_fraction_start)
       {
         const continuum::Snapshot nodes = panel.snapshot();
         std::vector<double>       fraction;

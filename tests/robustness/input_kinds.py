@@ -69,7 +69,7 @@ CONTEXT = (  # the keys without which other keys have no effect
     ("continuum/refinement_", setting(continuum_refinement="adaptive")),
     ("continuum/weak_spot_", setting(continuum_weak_spot_strain=0.1)),
     ("comparison/averaging_", setting(comparison_averaging="kernel")),
-    ("continuum/(critical_|strength_by|dilatancy_ratio|.*_start)", setting(continuum_hardening="critical_state", continuum_solid_fraction_start=0.82)),
+    ("continuum/(critical_|strength_by|dilatancy_ratio|elastic_stress|.*_start)", setting(continuum_hardening="kinematic", continuum_solid_fraction_start=0.82)),
 )
 
 

@@ -247,7 +247,7 @@ class CalibrationRuns:
         here.extend(point)
         material = path.scene.dict()["continuum"]
         hardening = next((one.value for one in reversed(point) if one.key == "hardening"), material["hardening"])
-        if hardening == "critical_state" and material["solid_fraction_start"] == "auto":
+        if hardening in ("critical_state", "kinematic") and material["solid_fraction_start"] == "auto":
             add("continuum", solid_fraction_start=outline.solid_fraction)  # the mean density: the meshes here have no grains
         return here
 
