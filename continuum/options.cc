@@ -36,9 +36,9 @@ namespace diptych::continuum
                  " must lie in (0, 1)");
     require_keys(options.max_newton_iterations > 0, {"max_newton_iterations"},
                  "max_newton_iterations = ", options.max_newton_iterations, " must be positive");
-    require_keys(!is_cosserat(options) || options.element != Displacement::q1_bbar, {"element", "law"},
-                 "element = ", name_of(options.element), " with law = ", name_of(options.law),
-                 ": Cosserat laws need q2 (equal orders of displacement and rotation lock)");
+    require_keys((!is_cosserat(options) && !traits(options.law).is_gradient) || options.element != Displacement::q1_bbar,
+                 {"element", "law"}, "element = ", name_of(options.element), " with law = ", name_of(options.law),
+                 ": laws with an internal length need q2 (equal orders of displacement and rotation lock)");
     require_keys(options.mesh.kind != MeshOption::Kind::rectangle ||
                    (options.rectangle_width > 0 && options.rectangle_height > 0),
                  {"rectangle_width", "rectangle_height", "mesh"}, "rectangle_width = ", options.rectangle_width,

@@ -139,12 +139,13 @@ namespace diptych::continuum
   // Lists the panel's own keys first, then those of the law. All names are distinct.
   template <class Visitor> void visit_parameters(Options &o, Visitor &&visitor)
   {
-    visitor("law", o.law, "-",
-            "constitutive law; the two Cosserat laws have an internal length, with any other softening law the mesh sets the "
-            "band's thickness; library: your own law, in law_library");
+    visitor(
+      "law", o.law, "-",
+      "constitutive law; Cosserat and gradient laws have an internal length, with any other softening law the mesh sets the "
+      "band's thickness; library: your own law, in law_library");
     visitor("element", o.element, "-",
-            "q2: biquadratic displacement with 3x3 points; q1_bbar: bilinear with mean dilation; auto: q2. Cosserat laws need q2 "
-            "and use bilinear rotations");
+            "q2: biquadratic displacement with 3x3 points; q1_bbar: bilinear with mean dilation; auto: q2. Cosserat and gradient "
+            "laws need q2 and use a bilinear field beside it");
     visitor("geometry", o.geometry, "-",
             "updated: nodes move and stress rotates with the material after every step; small_strain: neither");
     visitor("platens", o.platens, "-", "rough: both displacement components follow the platen; smooth: only the vertical one");

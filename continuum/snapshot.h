@@ -36,6 +36,7 @@ namespace diptych::continuum
     double          localisation_angle        = 0; // of the band that could form, from the horizontal [degrees], (-90, 90]
     double          friction_angle            = 0; // mobilised or remaining friction of the law [degrees]; elastic: 0
     double          solid_fraction            = 0; // hardening = critical_state, kinematic [-]; else 0
+    double          nonlocal_plastic_strain   = 0; // gradient laws: nonlocal hardening variable [-]; else 0
   };
 
   // A state variable of a law from a library.

@@ -42,6 +42,8 @@ namespace diptych::continuum
           "friction angle of the law at its current state; 0 for linear_elastic");
     visit("cells/solid_fraction", c.solid_fraction, "-",
           "solid fraction if hardening = critical_state or kinematic, otherwise 0");
+    visit("cells/nonlocal_plastic_strain", c.nonlocal_plastic_strain, "-",
+          "nonlocal hardening variable of a gradient law, otherwise 0");
   }
 
   template <class AnySnapshot, class Visit> void visit_attributes(AnySnapshot &s, Visit &&visit)

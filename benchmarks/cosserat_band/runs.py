@@ -18,8 +18,8 @@ LENGTHS, SIZES, LOCAL_ELEMENTS = (1, 2, 4), (40, 60, 90, 120), (4, 2, 1)
 
 
 class Runs:
-    def __init__(self, options, folder):
-        self.program, self.reuse, self.folder = options.program, options.reuse, folder
+    def __init__(self, options, folder, scenes=HERE):
+        self.program, self.reuse, self.folder, self.scenes = options.program, options.reuse, folder, scenes
 
     def __call__(self, scene, **keys):
         """Result folder of `scene` with the given keys of its section continuum. axial_strain is a key of the section loading."""
@@ -31,8 +31,8 @@ class Runs:
         words = ["--set", "comparison/coarse_element_size=100"]  # Larger than the sample: no second mesh.
         for key, value in keys.items():
             words += ["--set", f"{'loading' if key == 'axial_strain' else 'continuum'}/{key}={value}"]
-        done = subprocess.run([self.program, "continuum", os.path.join(HERE, scene + ".prm"), "--output", folder, "--overwrite", "--quiet",
-                               *words], capture_output=True, text=True)
+        done = subprocess.run([self.program, "continuum", os.path.join(self.scenes, scene + ".prm"), "--output", folder,
+                               "--overwrite", "--quiet", *words], capture_output=True, text=True)
         if done.returncode not in (0, 3):
             sys.stderr.write(f"band.py: {name} ended with exit code {done.returncode}: {done.stderr.strip()}\n")
             sys.exit(2)

@@ -67,6 +67,15 @@ namespace diptych::continuum
       return J;
     }
 
+    Tensor<2, 2> initial_jacobian(const Discretisation &mesh, const unsigned int q, const Cell &cell)
+    {
+      Tensor<2, 2> J;
+      for (unsigned int node = 0; node < mesh.reference.n_nodes; ++node)
+        for (unsigned int i = 0; i < 2; ++i)
+          J[i] += mesh.nodes[cell.nodes[node]].initial[i] * mesh.reference.gradient[q][node];
+      return J;
+    }
+
     CellGeometry cell_geometry(const Discretisation &mesh, const Cell &cell, const std::vector<Eigen::Vector2d> &x)
     {
       const auto  &reference = mesh.reference;
@@ -77,7 +86,11 @@ namespace diptych::continuum
           auto              &point     = geometry.points[q];
           const Tensor<2, 2> J         = jacobian(reference, q, cell, x);
           const Tensor<2, 2> inverse_t = transpose(invert(J));
-          point.area                   = determinant(J) * reference.weights[q];
+          // Helmholtz's equation of a gradient law stays on the initial shape, where its length is that of the material.
+          const Tensor<2, 2> corner_inverse_t = mesh.kind == ElementKind::q2_gradient
+                                                  ? transpose(invert(initial_jacobian(mesh, q, cell)))
+                                                  : inverse_t;
+          point.area                          = determinant(J) * reference.weights[q];
           area += point.area;
           for (unsigned int node = 0; node < reference.n_nodes; ++node)
             {
@@ -85,7 +98,7 @@ namespace diptych::continuum
               geometry.mean_gradient[node] += point.area * point.gradient[node];
             }
           for (unsigned int corner = 0; corner < reference.n_rotations; ++corner)
-            point.rotation_gradient[corner] = inverse_t * reference.rotation_gradient[q][corner];
+            point.rotation_gradient[corner] = corner_inverse_t * reference.rotation_gradient[q][corner];
         }
       for (auto &gradient : geometry.mean_gradient)
         gradient /= area;

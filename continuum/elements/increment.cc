@@ -37,6 +37,27 @@ namespace diptych::continuum
       return {s[xx], s[xy] - a, s[xy] + a, s[yy], -2 * a, s[curvature_x], s[curvature_y]};
     }
 
+    constexpr unsigned int n_nonlocal = 3; // the nonlocal hardening variable and its gradient
+
+    // Takes the nonlocal part out of a stress. It has no skew part and does not turn.
+    template <class V> std::array<V, n_nonlocal> separated(Stresses<V> &s)
+    {
+      const std::array<V, n_nonlocal> part = {s[nonlocal], s[nonlocal_x], s[nonlocal_y]};
+      for (unsigned int k = 0; k < n_nonlocal; ++k)
+        s[nonlocal + k] = V(0 * part[k]);
+      return part;
+    }
+
+    template <class V> Forces<V> forces(Stresses<V> s, const bool is_gradient)
+    {
+      if (!is_gradient)
+        return forces(s);
+      const auto part = separated(s);
+      Forces<V>  p    = forces(s);
+      std::copy(part.begin(), part.end(), p.begin() + omega);
+      return p;
+    }
+
     Strain small_strain(const Motion &m)
     {
       Strain e;
@@ -101,25 +122,29 @@ namespace diptych::continuum
     }
 
     // The strain is linear in the motion, by the transpose of forces().
-    PiolaTangent small_tangent(const Tangent &law)
+    PiolaTangent small_tangent(const Tangent &law, const bool is_gradient)
     {
       Stresses<Row> d_stress;
       for (unsigned int i = 0; i < n_components; ++i)
         {
-          const Forces<double> by_motion = forces(entries(law[i]));
+          const Forces<double> by_motion = forces(entries(law[i]), is_gradient);
           d_stress[i].setZero();
           std::copy(by_motion.begin(), by_motion.end(), d_stress[i].data());
         }
-      return table(forces(d_stress));
+      return table(forces(d_stress, is_gradient));
     }
   } // namespace
 
-  Increment::Increment(const Motion &motion, const bool is_finite)
+  Increment::Increment(const Motion &motion, const bool is_finite, const bool is_gradient)
       : strain_(small_strain(motion)),
-        is_finite(is_finite)
+        is_finite(is_finite),
+        is_gradient(is_gradient)
   {
     if (is_finite)
       find_strain(motion);
+    if (is_gradient)
+      for (unsigned int k = 0; k < n_nonlocal; ++k)
+        strain_[nonlocal + k] = motion[omega + k];
   }
 
   void Increment::find_strain(const Motion &m)
@@ -162,9 +187,13 @@ namespace diptych::continuum
 
   PiolaStress Increment::force(const Stress &stress) const
   {
-    Forces<double> p = forces(is_finite ? turned(entries(stress), cosine, sine) : entries(stress));
+    Stresses<double> s    = entries(stress);
+    const auto       part = is_gradient ? separated(s) : std::array<double, n_nonlocal>();
+    Forces<double>   p    = forces(is_finite ? turned(s, cosine, sine) : s);
     if (is_finite)
       pull_back(p, cofactor, determinant);
+    if (is_gradient)
+      std::copy(part.begin(), part.end(), p.begin() + omega);
     return PiolaStress(dealii::ArrayView<const double>(p.data(), n_motions));
   }
 
@@ -195,13 +224,16 @@ namespace diptych::continuum
       }
     d[curvature_x] = half_cosine * d_gradient[0] + half_sine * d_gradient[1] + d_angle / 2 * strain_[curvature_y];
     d[curvature_y] = half_cosine * d_gradient[1] - half_sine * d_gradient[0] - d_angle / 2 * strain_[curvature_x];
+    if (is_gradient)
+      for (unsigned int i = 0; i < n_nonlocal; ++i)
+        d[nonlocal + i] = k == omega + i;
     return d;
   }
 
   PiolaTangent Increment::tangent(const Stress &stress, const Tangent &law) const
   {
     if (!is_finite)
-      return small_tangent(law);
+      return small_tangent(law, is_gradient);
     Stresses<Row> d_strain;
     d_strain.fill(Row::Zero());
     Row d_angle = Row::Zero();
@@ -211,8 +243,16 @@ namespace diptych::continuum
         for (unsigned int i = 0; i < n_components; ++i)
           d_strain[i][k] = d[i];
       }
-    const Stresses<double> t        = turned(entries(stress), cosine, sine);
-    Stresses<Row>          d_stress = turned(product(law, d_strain), cosine, sine);
+    Stresses<double>            t        = entries(stress);
+    Stresses<Row>               d_stress = product(law, d_strain);
+    std::array<Row, n_nonlocal> part;
+    if (is_gradient)
+      {
+        part = separated(d_stress);
+        separated(t);
+      }
+    t        = turned(t, cosine, sine);
+    d_stress = turned(d_stress, cosine, sine);
     d_stress[xx] -= 2 * t[xy] * d_angle;
     d_stress[yy] += 2 * t[xy] * d_angle;
     d_stress[xy] += (t[xx] - t[yy]) * d_angle;
@@ -231,6 +271,8 @@ namespace diptych::continuum
           d_force[row + j][k] += sign * full[row + i];
         d_force[omega][k] += full[omega] * cofactor[k / 2][k % 2];
       }
+    if (is_gradient)
+      std::copy(part.begin(), part.end(), d_force.begin() + omega);
     return table(d_force);
   }
 } // namespace diptych::continuum

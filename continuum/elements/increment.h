@@ -7,7 +7,8 @@
 namespace diptych::continuum
 {
   // Increment of the motion at a point, differentiated by the position at the START of the step: du_x/dx, du_x/dy, du_y/dx,
-  // du_y/dy, then the Cosserat rotation omega and its gradient.
+  // du_y/dy, then the Cosserat rotation omega and its gradient. A gradient element has its nonlocal hardening variable in place
+  // of omega, with the gradient on the initial shape.
   constexpr unsigned int n_motions = 7, n_classical_motions = 4;
   using Motion = dealii::Tensor<1, n_motions>;
 
@@ -22,10 +23,11 @@ namespace diptych::continuum
   //   1980). The law's stress is turned forward by the whole angle. Forces act on the shape at the END of the step. Strain and
   //   force are of second order in the step; a rigid rotation gives no strain.
   //   small: the strain is sym(du/dx) and forces act on the initial shape.
+  // The nonlocal hardening variable, its gradient and what they are conjugate to pass through unchanged.
   class Increment
   {
   public:
-    Increment(const Motion &motion, bool is_finite);
+    Increment(const Motion &motion, bool is_finite, bool is_gradient = false);
 
     const Strain &strain() const { return strain_; } // for the law
     double        angle() const { return angle_; }   // of the material, anticlockwise [radians]; small: 0
@@ -40,7 +42,7 @@ namespace diptych::continuum
     Strain change_of_strain(unsigned int motion, double &d_angle) const;
 
     Strain strain_;
-    bool   is_finite;
+    bool   is_finite, is_gradient;
     double angle_ = 0, cosine = 1, sine = 0; // of the angle
     double half_cosine = 1, half_sine = 0;   // of half the angle
     double angle_by_spin = 1;

@@ -16,17 +16,21 @@ namespace diptych::continuum
   struct Q2
   {
     static constexpr unsigned int n_nodes = 9, n_rotations = 0, n_points = 9, n_dofs = 18, degree = 2;
-    static constexpr bool         mean_dilation = false;
+    static constexpr bool         mean_dilation = false, is_gradient = false;
   };
   struct Q1MeanDilation
   {
     static constexpr unsigned int n_nodes = 4, n_rotations = 0, n_points = 4, n_dofs = 8, degree = 1;
-    static constexpr bool         mean_dilation = true;
+    static constexpr bool         mean_dilation = true, is_gradient = false;
   };
   struct Q2Cosserat // biquadratic displacement, bilinear rotation
   {
     static constexpr unsigned int n_nodes = 9, n_rotations = 4, n_points = 9, n_dofs = 22, degree = 2;
-    static constexpr bool         mean_dilation = false;
+    static constexpr bool         mean_dilation = false, is_gradient = false;
+  };
+  struct Q2Gradient : Q2Cosserat // the bilinear unknown is the nonlocal hardening variable in place of the rotation
+  {
+    static constexpr bool is_gradient = true;
   };
   constexpr unsigned int max_nodes = 9, max_points = 9, max_dofs = 22;
 
@@ -34,7 +38,8 @@ namespace diptych::continuum
   {
     q2,
     q1_mean_dilation,
-    q2_cosserat
+    q2_cosserat,
+    q2_gradient
   };
 
   template <class Action> decltype(auto) with_element(const ElementKind kind, Action &&action)
@@ -45,6 +50,8 @@ namespace diptych::continuum
         return std::forward<Action>(action)(Q2());
       case ElementKind::q1_mean_dilation:
         return std::forward<Action>(action)(Q1MeanDilation());
+      case ElementKind::q2_gradient:
+        return std::forward<Action>(action)(Q2Gradient());
       default:
         return std::forward<Action>(action)(Q2Cosserat());
       }

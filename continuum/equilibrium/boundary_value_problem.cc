@@ -31,6 +31,8 @@ namespace diptych::continuum
     {
       if (is_cosserat(options))
         return ElementKind::q2_cosserat;
+      if (traits(options.law).is_gradient)
+        return ElementKind::q2_gradient;
       return options.element == Displacement::q1_bbar ? ElementKind::q1_mean_dilation : ElementKind::q2;
     }
 
@@ -230,7 +232,7 @@ namespace diptych::continuum
           {
             const std::size_t point = c * Element::n_points + q;
             const Increment  &step = increments[point] = Increment(motion_at<Element>(mesh.reference, current.cells[c], q, u),
-                                                                   moves());
+                                                                   moves(), Element::is_gradient);
             trial[point]                               = law.update(state.points[point], step.strain(), d_time);
             add_force<Element>(mesh.reference, current.cells[c], q, step.force(trial[point].state.stress), f);
           }
@@ -345,8 +347,9 @@ namespace diptych::continuum
   void BoundaryValueProblem::commit()
   {
     const Stopwatch watch{phase.geometry};
-    const Tangent   elastic = std::visit([](const auto &law) { return law.elastic_tangent(); }, material);
-    const auto      moduli  = std::visit([](const auto &law) { return law.moduli(); }, material);
+    const Tangent   elastic     = std::visit([](const auto &law) { return law.elastic_tangent(); }, material);
+    const auto      moduli      = std::visit([](const auto &law) { return law.moduli(); }, material);
+    const bool      is_gradient = mesh.kind == ElementKind::q2_gradient;
     flow.resize(trial.size());
     unstable.assign(trial.size(), 0);
     for (std::size_t point = 0; point < trial.size(); ++point)
@@ -359,9 +362,10 @@ namespace diptych::continuum
             add_plastic_flow(moduli, state.points[point], d_strain, next);
             unstable[point] = weakens_contracting(moduli, state.points[point], d_strain, next);
           }
-        state.localisation[point] = is_elastic ? Localisation() : localisation(trial[point].tangent, elastic);
+        const Tangent &D          = trial[point].tangent;
+        state.localisation[point] = is_elastic ? Localisation() : localisation(is_gradient ? uniform_tangent(D) : D, elastic);
         flow[point]               = next.equivalent_plastic_strain - state.points[point].equivalent_plastic_strain;
-        turn(next, increments[point].angle(), material);
+        turn(next, increments[point].angle(), material, is_gradient);
         state.points[point] = next;
       }
     for (std::size_t i = 0; i < state.displacement.size(); ++i)

@@ -13,7 +13,7 @@ namespace diptych::continuum
   namespace
   {
     // Values of the state of a point; those of a law from a library follow.
-    constexpr unsigned int n_built_in = 2 * n_components + 10, n_fields = 3; // fields: displacement and LastMotion
+    constexpr unsigned int n_built_in = 2 * n_components + 11, n_fields = 3; // fields: displacement and LastMotion
     unsigned int           n_state(const BoundaryValueProblem &problem)
     {
       const auto *library = std::get_if<LibraryLaw>(&problem.law());
@@ -26,8 +26,9 @@ namespace diptych::continuum
       for (unsigned int k = 0; k < n_components; ++k)
         values[k] = s.stress[k];
       const double rest[] = {
-        s.stress_zz,         s.equivalent_plastic_strain, s.overstress,  s.plastic_strain.xx, s.plastic_strain.yy,
-        s.plastic_strain.zz, s.plastic_strain.xy,         s.dissipation, s.stress_ratio_gain, s.densification};
+        s.stress_zz,         s.nonlocal_plastic_strain, s.equivalent_plastic_strain, s.overstress,  s.plastic_strain.xx,
+        s.plastic_strain.yy, s.plastic_strain.zz,       s.plastic_strain.xy,         s.dissipation, s.stress_ratio_gain,
+        s.densification};
       std::copy(std::begin(rest), std::end(rest), values.begin() + n_components);
       for (unsigned int k = 0; k < n_components; ++k)
         values[n_built_in - n_components + k] = s.back_stress_ratio[k];
@@ -42,12 +43,13 @@ namespace diptych::continuum
         s.stress[k] = values[k];
       const double *rest          = values + n_components;
       s.stress_zz                 = rest[0];
-      s.equivalent_plastic_strain = rest[1];
-      s.overstress                = rest[2];
-      s.plastic_strain            = {rest[3], rest[4], rest[5], rest[6]};
-      s.dissipation               = rest[7];
-      s.stress_ratio_gain         = rest[8];
-      s.densification             = rest[9];
+      s.nonlocal_plastic_strain   = rest[1];
+      s.equivalent_plastic_strain = rest[2];
+      s.overstress                = rest[3];
+      s.plastic_strain            = {rest[4], rest[5], rest[6], rest[7]};
+      s.dissipation               = rest[8];
+      s.stress_ratio_gain         = rest[9];
+      s.densification             = rest[10];
       for (unsigned int k = 0; k < n_components; ++k)
         s.back_stress_ratio[k] = values[n_built_in - n_components + k];
       s.variables.assign(values + n_built_in, values + n);
@@ -124,13 +126,14 @@ namespace diptych::continuum
             record[rotations + corner] = interpolated(children.corners[child * reference.n_nodes + corner], &parent[rotations],
                                                       1);
         }
-      // Stress follows the polynomial; the hardening variable and the record of the past stay within their range.
+      // Stress and the nonlocal hardening variable follow the polynomial; the hardening variable and the record of the past stay
+      // within their range.
       const std::size_t states = 1 + n_fields * reference.n_dofs;
       for (unsigned int k = 0; k < n; ++k)
         {
           const double *values = &parent[states + k];
           const double  mean   = interpolated(reference.weights, values, n);
-          const double  kept   = k <= n_components ? 1. : kept_deviation(children, mean, values, n);
+          const double  kept   = k <= n_components + 1 ? 1. : kept_deviation(children, mean, values, n);
           for (unsigned int q = 0; q < reference.n_points; ++q)
             record[states + q * n + k] = mean +
                                          kept * (interpolated(children.points[child * reference.n_points + q], values, n) - mean);

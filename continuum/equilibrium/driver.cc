@@ -27,7 +27,7 @@ namespace diptych::continuum
           modes[1][node.local[1]] = 1;
           modes[2][node.local[0]] = -x[k].y();
           modes[2][node.local[1]] = x[k].x();
-          if (node.rotation != dealii::numbers::invalid_dof_index)
+          if (mesh.kind == ElementKind::q2_cosserat && node.rotation != dealii::numbers::invalid_dof_index)
             modes[2][node.local_rotation] = 1;
         }
       RigidModes result;

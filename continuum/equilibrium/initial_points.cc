@@ -36,6 +36,8 @@ namespace diptych::continuum
         point.equivalent_plastic_strain = weakened.equivalent_plastic_strain;
         point.stress_ratio_gain         = weakened.stress_ratio_gain;
         point.densification             = weakened.densification;
+        if (traits(options.law).is_gradient)
+          point.nonlocal_plastic_strain = weakened.equivalent_plastic_strain;
       }
   }
 

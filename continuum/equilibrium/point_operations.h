@@ -25,31 +25,34 @@ namespace diptych::continuum
       values[cell.local[i]] += force[i];
   }
 
-  // Rotates stress and couple stress by an angle. The skew part does not depend on the frame.
-  inline void turn(Stress &t, const double angle)
+  // Rotates stress and couple stress by an angle. The skew part does not depend on the frame. The last components of a gradient
+  // law are no couple stress and stay.
+  inline void turn(Stress &t, const double angle, const bool is_gradient = false)
   {
     const double c = std::cos(angle), s = std::sin(angle);
     const double mean = (t[xx] + t[yy]) / 2, a = (t[xx] - t[yy]) / 2, b = t[xy];
     const double cos2 = c * c - s * s, sin2 = 2 * c * s;
-    t[xx]           = mean + a * cos2 - b * sin2;
-    t[yy]           = mean - a * cos2 + b * sin2;
-    t[xy]           = a * sin2 + b * cos2;
+    t[xx] = mean + a * cos2 - b * sin2;
+    t[yy] = mean - a * cos2 + b * sin2;
+    t[xy] = a * sin2 + b * cos2;
+    if (is_gradient)
+      return;
     const double mx = t[curvature_x], my = t[curvature_y];
     t[curvature_x] = c * mx - s * my;
     t[curvature_y] = s * mx + c * my;
   }
 
   // Rotates a state by the rotation of the material.
-  inline void turn(MaterialState &point, const double angle)
+  inline void turn(MaterialState &point, const double angle, const bool is_gradient = false)
   {
-    turn(point.stress, angle);
+    turn(point.stress, angle, is_gradient);
     turn(point.back_stress_ratio, angle);
   }
 
   // Tensors among the state variables of a law from a library, too.
-  inline void turn(MaterialState &point, const double angle, const Law &law)
+  inline void turn(MaterialState &point, const double angle, const Law &law, const bool is_gradient)
   {
-    turn(point, angle);
+    turn(point, angle, is_gradient);
     if (const auto *library = std::get_if<LibraryLaw>(&law))
       library->turn_variables(point, angle);
   }

@@ -36,6 +36,10 @@ namespace diptych::continuum
         return CosseratDruckerPrager(options, units);
       case LawKind::library:
         return LibraryLaw(options, units);
+      case LawKind::gradient_mohr_coulomb:
+        return GradientMohrCoulomb(options, units);
+      case LawKind::gradient_drucker_prager:
+        return GradientDruckerPrager(options, units);
       }
     throw std::logic_error("make_law: a law without a constructor");
   }

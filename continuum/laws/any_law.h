@@ -7,6 +7,7 @@
 #include "continuum/laws/cosserat_drucker_prager.h"
 #include "continuum/laws/cosserat_mohr_coulomb.h"
 #include "continuum/laws/drucker_prager.h"
+#include "continuum/laws/gradient_law.h"
 #include "continuum/laws/kinematic_cone.h"
 #include "continuum/laws/library_law.h"
 #include "continuum/laws/linear_elastic.h"
@@ -21,6 +22,8 @@ namespace diptych::continuum
                            CosseratDruckerPrager,
                            KinematicLaw<false>,
                            KinematicLaw<true>,
+                           GradientMohrCoulomb,
+                           GradientDruckerPrager,
                            LibraryLaw>;
 
   // Throws std::invalid_argument under the same conditions as validate(options), and if validate(law, options) does.

@@ -24,9 +24,9 @@ namespace diptych::continuum
       : cone{Hardening(options, units), shape},
         moduli_(elastic_moduli(in_units(options, units), is_cosserat)),
         pressure_modulus(shape == ConeShape::mohr_coulomb ? moduli_.plane_bulk : moduli_.bulk),
+        elastic(continuum::elastic_tangent(moduli_)),
         viscosity(in_units(options, units).viscosity),
-        couple_scale(is_cosserat ? std::sqrt(2.) * in_units(options, units).internal_length : 0),
-        elastic(continuum::elastic_tangent(moduli_))
+        couple_scale(is_cosserat ? std::sqrt(2.) * in_units(options, units).internal_length : 0)
   {
     // Sum over the unit vectors of g: the outer product of the conjugate stress with itself.
     for (unsigned int k = 0; k < Deviatoric::dimension; ++k)
@@ -87,11 +87,13 @@ namespace diptych::continuum
   {
     const Trial     trial = elastic_trial(s0, d_strain);
     const ConeStart start = start_of(s0);
-    const Cone     &c     = start.cone;
-    const double    yield = trial.shear - trial.pressure * c.slope - c.intercept;
-    if (yield <= 1e-12 * (trial.shear + std::abs(trial.pressure) + c.intercept))
-      return elastic_answer(trial);
-    return plastic_answer(trial, radial_return(trial, start, d_time));
+    return is_outside(trial, start.cone) ? plastic_answer(trial, radial_return(trial, start, d_time)) : elastic_answer(trial);
+  }
+
+  bool ConeLaw::is_outside(const Trial &trial, const Cone &c) const
+  {
+    const double yield = trial.shear - trial.pressure * c.slope - c.intercept;
+    return !(yield <= 1e-12 * (trial.shear + std::abs(trial.pressure) + c.intercept));
   }
 
   ConeStart ConeLaw::start_of(const MaterialState &s0) const

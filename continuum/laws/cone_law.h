@@ -49,18 +49,19 @@ namespace diptych::continuum
     MaterialUpdate plastic_answer(const Trial &trial, const ConeReturn &end) const;
     double         viscous_modulus(double d_time) const { return d_time > 0 ? viscosity / d_time : 0; }
 
-    Deviatoric deviatoric(const MaterialState &state) const;
-    double     pressure(const MaterialState &state) const;
-    Stress     conjugate(const Deviatoric &q) const; // q . dg/d(strain)
+    Stress conjugate(const Deviatoric &q) const; // q . dg/d(strain)
+    bool   is_outside(const Trial &trial, const Cone &cone) const;
 
     YieldCone     cone;
     ElasticModuli moduli_;
     double        pressure_modulus; // B [pressure]
+    Tangent       elastic;
+    Deviatoric    deviatoric(const MaterialState &state) const;
+    double        pressure(const MaterialState &state) const;
 
   private:
     double  viscosity;
-    double  couple_scale; // sqrt2 l; zero for a classical law
-    Tangent elastic;
-    Tangent metric; // (dg/d strain)^T (dg/d strain)
+    double  couple_scale; // sqrt2 l; zero for a law without couple stress
+    Tangent metric;       // (dg/d strain)^T (dg/d strain)
   };
 } // namespace diptych::continuum

@@ -14,8 +14,8 @@ namespace diptych::continuum
     double bulk       = 0; // K, three-dimensional [pressure]
     double plane_bulk = 0; // K + G/3 [pressure]
     double lateral    = 0; // K - 2 G/3, d sigma_zz / d tr(strain) [pressure]
-    double couple     = 0; // M = 2 G l^2: m = M curvature [pressure * length^2]; zero for a classical law
-    double skew       = 0; // Gc: a = Gc * relative rotation [pressure]; zero for a classical law
+    double couple = 0; // M = 2 G l^2: m = M curvature [pressure * length^2]; zero for a classical law; s l^2 for a gradient law
+    double skew   = 0; // Gc: a = Gc * relative rotation [pressure]; zero for a classical law; s for a gradient law
   };
 
   // Reads `options` as stresses and lengths (in_units). The Cosserat part follows de Borst, Eng. Comput. 8 (1991). The relative

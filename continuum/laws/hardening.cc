@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "continuum/require.h"
+
 namespace diptych::continuum
 {
   namespace
@@ -15,11 +17,32 @@ namespace diptych::continuum
     {
       return std::sqrt((1 - sine) * (1 + sine));
     }
-  }
 
-  Hardening::Hardening(const LawOptions &options, const Units &units)
+    void add(Strength &s, const Strength &more)
+    {
+      s.friction += more.friction;
+      s.friction_rate += more.friction_rate;
+      s.dilatancy += more.dilatancy;
+      s.dilatancy_rate += more.dilatancy_rate;
+      s.cohesion += more.cohesion;
+      s.cohesion_rate += more.cohesion_rate;
+    }
+
+    // A square root gives the cosine faster than std::cos. All angles lie between -90 and 90 degrees.
+    StrengthBySines by_sines(const Strength &s)
+    {
+      const double sin_phi = std::sin(s.friction), sin_psi = std::sin(s.dilatancy), cos_phi = cosine(sin_phi);
+      return {sin_phi,    cos_phi * s.friction_rate, sin_psi, cosine(sin_psi) * s.dilatancy_rate,
+              s.cohesion, s.cohesion_rate,           cos_phi};
+    }
+  } // namespace
+
+  Hardening::Hardening(const LawOptions &options, const Units &units, const double nonlocal_weight)
+      : nonlocal_weight(nonlocal_weight)
   {
     validate(options);
+    require_keys(nonlocal_weight == 0 || options.hardening != HardeningKind::critical_state, {"hardening", "law"},
+                 "hardening = critical_state has no gradient law: take another hardening or a Cosserat law");
     const LawOptions o = in_units(options, units);
     peak               = {0, o.friction_angle_peak * one_degree, o.dilatancy_angle_peak * one_degree, o.cohesion};
     residual           = {0, o.friction_angle_residual * one_degree, o.dilatancy_angle_residual * one_degree,
@@ -48,17 +71,68 @@ namespace diptych::continuum
       for (std::size_t k = 0; k < o.table_strain.size(); ++k)
         table.push_back({o.table_strain[k], o.table_friction_angle[k] * one_degree, o.table_dilatancy_angle[k] * one_degree,
                          o.table_cohesion[k]});
+    if (nonlocal_weight > 0)
+      separate_rises();
   }
 
-  Strength Hardening::angles_at(const double equivalent_plastic_strain) const
+  // A rise read at the softening variable of m > 1 would soften at a constant kbar, and the solution would lose its length.
+  void Hardening::separate_rises()
   {
-    return table.empty() ? decayed(equivalent_plastic_strain) : interpolated(equivalent_plastic_strain);
+    rises.assign(table.size(), {});
+    for (std::size_t k = 1; k < table.size(); ++k)
+      for (double Point::*value : {&Point::friction, &Point::dilatancy, &Point::cohesion})
+        rises[k].*value = std::max(0., table[k].*value - table[k - 1].*value);
+    for (std::size_t k = 1; k < table.size(); ++k)
+      {
+        rises[k].strain = table[k].strain;
+        for (double Point::*value : {&Point::friction, &Point::dilatancy, &Point::cohesion})
+          {
+            rises[k].*value += rises[k - 1].*value;
+            table[k].*value -= rises[k].*value;
+          }
+      }
+  }
+
+  Strength Hardening::angles_at(const HardeningState &state) const
+  {
+    Strength s = softened(state, 1 - nonlocal_weight);
+    add(s, risen(state));
+    return s;
+  }
+
+  double Hardening::softening_variable(const HardeningState &state) const
+  {
+    if (nonlocal_weight == 0)
+      return state.equivalent_plastic_strain;
+    return std::max((1 - nonlocal_weight) * state.equivalent_plastic_strain + nonlocal_weight * state.nonlocal_plastic_strain,
+                    0.);
+  }
+
+  Strength Hardening::softened(const HardeningState &state, double share) const
+  {
+    const double strain = softening_variable(state);
+    Strength     s      = table.empty() ? decayed(strain) : interpolated(table, strain);
+    if (nonlocal_weight > 0 && strain == 0)
+      share = 0;
+    for (double *rate : {&s.friction_rate, &s.dilatancy_rate, &s.cohesion_rate})
+      *rate *= share;
+    return s;
+  }
+
+  Strength Hardening::risen(const HardeningState &state) const
+  {
+    if (!rises.empty())
+      return interpolated(rises, state.equivalent_plastic_strain);
+    if (unmobilised == 0)
+      return {};
+    const double lacks = unmobilised * std::exp(-state.equivalent_plastic_strain / mobilisation_strain);
+    return {-lacks, lacks / mobilisation_strain};
   }
 
   Strength Hardening::at(const HardeningState &state) const
   {
     if (!critical_state.is_on)
-      return angles_at(state.equivalent_plastic_strain);
+      return angles_at(state);
     const StrengthBySines s = critical(state);
     return {std::asin(s.friction),
             s.friction_rate / s.friction_cosine,
@@ -68,15 +142,17 @@ namespace diptych::continuum
             s.cohesion_rate};
   }
 
-  // A square root gives the cosine faster than std::cos. All angles lie between -90 and 90 degrees.
   StrengthBySines Hardening::sines_at(const HardeningState &state) const
   {
-    if (critical_state.is_on)
-      return critical(state);
-    const Strength s       = angles_at(state.equivalent_plastic_strain);
-    const double   sin_phi = std::sin(s.friction), sin_psi = std::sin(s.dilatancy), cos_phi = cosine(sin_phi);
-    return {sin_phi,    cos_phi * s.friction_rate, sin_psi, cosine(sin_psi) * s.dilatancy_rate,
-            s.cohesion, s.cohesion_rate,           cos_phi};
+    return critical_state.is_on ? critical(state) : by_sines(angles_at(state));
+  }
+
+  StrengthBySines Hardening::sines_by_nonlocal(const HardeningState &state) const
+  {
+    Strength       s = softened(state, nonlocal_weight);
+    const Strength r = risen(state);
+    add(s, {r.friction, 0, r.dilatancy, 0, r.cohesion, 0});
+    return by_sines(s);
   }
 
   double Hardening::solid_fraction(const HardeningState &state) const
@@ -163,20 +239,18 @@ namespace diptych::continuum
   }
 
   // v(kappa) = v_r + (v_p - v_r) exp(-kappa/kappa_s); friction less (phi_p - phi_0) exp(-kappa/kappa_m) where it is mobilised.
-  Strength Hardening::decayed(const double equivalent_plastic_strain) const
+  Strength Hardening::decayed(const double softening_variable) const
   {
-    const double decay = std::exp(-equivalent_plastic_strain / softening_strain), rate = -decay / softening_strain;
+    const double decay = std::exp(-softening_variable / softening_strain), rate = -decay / softening_strain;
     const double friction = peak.friction - residual.friction, dilatancy = peak.dilatancy - residual.dilatancy;
     const double cohesion = peak.cohesion - residual.cohesion;
-    const double lacks    = unmobilised == 0 ? 0 : unmobilised * std::exp(-equivalent_plastic_strain / mobilisation_strain);
-    return {residual.friction + friction * decay - lacks, friction * rate + lacks / mobilisation_strain,
-            residual.dilatancy + dilatancy * decay,       dilatancy * rate,
-            residual.cohesion + cohesion * decay,         cohesion * rate};
+    return {residual.friction + friction * decay, friction * rate, residual.dilatancy + dilatancy * decay, dilatancy * rate,
+            residual.cohesion + cohesion * decay, cohesion * rate};
   }
 
-  Strength Hardening::interpolated(const double equivalent_plastic_strain) const
+  Strength Hardening::interpolated(const std::vector<Point> &table, const double strain_at)
   {
-    const auto next = std::upper_bound(table.begin(), table.end(), equivalent_plastic_strain,
+    const auto next = std::upper_bound(table.begin(), table.end(), strain_at,
                                        [](const double strain, const Point &point) { return strain < point.strain; });
     if (next == table.begin() || next == table.end())
       {
@@ -184,7 +258,7 @@ namespace diptych::continuum
         return {end.friction, 0, end.dilatancy, 0, end.cohesion, 0};
       }
     const Point &a = *(next - 1), &b = *next;
-    const double width = b.strain - a.strain, x = equivalent_plastic_strain - a.strain;
+    const double width = b.strain - a.strain, x = strain_at - a.strain;
     const double friction = (b.friction - a.friction) / width, dilatancy = (b.dilatancy - a.dilatancy) / width;
     const double cohesion = (b.cohesion - a.cohesion) / width;
     return {a.friction + friction * x, friction, a.dilatancy + dilatancy * x, dilatancy, a.cohesion + cohesion * x, cohesion};

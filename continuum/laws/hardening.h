@@ -38,10 +38,11 @@ namespace diptych::continuum
   {
     double equivalent_plastic_strain = 0;
     double stress_ratio_gain = 0, densification = 0; // critical state: change since the start
+    double nonlocal_plastic_strain = 0;              // gradient laws
   };
   inline HardeningState hardening_state(const MaterialState &state)
   {
-    return {state.equivalent_plastic_strain, state.stress_ratio_gain, state.densification};
+    return {state.equivalent_plastic_strain, state.stress_ratio_gain, state.densification, state.nonlocal_plastic_strain};
   }
 
   // hardening = critical_state (after Taylor 1948; Roux and Radjai 1998). The mobilised stress ratio eta = t/s tends to a limit
@@ -55,13 +56,17 @@ namespace diptych::continuum
   class Hardening
   {
   public:
-    explicit Hardening(const LawOptions &options, const Units &units = {});
+    // A gradient law has a `nonlocal_weight` m > 0. Values that fall are then read at the softening variable
+    // max(0, (1 - m) kappa + m kbar), values that rise at kappa. Throws std::invalid_argument if m > 0 with critical_state.
+    explicit Hardening(const LawOptions &options, const Units &units = {}, double nonlocal_weight = 0);
 
     // Strength at a state with an equivalent plastic strain >= 0. At a point of the table the rate is that of the following
     // interval.
     Strength        at(const HardeningState &state) const;
     Strength        at(const double equivalent_plastic_strain) const { return at(HardeningState{equivalent_plastic_strain}); }
     StrengthBySines sines_at(const HardeningState &state) const;
+    // The same values; the rates are derivatives by the nonlocal hardening variable at a constant local one.
+    StrengthBySines sines_by_nonlocal(const HardeningState &state) const;
 
     // A lower bound of sin psi at any state. Only critical_state contracts.
     double least_dilation() const { return critical_state.is_on ? -largest_sine : 0; }
@@ -83,9 +88,13 @@ namespace diptych::continuum
     {
       double strain = 0, friction = 0, dilatancy = 0, cohesion = 0;
     };
-    Strength        decayed(double equivalent_plastic_strain) const;
-    Strength        interpolated(double equivalent_plastic_strain) const;
-    Strength        angles_at(double equivalent_plastic_strain) const; // not for critical_state
+    static Strength interpolated(const std::vector<Point> &table, double strain);
+    void            separate_rises();
+    Strength        decayed(double softening_variable) const;
+    Strength softened(const HardeningState &state, double share) const; // share: d softening variable / d variable of rates
+    Strength risen(const HardeningState &state) const;                  // in addition
+    Strength angles_at(const HardeningState &state) const;              // not for critical_state
+    double   softening_variable(const HardeningState &state) const;
     StrengthBySines critical(const HardeningState &state) const;
     double          dilation(const HardeningState &state) const; // sin psi for critical_state
     static Dilation cut_off(double sine, double rate);
@@ -110,5 +119,7 @@ namespace diptych::continuum
     double             softening_strain = 0;
     double             unmobilised = 0, mobilisation_strain = 1; // deficit of friction at the start [radians]; its decay
     std::vector<Point> table;                                    // empty: exponential or mobilisation; one point: constant
+    std::vector<Point> rises;                                    // gradient laws: the part of the table that rises, from 0
+    double             nonlocal_weight;                          // 0: local law
   };
 } // namespace diptych::continuum

@@ -15,6 +15,8 @@ namespace diptych::continuum
   //   strain: e_xx, e_yy, gamma_xy = 2 e_xy, relative rotation chi = (du_y/dx - du_x/dy) - 2 omega, d omega/dx, d omega/dy
   //   stress: s_xx, s_yy, symmetric part of s_xy, skew part a, couple stresses m_x, m_y [pressure * length]
   // With row = component of the force and column = normal of the face, s_xy = symmetric - a and s_yx = symmetric + a.
+  // A gradient law (gradient_law.h) uses the last three components for its nonlocal hardening variable kbar:
+  //   strain: increments of kbar and of d kbar/dx, d kbar/dy;   stress: s (kbar - kappa), s l^2 d kbar/dx, s l^2 d kbar/dy.
   enum Component : unsigned int
   {
     xx,
@@ -23,7 +25,10 @@ namespace diptych::continuum
     relative_rotation, // in a stress: its skew part
     curvature_x,       // in a stress: couple stress
     curvature_y,
-    n_components
+    n_components,
+    nonlocal   = relative_rotation,
+    nonlocal_x = curvature_x,
+    nonlocal_y = curvature_y
   };
   constexpr unsigned int n_classical = 3; // components of a law without couple stress
 
@@ -53,12 +58,13 @@ namespace diptych::continuum
     double              stress_zz                 = 0; // [pressure]
     double              equivalent_plastic_strain = 0; // hardening variable: integral of the plastic d(eps_1 - eps_3) [-]
     double              stress_ratio_gain         = 0; // critical state: increase of the mobilised t/s since the start [-]
-    double              densification = 0; // critical state: ln(solid fraction / initial one), from plastic strain [-]
-    Stress              back_stress_ratio; // kinematic: axis of the cone, a deviatoric stress over the pressure [-]
-    double              overstress = 0;    // excess of the yield function that viscosity carries [pressure]
-    PlasticStrain       plastic_strain;    // updated by add_plastic_flow(), not by update(); law = library: by update()
-    double              dissipation = 0;   // plastic work per initial area [pressure]; likewise
-    std::vector<double> variables;         // state variables of a law from a library; otherwise empty
+    double              densification           = 0; // critical state: ln(solid fraction / initial one), from plastic strain [-]
+    double              nonlocal_plastic_strain = 0; // gradient laws: kbar, the nonlocal hardening variable [-]
+    Stress              back_stress_ratio;           // kinematic: axis of the cone, a deviatoric stress over the pressure [-]
+    double              overstress = 0;              // excess of the yield function that viscosity carries [pressure]
+    PlasticStrain       plastic_strain;              // updated by add_plastic_flow(), not by update(); law = library: by update()
+    double              dissipation = 0;             // plastic work per initial area [pressure]; likewise
+    std::vector<double> variables;                   // state variables of a law from a library; otherwise empty
   };
 
   struct MaterialUpdate

@@ -296,6 +296,7 @@ namespace diptych::continuum
     std::optional<MohrCoulomb> judge;
     if (traits(law).stays_in_plane)
       judge.emplace(options, units);
-    return std::visit([&](const auto &one) { return PointDriver(one, path, judge).run(); }, make_law(law, options, units));
+    return std::visit([&](const auto &one) { return PointDriver(one, path, judge).run(); },
+                      make_law(uniform_law(law), options, units));
   }
 } // namespace diptych::continuum

@@ -28,7 +28,8 @@ namespace diptych::continuum
 
   // Plane strain. Prescribed strains hold to round-off. Newton's iteration on the law's tangent finds the other strains from the
   // prescribed stresses, to 1e-10 of the larger of pressure and prescribed stress. If it fails, the step between two rows is
-  // halved up to ten times. Cosserat laws see no relative rotation and no curvature. Throws like make_law() and validate(path).
+  // halved up to ten times. A Cosserat law sees no rotation, a gradient law kbar = kappa. Throws like make_law() and
+  // validate(path).
   [[nodiscard]] MaterialPointReport drive_material_point(LawKind           law,
                                                          const LawOptions &options,
                                                          const Units      &units,

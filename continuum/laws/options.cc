@@ -203,7 +203,9 @@ namespace diptych::continuum
       if (law != LawKind::library)
         unused.push_back({LawParameters::prefix + one.name, of_law});
     unless(law != LawKind::library, of_law, {"youngs_modulus", "poisson_ratio"});
-    unless(is.is_cosserat, of_law, {"internal_length", "couple_shear_ratio"});
+    unless(is.has_length(), of_law, {"internal_length"});
+    unless(is.is_cosserat, of_law, {"couple_shear_ratio"});
+    unless(is.is_gradient, of_law, {"nonlocal_weight"});
     unless(is.is_plastic, of_law, {"hardening", "viscosity"});
     unless(is.is_plastic, of_law, peak);
     unless(is.is_plastic, of_law, residual);
@@ -251,6 +253,7 @@ namespace diptych::continuum
     require_range("viscosity", o.viscosity, 0, greatest);
     require_range("internal_length", o.internal_length, 1e-6, 1e6);
     require_range("couple_shear_ratio", o.couple_shear_ratio, 1e-6, 1e6);
+    require_range("nonlocal_weight", o.nonlocal_weight, 1, 10);
   }
 
   void validate(const LawKind law, const LawOptions &o)
@@ -258,5 +261,7 @@ namespace diptych::continuum
     validate(o);
     require_keys(law != LawKind::mohr_coulomb || o.hardening != HardeningKind::kinematic, {"law", "hardening"},
                  "law = mohr_coulomb with hardening = kinematic: take drucker_prager, or a law with rotations");
+    require_keys(!traits(law).is_gradient || !follows_solid_fraction(o.hardening), {"law", "hardening"}, "law = ", name_of(law),
+                 " with hardening = ", name_of(o.hardening), ": take another hardening, or a law with rotations");
   }
 } // namespace diptych::continuum

@@ -15,6 +15,8 @@ namespace diptych::continuum
   {
     cosserat_mohr_coulomb,
     cosserat_drucker_prager,
+    gradient_mohr_coulomb,
+    gradient_drucker_prager,
     mohr_coulomb,
     drucker_prager,
     linear_elastic,
@@ -25,6 +27,8 @@ namespace diptych::continuum
   {
     return std::array{std::pair{LawKind::cosserat_mohr_coulomb, "cosserat_mohr_coulomb"},
                       std::pair{LawKind::cosserat_drucker_prager, "cosserat_drucker_prager"},
+                      std::pair{LawKind::gradient_mohr_coulomb, "gradient_mohr_coulomb"},
+                      std::pair{LawKind::gradient_drucker_prager, "gradient_drucker_prager"},
                       std::pair{LawKind::mohr_coulomb, "mohr_coulomb"},
                       std::pair{LawKind::drucker_prager, "drucker_prager"},
                       std::pair{LawKind::linear_elastic, "linear_elastic"},
@@ -36,25 +40,40 @@ namespace diptych::continuum
   struct LawTraits
   {
     bool is_cosserat;    // has rotations, couple stress and hence an internal length
+    bool is_gradient;    // has a nonlocal hardening variable and hence an internal length
     bool is_plastic;     // has strength, hardening and viscosity
     bool stays_in_plane; // ignores sigma_zz: exact only if that is the intermediate principal stress
+
+    constexpr bool has_length() const { return is_cosserat || is_gradient; }
   };
   constexpr LawTraits traits(const LawKind law)
   {
     switch (law)
       {
       case LawKind::cosserat_mohr_coulomb:
-        return {true, true, true};
+        return {true, false, true, true};
       case LawKind::cosserat_drucker_prager:
-        return {true, true, false};
+        return {true, false, true, false};
+      case LawKind::gradient_mohr_coulomb:
+        return {false, true, true, true};
+      case LawKind::gradient_drucker_prager:
+        return {false, true, true, false};
       case LawKind::linear_elastic:
       case LawKind::library:
-        return {false, false, false};
+        return {false, false, false, false};
       case LawKind::mohr_coulomb:
       case LawKind::drucker_prager:
         break;
       }
-    return {false, true, false};
+    return {false, false, true, false};
+  }
+
+  // The law of a point in a uniform deformation without rotation, where a nonlocal hardening variable equals the local one.
+  constexpr LawKind uniform_law(const LawKind law)
+  {
+    return law == LawKind::gradient_mohr_coulomb     ? LawKind::cosserat_mohr_coulomb
+           : law == LawKind::gradient_drucker_prager ? LawKind::drucker_prager
+                                                     : law;
   }
 
   enum class HardeningKind
@@ -158,9 +177,10 @@ namespace diptych::continuum
     double                elastic_stress_ratio    = 0.05;  // kinematic: half the elastic range of t/s after long shear [-]
     std::optional<double> solid_fraction_start;            // of the prepared sample [-]; empty: mapped from the grains
     double                viscosity          = 0;   // [Units::stress x progress]; a positive value eases the onset of a band
-    double                internal_length    = 1;   // Cosserat laws [Units::length]
+    double                internal_length    = 1;   // Cosserat and gradient laws [Units::length]
     double                couple_shear_ratio = 0.5; // Cosserat laws: skew modulus / shear modulus [-]
     LibraryOptions        library;
+    double                nonlocal_weight = 4; // gradient laws: weight of the nonlocal hardening variable [-]
   };
 
   template <class Visitor> void visit_parameters(LawOptions &o, Visitor &&visitor)
@@ -216,8 +236,13 @@ namespace diptych::continuum
       "overstress per rate of plastic shear strain; the rate is per unit progress of the loading (strain, mode time: time); "
       "0: rate independent");
     visitor("internal_length", o.internal_length, "mean diameters", {1e-6, 1e6},
-            "Cosserat laws: couple modulus = 2 G length^2; sets the thickness of the band");
+            "Cosserat laws: couple modulus = 2 G length^2; gradient laws: the hardening variable is averaged over this length; "
+            "sets the thickness of the band");
     visitor("couple_shear_ratio", o.couple_shear_ratio, "-", {1e-6, 1e6}, "Cosserat laws: skew modulus / shear modulus");
+    visitor(
+      "nonlocal_weight", o.nonlocal_weight, "-", {1., 10.},
+      "gradient laws: weight m of the averaged hardening variable, the local one has 1 - m; with 1 the mesh sets the band's "
+      "thickness");
     visitor(
       "law_library", o.library.file, "-",
       "law = library: a shared library with a law of your own (diptych_law.h). Its parameters are the keys law.NAME of this "

@@ -36,9 +36,11 @@ namespace diptych::continuum
     ConeShape shape;
 
     Cone at(const double equivalent_plastic_strain) const { return at(HardeningState{equivalent_plastic_strain}); }
-    Cone at(const HardeningState &state) const
+    Cone at(const HardeningState &state) const { return of(hardening.sines_at(state)); }
+    // Gradient laws: the rates are derivatives by the nonlocal hardening variable.
+    Cone by_nonlocal(const HardeningState &state) const { return of(hardening.sines_by_nonlocal(state)); }
+    Cone of(const StrengthBySines &s) const
     {
-      const StrengthBySines s = hardening.sines_at(state);
       return shape == ConeShape::mohr_coulomb ? mohr_coulomb_cone(s) : drucker_prager_cone(s);
     }
     // The cone at the end of a step, with the mean dilation over that step.

@@ -20,10 +20,10 @@ namespace diptych::continuum
   namespace
   {
     // Row: component of the force; column: normal of the face. A Cosserat stress has a skew part.
-    Eigen::Matrix3d compression_positive(const MaterialState &point)
+    Eigen::Matrix3d compression_positive(const MaterialState &point, const bool is_cosserat)
     {
       const auto     &s    = point.stress;
-      const double    skew = s[relative_rotation];
+      const double    skew = is_cosserat ? s[relative_rotation] : 0;
       Eigen::Matrix3d m;
       m << s[xx], s[xy] - skew, 0, s[xy] + skew, s[yy], 0, 0, 0, point.stress_zz;
       return -m;
@@ -80,8 +80,9 @@ namespace diptych::continuum
 
     CellState cell_state(const BoundaryValueProblem &problem, const Shape &shape, const std::size_t c)
     {
-      const auto      &mesh      = problem.discretisation();
-      const Hardening *hardening = std::visit([](const auto &law) { return law.hardening(); }, problem.law());
+      const auto      &mesh        = problem.discretisation();
+      const Hardening *hardening   = std::visit([](const auto &law) { return law.hardening(); }, problem.law());
+      const bool       is_cosserat = mesh.kind == ElementKind::q2_cosserat;
       CellState        state;
       for (unsigned int q = 0; q < mesh.reference.n_points; ++q)
         {
@@ -92,10 +93,12 @@ namespace diptych::continuum
           const Eigen::Matrix2d F     = jacobian(mesh, mesh.cells[c], q, shape.now) *
                                     jacobian(mesh, mesh.cells[c], q, shape.before).inverse();
           state.strain.topLeftCorner<2, 2>() -= w * ((F + F.transpose()) / 2 - Eigen::Matrix2d::Identity());
-          state.stress += w * compression_positive(point);
+          state.stress += w * compression_positive(point, is_cosserat);
           state.plastic_strain += w * compression_positive(point.plastic_strain);
-          state.couple_stress += w * Eigen::Vector2d(point.stress[curvature_x], point.stress[curvature_y]);
+          if (is_cosserat)
+            state.couple_stress += w * Eigen::Vector2d(point.stress[curvature_x], point.stress[curvature_y]);
           state.equivalent_plastic_strain += w * point.equivalent_plastic_strain;
+          state.nonlocal_plastic_strain += w * point.nonlocal_plastic_strain;
           state.dissipation += w * point.dissipation;
           state.overstress += w * point.overstress;
           state.share_zz_not_intermediate += w * zz_is_not_intermediate(point);
@@ -115,8 +118,9 @@ namespace diptych::continuum
       for (auto *tensor : {&state.stress, &state.strain, &state.plastic_strain})
         *tensor /= state.area;
       state.couple_stress /= state.area;
-      for (auto *value : {&state.equivalent_plastic_strain, &state.dissipation, &state.overstress,
-                          &state.share_zz_not_intermediate, &state.friction_angle, &state.solid_fraction})
+      for (auto *value :
+           {&state.equivalent_plastic_strain, &state.dissipation, &state.overstress, &state.share_zz_not_intermediate,
+            &state.friction_angle, &state.solid_fraction, &state.nonlocal_plastic_strain})
         *value /= state.area;
       return state;
     }
@@ -129,7 +133,7 @@ namespace diptych::continuum
       Eigen::Vector2d       position, displacement;
       double                rotation = 0, weight = 0;
     };
-    constexpr unsigned int entry_length = 9, n_state = 38;
+    constexpr unsigned int entry_length = 9, n_state = 39;
 
     void append(std::vector<double> &message, const NodeEntry &n)
     {
@@ -143,7 +147,7 @@ namespace diptych::continuum
         message.insert(message.end(), tensor->data(), tensor->data() + 9);
       message.insert(message.end(), {s.couple_stress.x(), s.couple_stress.y(), s.area, s.equivalent_plastic_strain, s.dissipation,
                                      s.overstress, s.share_zz_not_intermediate, s.acoustic_determinant, s.localisation_angle,
-                                     s.friction_angle, s.solid_fraction});
+                                     s.friction_angle, s.solid_fraction, s.nonlocal_plastic_strain});
     }
 
     CellState read_state(const double *m)
@@ -164,6 +168,7 @@ namespace diptych::continuum
       s.localisation_angle        = m[8];
       s.friction_angle            = m[9];
       s.solid_fraction            = m[10];
+      s.nonlocal_plastic_strain   = m[11];
       return s;
     }
 
@@ -275,7 +280,7 @@ namespace diptych::continuum
           const auto  &point = state.points[i];
           const double w     = geometry.cells[i / mesh.reference.n_points].points[i % mesh.reference.n_points].area;
           area += w;
-          row.mean_stress += w * compression_positive(point);
+          row.mean_stress += w * compression_positive(point, mesh.kind == ElementKind::q2_cosserat);
           not_intermediate += w * zz_is_not_intermediate(point);
           dissipation += w * point.dissipation;
           largest = std::max(largest, point.equivalent_plastic_strain);
@@ -349,7 +354,7 @@ namespace diptych::continuum
     std::map<std::array<double, 3>, unsigned int> node_of_key;
     for (const auto &part : gathered(mine, mesh.communicator()))
       for (std::size_t at = 0; at < part.size(); at += 9 * entry_length + n_state + snapshot.variables.size())
-        add_cell(snapshot, node_of_key, &part[at], mesh.reference.n_rotations > 0);
+        add_cell(snapshot, node_of_key, &part[at], mesh.kind == ElementKind::q2_cosserat);
     snapshot.mean_stress /= std::max(snapshot.area, 1e-300);
     snapshot.lower_platen_force = problem.platen_force(false);
     snapshot.upper_platen_force = problem.platen_force(true);

@@ -124,7 +124,7 @@ namespace diptych::coupling
     s.max_equivalent_plastic_strain = column(h, "max_equivalent_plastic_strain").back();
     s.platen_unbalance              = platen_unbalance(h);
     s.law                           = discrete::name_of(scene.continuum.law);
-    if (continuum::traits(scene.continuum.law).is_cosserat)
+    if (continuum::traits(scene.continuum.law).has_length())
       s.internal_length = scene.continuum.material.internal_length;
     s.parameters_from = scene.comparison.parameters_from;
     s.facts           = results.facts;

@@ -119,7 +119,7 @@ namespace diptych::coupling
       if (const double share = largest(&continuum::HistoryRow::unstable_share).unstable_share; share > 0)
         text << "\n  up to " << 100 * share << " % of the area weakens in a step while its plastic flow contracts (at "
              << at(largest(&continuum::HistoryRow::unstable_share)) << "): a material instability, which the mesh may decide. "
-             << "continuum/internal_length (Cosserat laws) or continuum/viscosity limits it";
+             << "continuum/internal_length (Cosserat and gradient laws) or continuum/viscosity limits it";
       double outside = 0; // at rest all three stresses are equal, and nothing depends on their order
       for (const continuum::HistoryRow &row : rows)
         outside = row.step > 0 ? std::max(outside, row.share_zz_not_intermediate) : outside;
@@ -128,7 +128,9 @@ namespace diptych::coupling
       if (continuum::traits(scene.continuum.law).stays_in_plane && outside > 0)
         text << "\n  sigma_zz is not the intermediate principal stress in up to " << 100 * outside
              << " % of the area, where this law's in-plane form is not exact"
-             << (outside > 0.05 ? ": check with continuum/law = cosserat_drucker_prager" : "");
+             << (outside <= 0.05                                      ? ""
+                 : continuum::traits(scene.continuum.law).is_gradient ? ": check with continuum/law = gradient_drucker_prager"
+                                                                      : ": check with continuum/law = cosserat_drucker_prager");
       say(line, text.str());
     }
 

@@ -91,7 +91,7 @@ namespace diptych::coupling
     // Elements of one internal length give the width of the band within 4 %.
     double element_size(const continuum::Options &o)
     {
-      return continuum::traits(o.law).is_cosserat ? std::min(o.material.internal_length, 3.) : 2;
+      return continuum::traits(o.law).has_length() ? std::min(o.material.internal_length, 3.) : 2;
     }
 
     // As in the calibrations of the default law. With steps of 0.005 one sample had the same peak and 1.2 % less dilation.

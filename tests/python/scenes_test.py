@@ -82,7 +82,7 @@ def test_every_key_refuses_what_it_does_not_allow():
             with pytest.raises(diptych.SceneError) as thrown:
                 diptych.scene({section: {name: value}})
             assert thrown.value.key == key and allowed in str(thrown.value), value
-    assert len(free) == 6
+    assert len(free) == 7
 
 
 def test_the_error_of_a_wrong_file_has_file_line_and_key(tmp_path):

@@ -47,6 +47,7 @@ namespace
   {
     const QuadMesh mesh = rectangle(12, 12, 3.);
     for (const auto &[law, element] : {std::pair<LawKind, Displacement>{LawKind::cosserat_mohr_coulomb, Displacement::q2},
+                                       {LawKind::gradient_drucker_prager, Displacement::q2},
                                        {LawKind::drucker_prager, Displacement::q2},
                                        {LawKind::mohr_coulomb, Displacement::q1_bbar}})
       {

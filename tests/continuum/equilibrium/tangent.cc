@@ -97,11 +97,12 @@ namespace
                                        {LawKind::drucker_prager, Displacement::q1_bbar},
                                        {LawKind::drucker_prager, Displacement::q2},
                                        {LawKind::cosserat_mohr_coulomb, Displacement::q2},
-                                       {LawKind::cosserat_drucker_prager, Displacement::q2}})
+                                       {LawKind::cosserat_drucker_prager, Displacement::q2},
+                                       {LawKind::gradient_drucker_prager, Displacement::q2}})
       for (const Scene &scene : scenes())
         {
           if (element == Displacement::q2 && law != LawKind::mohr_coulomb && law != LawKind::cosserat_mohr_coulomb &&
-              scene.hanging)
+              law != LawKind::gradient_drucker_prager && scene.hanging)
             continue; // hanging nodes do not depend on the law
           Options options = with({}, scene.platens, Kinematics::updated);
           options.law     = law;

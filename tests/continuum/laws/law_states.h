@@ -26,7 +26,7 @@ namespace diptych::continuum::tests
     state.stress[xx]                = sxx;
     state.stress[yy]                = syy;
     state.stress_zz                 = szz;
-    state.equivalent_plastic_strain = kappa;
+    state.equivalent_plastic_strain = state.nonlocal_plastic_strain = kappa;
     return state;
   }
 
@@ -99,11 +99,18 @@ namespace diptych::continuum::tests
 
   inline bool is_mohr_coulomb(const LawKind law)
   {
-    return law == LawKind::mohr_coulomb || law == LawKind::cosserat_mohr_coulomb;
+    return law == LawKind::mohr_coulomb || law == LawKind::cosserat_mohr_coulomb || law == LawKind::gradient_mohr_coulomb;
   }
 
-  inline const std::vector<LawKind> plastic_laws = {LawKind::mohr_coulomb, LawKind::drucker_prager,
-                                                    LawKind::cosserat_mohr_coulomb, LawKind::cosserat_drucker_prager};
+  inline const std::vector<LawKind> plastic_laws = {LawKind::mohr_coulomb,          LawKind::drucker_prager,
+                                                    LawKind::cosserat_mohr_coulomb, LawKind::cosserat_drucker_prager,
+                                                    LawKind::gradient_mohr_coulomb, LawKind::gradient_drucker_prager};
+
+  // Gradient laws reject critical_state.
+  inline bool accepts(const LawKind law, const LawOptions &options)
+  {
+    return !traits(law).is_gradient || options.hardening != HardeningKind::critical_state;
+  }
 
   inline MaterialUpdate update(const Law &law, const MaterialState &s0, const Strain &e, const double d_time = 1e-3)
   {

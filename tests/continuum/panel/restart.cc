@@ -95,7 +95,7 @@ namespace
   {
     const QuadMesh mesh    = outline_mesh(wavy_outline(24, 24, 13, 0.2), 4.);
     const Loading  loading = straight_loading(1, {24, -24}, {0, 0.004, 0.012});
-    for (const LawKind law : {LawKind::cosserat_mohr_coulomb, LawKind::drucker_prager})
+    for (const LawKind law : {LawKind::cosserat_mohr_coulomb, LawKind::gradient_mohr_coulomb, LawKind::drucker_prager})
       expect_that_it_goes_on(mesh, loading, options_of(law));
   }
 

@@ -13,13 +13,14 @@ namespace
   constexpr double E = 500, nu = 0.2, G = E / (2 * (1 + nu)); // defaults of ElasticOptions
 
   const std::vector<std::pair<LawKind, Displacement>> plastic_elements = {
-    {LawKind::mohr_coulomb, Displacement::q2},          {LawKind::mohr_coulomb, Displacement::q1_bbar},
-    {LawKind::drucker_prager, Displacement::q2},        {LawKind::drucker_prager, Displacement::q1_bbar},
-    {LawKind::cosserat_mohr_coulomb, Displacement::q2}, {LawKind::cosserat_drucker_prager, Displacement::q2}};
+    {LawKind::mohr_coulomb, Displacement::q2},           {LawKind::mohr_coulomb, Displacement::q1_bbar},
+    {LawKind::drucker_prager, Displacement::q2},         {LawKind::drucker_prager, Displacement::q1_bbar},
+    {LawKind::cosserat_mohr_coulomb, Displacement::q2},  {LawKind::cosserat_drucker_prager, Displacement::q2},
+    {LawKind::gradient_drucker_prager, Displacement::q2}};
 
   bool is_cone(const LawKind law)
   {
-    return law == LawKind::drucker_prager || law == LawKind::cosserat_drucker_prager;
+    return law == LawKind::drucker_prager || law == LawKind::cosserat_drucker_prager || law == LawKind::gradient_drucker_prager;
   }
 
   Options one_element(const std::pair<LawKind, Displacement> &kind, const double dilatancy, const double cohesion)

@@ -88,7 +88,7 @@ namespace diptych::coupling::files
   inline void expect_same(const CellState &x, const CellState &y)
   {
     const auto &[stress, strain, plastic_strain, couple_stress, area, kappa, dissipation, overstress, zz, determinant, angle,
-                 friction, solid_fraction] = x;
+                 friction, solid_fraction, kbar] = x;
     EXPECT_TRUE(same_bits(stress, y.stress)) << stress << "\n\n" << y.stress;
     EXPECT_TRUE(same_bits(strain, y.strain)) << strain << "\n\n" << y.strain;
     EXPECT_TRUE(same_bits(plastic_strain, y.plastic_strain)) << plastic_strain << "\n\n" << y.plastic_strain;
@@ -102,6 +102,7 @@ namespace diptych::coupling::files
     EXPECT_TRUE(same_bits(angle, y.localisation_angle));
     EXPECT_TRUE(same_bits(friction, y.friction_angle));
     EXPECT_TRUE(same_bits(solid_fraction, y.solid_fraction));
+    EXPECT_TRUE(same_bits(kbar, y.nonlocal_plastic_strain));
   }
 
   inline void expect_same(const Snapshot &x, const Snapshot &y)

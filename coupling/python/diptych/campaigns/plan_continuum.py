@@ -26,7 +26,8 @@ WORTH_SAVING = 0.05
 ELEMENTS_OVER_LENGTH, ELEMENTS_ACROSS = 2, 12  # start of the refinement
 LONGEST_LOAD_STEP, COARSEST_TOLERANCE = 0.01, 1e-3
 WITH_LENGTH = {"mohr_coulomb": "cosserat_mohr_coulomb", "drucker_prager": "cosserat_drucker_prager"}
-WITHOUT_LENGTH = {"cosserat_mohr_coulomb": "mohr_coulomb"}  # other laws: drucker_prager
+WITHOUT_LENGTH = {"cosserat_mohr_coulomb": "mohr_coulomb",
+                  "gradient_mohr_coulomb": "mohr_coulomb"}  # other laws: drucker_prager
 
 
 @dataclass
@@ -156,7 +157,7 @@ class ContinuumPlan:
     def _settle_elements(self) -> bool:
         law = self.options["law"]
         other = WITH_LENGTH.get(law)
-        knob = Knob("continuum/element_size", self._first_elements(law.startswith("cosserat")), OF_ELEMENTS,
+        knob = Knob("continuum/element_size", self._first_elements(law.startswith(("cosserat", "gradient"))), OF_ELEMENTS,
                     lambda size: [planned("continuum/element_size", size)], may_have_no_limit=bool(other),
                     least_points=3 if other else 2)  # one small change of a law without a length may be chance
         settled = self._refine(knob)
@@ -212,10 +213,10 @@ class ContinuumPlan:
 
     def _try_models(self) -> None:
         law = self.options["law"]
-        is_cosserat = law.startswith("cosserat") or self.has_changed_law
-        if is_cosserat and not self.has_changed_law:
+        has_length = law.startswith(("cosserat", "gradient")) or self.has_changed_law
+        if has_length and not self.has_changed_law:
             self._try_model("law without an internal length", "continuum/law", WITHOUT_LENGTH.get(law, "drucker_prager"))
-        if not is_cosserat and self.options["element"] != "q1_bbar":
+        if not has_length and self.options["element"] != "q1_bbar":
             self._try_model("bilinear elements", "continuum/element", "q1_bbar")
         if self.options["geometry"] == "updated":
             self._try_model("small strain", "continuum/geometry", "small_strain")
