@@ -299,9 +299,9 @@ namespace diptych::continuum
           ElementVector<Element> f{};
           for (unsigned int q = 0; q < Element::n_points; ++q)
             {
-              const auto &cell   = current.cells[c];
-              const auto  motion = motion_at<Element>(mesh.reference, cell, q, u);
-              add_force<Element>(mesh.reference, cell, q, PiolaStress(point_tangent(c * Element::n_points + q) * motion), f);
+              const auto motion = motion_at<Element>(mesh.reference, current.cells[c], q, u);
+              add_force<Element>(mesh.reference, current.cells[c], q,
+                                 PiolaStress(point_tangent(c * Element::n_points + q) * motion), f);
             }
           scatter<Element>(mesh.cells[c], f, force);
         }
@@ -350,7 +350,6 @@ namespace diptych::continuum
     const Tangent   elastic     = std::visit([](const auto &law) { return law.elastic_tangent(); }, material);
     const auto      moduli      = std::visit([](const auto &law) { return law.moduli(); }, material);
     const bool      is_gradient = mesh.kind == ElementKind::q2_gradient;
-    flow.resize(trial.size());
     unstable.assign(trial.size(), 0);
     for (std::size_t point = 0; point < trial.size(); ++point)
       {

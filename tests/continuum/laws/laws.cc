@@ -94,7 +94,7 @@ namespace
   {
     for (const auto &[hardening, options] : hardenings())
       for (const LawKind name : all_laws())
-        for (const LawCheck &check : check_law(make_law(name, options), {}))
+        for (const LawCheck &check : accepts(name, options) ? check_law(make_law(name, options), {}) : std::vector<LawCheck>())
           EXPECT_TRUE(check.holds()) << name_of(name) << ", " << hardening << ", " << check.name << ": " << check.deviation
                                      << check.trouble << ' ' << check.where << ' ' << check.n_judged << ' ' << check.n_not_judged;
   }
