@@ -340,8 +340,7 @@ namespace diptych::continuum
     std::vector<double> displacement = state.displacement;
     for (std::size_t i = 0; i < displacement.size(); ++i)
       displacement[i] += trial_increment[i];
-    const bool folded = !geometry_at(mesh, positions(mesh, displacement)).is_regular;
-    return Utilities::MPI::max(int(folded), mesh.communicator()) == 1;
+    return Utilities::MPI::max(int(!geometry_at(mesh, positions(mesh, displacement)).is_regular), mesh.communicator()) == 1;
   }
 
   void BoundaryValueProblem::commit()
