@@ -52,7 +52,7 @@ namespace diptych::continuum
     {
       const LawTraits   is       = traits(options.law);
       const LawOptions &material = options.material;
-      if (!is.is_plastic || is.is_cosserat || material.viscosity > 0 ||
+      if (!is.is_plastic || is.has_length() || material.viscosity > 0 ||
           (material.hardening == HardeningKind::constant && material.dilatancy_angle_peak == material.friction_angle_peak))
         return "";
       return ". " + name_of(options.law) +
