@@ -54,6 +54,17 @@ def judged(name, found):
     return good
 
 
+def show_limits(runs, exhausted):
+    """Gradient law, l = 4, W = 60: another weight m, and a strength that stops falling (`exhausted`: runs of ../cosserat_band)."""
+    for text, of_scene, weight, elements in (("oblique.prm, m = 2", runs, 2, (4, 2, 1)),
+                                             ("strength constant from 0.1 on, m = 4", exhausted, 4, (4, 2)),
+                                             ("strength constant from 0.1 on, m = 2", exhausted, 2, (4, 2))):
+        print(f"\n{text}: thickness [d], gradient law, l = 4")
+        for h in elements:
+            folder = of_scene("oblique", law=LAWS["gradient"], internal_length=4, nonlocal_weight=weight, element_size=h)
+            print(f"  h = {h}" + "".join(f"{v:8.2f}" for v in thicknesses(folder, "oblique", STRAINS)), flush=True)
+
+
 def draw(found, path):
     import matplotlib
     matplotlib.use("Agg")
@@ -92,6 +103,9 @@ def main():
             print(f"\n{name}: thickness [d] at " + ", ".join(f"{100 * e:g} %" for e in STRAINS), flush=True)
             found[name] = measured(runs, law)
             good = judged(name, found[name]) and good
+        exhausted = os.path.join(runs.folder, "exhausted")
+        os.makedirs(exhausted, exist_ok=True)
+        show_limits(runs, Runs(options, exhausted))
     if options.figure:
         draw(found, options.figure)
     return 0 if good else 1
