@@ -55,7 +55,7 @@ def judged(name, found):
 
 
 def show_limits(runs, exhausted):
-    """Gradient law, l = 4, W = 60: another weight m, and a strength that stops falling (`exhausted`: runs of ../cosserat_band)."""
+    """Gradient law, l = 4, W = 60: another weight m; a strength that stops falling (`exhausted`: runs of ../cosserat_band)."""
     for text, of_scene, weight, elements in (("oblique.prm, m = 2", runs, 2, (4, 2, 1)),
                                              ("strength constant from 0.1 on, m = 4", exhausted, 4, (4, 2)),
                                              ("strength constant from 0.1 on, m = 2", exhausted, 2, (4, 2))):
