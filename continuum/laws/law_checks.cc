@@ -216,9 +216,13 @@ namespace diptych::continuum
   std::vector<LawCheck> check_law(const Law &law, const Units &units)
   {
     std::vector<LawCheck> checks = Checks(law, units).made();
-    if (const auto *library = std::get_if<LibraryLaw>(&law);
-        library != nullptr && (library->failure().is_broken || !checks.front().holds()))
-      checks.front().trouble = library->failure().text;
+    if (const auto *library = std::get_if<LibraryLaw>(&law))
+      {
+        if (library->failure().is_broken || !checks.front().holds())
+          checks.front().trouble = library->failure().text;
+        else
+          checks.front().trouble = library->first_not_finite(); // also in a step that the law may refuse
+      }
     return checks;
   }
 

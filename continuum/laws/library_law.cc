@@ -163,7 +163,11 @@ namespace diptych::continuum
     if (reply.verdict == DIPTYCH_FAILED)
       note("gave no answer (DIPTYCH_FAILED)", false, s0, d_strain);
     else if (!is_finite(answer))
-      note("returned a number that is not finite", false, s0, d_strain);
+      {
+        note("returned a number that is not finite", false, s0, d_strain);
+        if (not_finite.empty())
+          not_finite = last_failure.text;
+      }
     else
       answer.verdict = reply.verdict == DIPTYCH_UNRELIABLE ? Verdict::unreliable : Verdict::reliable;
     return answer;

@@ -47,6 +47,9 @@ namespace diptych::continuum
       bool        is_broken = false;
     };
     const Failure &failure() const { return last_failure; }
+
+    // The first answer with a number that is not finite; empty if there was none.
+    const std::string &first_not_finite() const { return not_finite; }
     void           forget_failure() const
     {
       if (!last_failure.is_broken)
@@ -68,5 +71,6 @@ namespace diptych::continuum
     ElasticModuli       moduli_;
     Tangent             elastic;
     mutable Failure     last_failure;
+    mutable std::string not_finite;
   };
 } // namespace diptych::continuum

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/laws/plastic_flow.h"
 
+#include <cmath>
+
 namespace diptych::continuum
 {
   void add_plastic_flow(const ElasticModuli &moduli, const MaterialState &s0, const Strain &d_strain, MaterialState &s1)
@@ -40,6 +42,6 @@ namespace diptych::continuum
         size += d_strain[k] * d_strain[k];
       }
     const double growth = s1.plastic_strain.xx - s0.plastic_strain.xx + s1.plastic_strain.yy - s0.plastic_strain.yy;
-    return growth < 0 && work < -none * moduli.shear * size;
+    return growth < -none * std::sqrt(size) && work < -none * moduli.shear * size;
   }
 } // namespace diptych::continuum

@@ -3,6 +3,7 @@
 #include "coupling/program/continuum_command.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -107,8 +108,10 @@ namespace diptych::coupling
       const auto at      = [](const continuum::HistoryRow &row) { return text_of(row.loading_variable, row.progress); };
       std::ostringstream text;
       text.precision(4);
-      text << part.title << ": peak t/s " << peak.value << " at " << text_of(rows.back().loading_variable, peak.progress)
-           << ", at the end " << rows.back().stress_ratio << " at " << at(rows.back()) << "; " << report.n_cells << " elements, "
+      text << part.title << ": ";
+      if (std::isfinite(peak.value)) // a shorter loading has no running mean
+        text << "peak t/s " << peak.value << " at " << text_of(rows.back().loading_variable, peak.progress) << ", ";
+      text << "t/s at the end " << rows.back().stress_ratio << " at " << at(rows.back()) << "; " << report.n_cells << " elements, "
            << report.n_unknowns << " unknowns, " << report.steps << " steps, " << report.cut_backs << " cut-backs";
       if (report.localisation_progress)
         text << "\n  from " << text_of(rows.back().loading_variable, *report.localisation_progress)

@@ -99,7 +99,7 @@ namespace diptych::coupling
       if (outside != rows.end())
         text << "\n  from " << at(*outside)
              << " on sigma_zz is beyond the yield surface, which this law ignores: its answer is not "
-             << "exact; check with continuum/law = mohr_coulomb or cosserat_drucker_prager";
+             << "exact; check with continuum/law = cosserat_drucker_prager";
       return text.str();
     }
 

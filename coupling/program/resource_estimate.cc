@@ -31,7 +31,7 @@ namespace diptych::coupling
     // Measured, CPU seconds of a 2.6 GHz EPYC: moreau_1997, moreau_quick with 100 to 8000 grains at inertial numbers of 2e-4 and
     // 1e-3, dense_biaxial at 1e-4 and 1e-3, its springs and those of moreau_quick; elements of 1 to 2.5 d.
     constexpr CpuRange preparation_of_a_grain{4e-4, 8e-4}, spring_preparation_of_a_grain{1.5e-3, 2.1e-3}; // whole
-    constexpr CpuRange step_of_a_grain{9e-7, 4e-6}, spring_step_of_a_grain{1.8e-7, 3.6e-7}, step_of_an_element{1.4e-4, 2.9e-4};
+    constexpr CpuRange step_of_a_grain{9e-7, 4e-6}, spring_step_of_a_grain{1.8e-7, 3.6e-7}, step_of_an_element{4.5e-5, 1e-4};
 
     CpuRange operator*(const double factor, const CpuRange &range)
     {
