@@ -50,7 +50,7 @@ namespace diptych::continuum
 
     // The first answer with a number that is not finite; empty if there was none.
     const std::string &first_not_finite() const { return not_finite; }
-    void           forget_failure() const
+    void               forget_failure() const
     {
       if (!last_failure.is_broken)
         last_failure = {};

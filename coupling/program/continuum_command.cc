@@ -111,8 +111,9 @@ namespace diptych::coupling
       text << part.title << ": ";
       if (std::isfinite(peak.value)) // a shorter loading has no running mean
         text << "peak t/s " << peak.value << " at " << text_of(rows.back().loading_variable, peak.progress) << ", ";
-      text << "t/s at the end " << rows.back().stress_ratio << " at " << at(rows.back()) << "; " << report.n_cells << " elements, "
-           << report.n_unknowns << " unknowns, " << report.steps << " steps, " << report.cut_backs << " cut-backs";
+      text << "t/s at the end " << rows.back().stress_ratio << " at " << at(rows.back()) << "; " << report.n_cells
+           << " elements, " << report.n_unknowns << " unknowns, " << report.steps << " steps, " << report.cut_backs
+           << " cut-backs";
       if (report.localisation_progress)
         text << "\n  from " << text_of(rows.back().loading_variable, *report.localisation_progress)
              << " on at least one point of the mesh may localise (singular acoustic tensor), band at "
