@@ -10,7 +10,7 @@ import h5py
 import numpy
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../cosserat_band"))
-from band import ARMS  # noqa: E402
+from runs import ARMS  # noqa: E402
 from width import Increment, measure, point_values, N_POINTS  # noqa: E402
 
 
