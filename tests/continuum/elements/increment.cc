@@ -58,7 +58,9 @@ namespace
           }
         const double error = std::hypot(state.stress[xy] - std::sin(1.), state.stress[xx] - (1 - std::cos(1.)));
         if (n > 8)
-          EXPECT_NEAR(before / error, 4, 0.05);
+          {
+            EXPECT_NEAR(before / error, 4, 0.05);
+          }
         before = error;
       }
     EXPECT_LT(before, 1e-4);

@@ -87,7 +87,9 @@ namespace
         for (const unsigned int k : {0u, 1u})
           {
             if (step < 0.02)
-              EXPECT_NEAR(before[k] / error[k], 4, 0.3) << step << ", " << error[k];
+              {
+                EXPECT_NEAR(before[k] / error[k], 4, 0.3) << step << ", " << error[k];
+              }
             before[k] = error[k];
           }
       }
