@@ -66,6 +66,12 @@ class Libraries(Folder):
         self.assertRegex(result.stdout, r"tangent: FAILS, largest deviation 0.001 .*; path \d+, step \d+, strain increment ")
         self.assertEqual(result.stdout.count(": holds"), 4, result.stdout)
 
+    def test_an_answer_that_is_not_finite_is_found(self):
+        result = subprocess.run([PROGRAM, "check-law", os.path.join(self.libraries, "faulty.so")],
+                                env={**ENVIRONMENT, "FAULT": "nan"}, capture_output=True, text=True)
+        self.assertEqual(result.returncode, 2)
+        self.assertRegex(result.stdout, "answers: FAILS, .* returned a number that is not finite")
+
     def test_the_mohr_coulomb_example_is_the_built_in_law(self):
         """At a point and in a boundary problem, where some points reach edges, to the tolerance of the equilibrium."""
         scene = self.scene("mohr_coulomb", "law.friction_angle = 25", "tolerance = 1e-10")
