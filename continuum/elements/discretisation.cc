@@ -55,40 +55,32 @@ namespace diptych::continuum
       triangulation.create_triangulation(vertices, cells, lines);
     }
 
-    Tensor<2, 2> jacobian(const ReferenceElement             &reference,
-                          const unsigned int                  q,
-                          const Cell                         &cell,
-                          const std::vector<Eigen::Vector2d> &x)
+    // `position_of` a node of the mesh, by its number.
+    template <class Position>
+    Tensor<2, 2> jacobian(const ReferenceElement &reference, const unsigned int q, const Cell &cell, const Position &position_of)
     {
       Tensor<2, 2> J;
       for (unsigned int node = 0; node < reference.n_nodes; ++node)
         for (unsigned int i = 0; i < 2; ++i)
-          J[i] += x[cell.nodes[node]][i] * reference.gradient[q][node];
-      return J;
-    }
-
-    Tensor<2, 2> initial_jacobian(const Discretisation &mesh, const unsigned int q, const Cell &cell)
-    {
-      Tensor<2, 2> J;
-      for (unsigned int node = 0; node < mesh.reference.n_nodes; ++node)
-        for (unsigned int i = 0; i < 2; ++i)
-          J[i] += mesh.nodes[cell.nodes[node]].initial[i] * mesh.reference.gradient[q][node];
+          J[i] += position_of(cell.nodes[node])[i] * reference.gradient[q][node];
       return J;
     }
 
     CellGeometry cell_geometry(const Discretisation &mesh, const Cell &cell, const std::vector<Eigen::Vector2d> &x)
     {
       const auto  &reference = mesh.reference;
+      const auto   now       = [&](const unsigned int node) -> const Eigen::Vector2d         &{ return x[node]; };
+      const auto   initial   = [&](const unsigned int node) -> const Eigen::Vector2d     &{ return mesh.nodes[node].initial; };
       CellGeometry geometry;
       double       area = 0;
       for (unsigned int q = 0; q < reference.n_points; ++q)
         {
           auto              &point     = geometry.points[q];
-          const Tensor<2, 2> J         = jacobian(reference, q, cell, x);
+          const Tensor<2, 2> J         = jacobian(reference, q, cell, now);
           const Tensor<2, 2> inverse_t = transpose(invert(J));
           // Helmholtz's equation of a gradient law stays on the initial shape, where its length is that of the material.
           const Tensor<2, 2> corner_inverse_t = mesh.kind == ElementKind::q2_gradient
-                                                  ? transpose(invert(initial_jacobian(mesh, q, cell)))
+                                                  ? transpose(invert(jacobian(reference, q, cell, initial)))
                                                   : inverse_t;
           point.area                          = determinant(J) * reference.weights[q];
           area += point.area;

@@ -10,6 +10,8 @@
 
 #include <deal.II/base/array_view.h>
 
+#include "continuum/laws/rotation.h"
+
 namespace diptych::continuum
 {
   namespace
@@ -70,17 +72,11 @@ namespace diptych::continuum
       return e;
     }
 
-    // Turned by an angle with this cosine and sine. The skew part does not depend on the frame.
-    template <class V> Stresses<V> turned(const Stresses<V> &s, const double cosine, const double sine)
+    template <class V> Stresses<V> turned(Stresses<V> s, const double cosine, const double sine)
     {
-      const double cos2 = cosine * cosine - sine * sine, sin2 = 2 * cosine * sine;
-      const V      mean = (s[xx] + s[yy]) / 2, a = (s[xx] - s[yy]) / 2, deviator = a * cos2 - s[xy] * sin2;
-      return {mean + deviator,
-              mean - deviator,
-              a * sin2 + s[xy] * cos2,
-              s[relative_rotation],
-              cosine * s[curvature_x] - sine * s[curvature_y],
-              sine * s[curvature_x] + cosine * s[curvature_y]};
+      turn_tensor(s[xx], s[yy], s[xy], cosine, sine);
+      turn_vector(s[curvature_x], s[curvature_y], cosine, sine);
+      return s;
     }
 
     // From the force per area at the end to that at the start.

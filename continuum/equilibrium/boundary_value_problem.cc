@@ -140,21 +140,6 @@ namespace diptych::continuum
     reset_balance();
   }
 
-  DistributedVector BoundaryValueProblem::zero_vector() const
-  {
-    return continuum::zero_vector(mesh);
-  }
-
-  std::vector<double> BoundaryValueProblem::relevant_values(const DistributedVector &vector) const
-  {
-    return continuum::relevant_values(mesh, vector);
-  }
-
-  DistributedVector BoundaryValueProblem::owned_values(const std::vector<double> &relevant) const
-  {
-    return continuum::owned_values(mesh, relevant);
-  }
-
   std::array<PlatenPlane, 2> BoundaryValueProblem::platen_planes() const
   {
     std::array<PlatenPlane, 2> planes;
@@ -187,15 +172,20 @@ namespace diptych::continuum
     return loading.side_pressure ? loading.side_pressure(step_end) : loading.pressure;
   }
 
+  std::vector<double> BoundaryValueProblem::trial_displacement() const
+  {
+    std::vector<double> sum = state.displacement;
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      sum[i] += trial_increment[i];
+    return sum;
+  }
+
   // Side pressure acts along the sides of the shape for equilibrium.
   void BoundaryValueProblem::find_loads()
   {
-    std::vector<double> displacement(state.displacement.size(), 0.);
-    if (moves())
-      for (std::size_t i = 0; i < displacement.size(); ++i)
-        displacement[i] = state.displacement[i] + trial_increment[i];
     external = weight;
-    add_side_pressure(mesh, positions(mesh, displacement), side_pressure(), external);
+    add_side_pressure(mesh, positions(mesh, moves() ? trial_displacement() : std::vector<double>(weight.size(), 0.)),
+                      side_pressure(), external);
     for (std::size_t i = 0; i < external.size(); ++i)
       external[i] = step_share * external[i] + (1 - step_share) * balanced_force[i];
   }
@@ -204,6 +194,8 @@ namespace diptych::continuum
   {
     step_end   = to;
     step_share = share;
+    if (!moves())
+      find_loads(); // they stay those of the initial shape
     step_constraints.clear();
     step_constraints.copy_from(conditions->increment(state.progress, to));
     applied = zero_vector();
@@ -253,7 +245,8 @@ namespace diptych::continuum
     std::visit(
       [&](const auto &law) { with_element(mesh.kind, [&](const auto chosen) { update_points(law, chosen, internal); }); },
       material);
-    find_loads();
+    if (moves())
+      find_loads();
 
     auto force = internal;
     for (std::size_t i = 0; i < force.size(); ++i)
@@ -337,10 +330,8 @@ namespace diptych::continuum
 
   bool BoundaryValueProblem::is_folded() const
   {
-    std::vector<double> displacement = state.displacement;
-    for (std::size_t i = 0; i < displacement.size(); ++i)
-      displacement[i] += trial_increment[i];
-    return Utilities::MPI::max(int(!geometry_at(mesh, positions(mesh, displacement)).is_regular), mesh.communicator()) == 1;
+    return Utilities::MPI::max(int(!geometry_at(mesh, positions(mesh, trial_displacement())).is_regular), mesh.communicator()) ==
+           1;
   }
 
   void BoundaryValueProblem::commit()
@@ -363,11 +354,11 @@ namespace diptych::continuum
         const Tangent &D          = trial[point].tangent;
         state.localisation[point] = is_elastic ? Localisation() : localisation(is_gradient ? uniform_tangent(D) : D, elastic);
         flow[point]               = next.equivalent_plastic_strain - state.points[point].equivalent_plastic_strain;
-        turn(next, increments[point].angle(), material, is_gradient);
+        if (moves())
+          turn(next, increments[point].angle(), material, is_gradient);
         state.points[point] = next;
       }
-    for (std::size_t i = 0; i < state.displacement.size(); ++i)
-      state.displacement[i] += trial_increment[i];
+    state.displacement = trial_displacement();
     state.progress     = step_end;
     state.platen_force = {trial_platen_force(false), trial_platen_force(true)};
     move_nodes();

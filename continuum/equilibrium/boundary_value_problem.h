@@ -64,7 +64,7 @@ namespace diptych::continuum
     // For a critical-state law: one number per cell of this process.
     void set_initial_solid_fraction(const std::vector<double> &solid_fraction);
 
-    DistributedVector zero_vector() const;
+    DistributedVector zero_vector() const { return continuum::zero_vector(mesh); }
 
     // Sets loads and platen motion of the step from the committed progress to `to`. `share` < 1 mixes the loads with those that
     // balance the state at the last reset_balance(), so that equilibrium can be found gradually.
@@ -120,8 +120,12 @@ namespace diptych::continuum
     const PhaseSeconds      &seconds() const { return phase; }
     void                     go_on_counting(const PhaseSeconds &before) { phase = before; }
 
-    std::vector<double> relevant_values(const DistributedVector &vector) const;
-    DistributedVector   owned_values(const std::vector<double> &relevant) const; // inverse of relevant_values()
+    std::vector<double> relevant_values(const DistributedVector &vector) const
+    {
+      return continuum::relevant_values(mesh, vector);
+    }
+    // Inverse of relevant_values().
+    DistributedVector owned_values(const std::vector<double> &relevant) const { return continuum::owned_values(mesh, relevant); }
 
   private:
     void                                   set_conditions(const SideContact &contact, const CheckStop &check_stop = {});
@@ -129,6 +133,7 @@ namespace diptych::continuum
     bool                                   moves() const { return options.geometry == Kinematics::updated; }
     std::array<PlatenPlane, 2>             platen_planes() const;
     void                                   find_loads();
+    std::vector<double>                    trial_displacement() const;
     double                                 side_pressure() const;
     Eigen::Vector2d                        trial_platen_force(bool upper) const;
     double                                 platen_scale() const;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <new>
 
 #include <dlfcn.h>
 
@@ -72,6 +73,8 @@ namespace diptych::continuum
       }
     half->sorted           = 0;
     cholmod_factor *factor = cholmod_analyze(half, &common);
+    if (factor == nullptr)
+      throw std::bad_alloc();
 
     const auto *permutation = static_cast<const int *>(factor->Perm), *super = static_cast<const int *>(factor->super),
                *pointer = static_cast<const int *>(factor->pi), *row = static_cast<const int *>(factor->s);

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "continuum/laws/plastic_flow.h"
+#include "continuum/laws/rotation.h"
 
 namespace diptych::continuum
 {
@@ -250,14 +251,10 @@ namespace diptych::continuum
 
   Stress turned(const Stress &a, const double angle, const double shear_factor)
   {
-    const double c = std::cos(angle), s = std::sin(angle), xy_ = a[xy] / shear_factor;
-    Stress       b;
-    b[xx]                = c * c * a[xx] - 2 * c * s * xy_ + s * s * a[yy];
-    b[yy]                = s * s * a[xx] + 2 * c * s * xy_ + c * c * a[yy];
-    b[xy]                = shear_factor * (c * s * (a[xx] - a[yy]) + (c * c - s * s) * xy_);
-    b[relative_rotation] = a[relative_rotation];
-    b[curvature_x]       = c * a[curvature_x] - s * a[curvature_y];
-    b[curvature_y]       = s * a[curvature_x] + c * a[curvature_y];
+    Stress b = a;
+    b[xy] /= shear_factor;
+    turn(b, angle);
+    b[xy] *= shear_factor;
     return b;
   }
 

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "continuum/laws/crash_guard.h"
+#include "continuum/laws/rotation.h"
 #include "continuum/require.h"
 
 namespace diptych::continuum
@@ -176,14 +177,7 @@ namespace diptych::continuum
   void LibraryLaw::turn_variables(MaterialState &state, const double angle) const
   {
     for (const unsigned int k : opened->tensors)
-      {
-        double      *t    = &state.variables[k];
-        const double mean = (t[0] + t[1]) / 2, a = (t[0] - t[1]) / 2, b = t[2];
-        const double cos2 = std::cos(2 * angle), sin2 = std::sin(2 * angle);
-        t[0] = mean + a * cos2 - b * sin2;
-        t[1] = mean - a * cos2 + b * sin2;
-        t[2] = a * sin2 + b * cos2;
-      }
+      turn_tensor(state.variables[k], state.variables[k + 1], state.variables[k + 2], std::cos(angle), std::sin(angle));
   }
 
   void LibraryLaw::note(const std::string &what, const bool is_broken, const MaterialState &s0, const Strain &d_strain) const

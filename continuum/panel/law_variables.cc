@@ -11,7 +11,7 @@ namespace diptych::continuum
     double              area = 0;
     for (unsigned int q = 0; q < n; ++q)
       {
-        const double w = problem.moved_geometry().cells[c].points[q].area;
+        const double w = problem.geometry().cells[c].points[q].area;
         area += w;
         for (std::size_t k = 0; k < means.size(); ++k)
           means[k] += w * problem.committed().points[c * n + q].variables[k];
