@@ -20,7 +20,8 @@ namespace diptych::discrete
     Eigen::Vector2d point;     // contact point [length]
     Eigen::Vector2d normal;    // unit, from j to i
     Eigen::Vector2d force;     // on i = impulse / step [pressure * length, unit thickness]
-    double          shift = 0; // x of the touching image of j minus x of j; not 0 only across the edge of a periodic cell
+    double          shift  = 0; // x of the touching image of j minus x of j; not 0 only across the edge of a periodic cell
+    double          couple = 0; // of rolling resistance on i, counter-clockwise; the opposite acts on j [pressure * length^2]
   };
 
   enum class ContactStatus : std::uint8_t

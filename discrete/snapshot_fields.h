@@ -44,6 +44,7 @@ namespace diptych::discrete
     visit("force", c.force, "pressure length", "force on the first body");
     visit("image_shift", c.shift, "length",
           "x of the touching image of the second body minus x of that body; not 0 only across the edge of a periodic cell");
+    visit("couple", c.couple, "pressure length^2", "couple of rolling resistance on the first body, counter-clockwise");
   }
   inline constexpr char contact_bodies[] =
     "two body numbers per contact: grains count from 0, walls from the number of grains on";
