@@ -119,6 +119,15 @@ namespace diptych::discrete
     return relative_velocity(c.nx, c.ny, dx, dy, vi.surface, vj.surface);
   }
 
+  // Gives a row rolling resistance: its bound |r_m| / r_n and the arm of body i.
+  inline void set_rolling(const double friction, const double arm, ContactRow &c)
+  {
+    const double wmm   = c.ki * arm * arm + c.kj * (1 - arm) * (1 - arm);
+    c.rolling_friction = friction;
+    c.rolling_arm      = arm;
+    c.inverse_wmm      = wmm > 0 ? 1 / wmm : 0;
+  }
+
   inline double rolling_velocity(const ContactRow &c, const std::vector<BodyVelocity> &v)
   {
     return rolling_velocity(c.rolling_arm, v[c.i].surface, v[c.j].surface);
