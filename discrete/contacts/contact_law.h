@@ -83,15 +83,19 @@ namespace diptych::discrete
     return smaller(bound, larger(-bound, r - omega * w * c.inverse_wmm));
   }
 
-  // A contact at its Coulomb bound takes omega `slipping`. The margin absorbs the rounding of mu r_n. The couple has an omega of
-  // its own, by its own bound.
-  inline constexpr double coulomb_margin = 0.9999;
+  // omega of a part of the impulse: `slipping` if the part is at its bound. The margin absorbs the rounding of mu r_n. The couple
+  // has its own omega.
+  struct Relaxation
+  {
+    double sticking, slipping;
+  };
+  inline constexpr Relaxation exact          = {1, 1};
+  inline constexpr double     coulomb_margin = 0.9999;
 
   template <class Number>
-  DIPTYCH_INLINE Number
-  relaxation(const Number friction, const Number normal, const Number bounded, const Number sticking, const Number slipping)
+  DIPTYCH_INLINE Number relaxation(const Number friction, const Number normal, const Number bounded, const Relaxation omega)
   {
-    return size_of(bounded) > coulomb_margin * friction * normal ? slipping : sticking;
+    return size_of(bounded) > coulomb_margin * friction * normal ? Number{} + omega.slipping : Number{} + omega.sticking;
   }
 
   // Relative velocity u from the velocity difference of the bodies and their surface speeds. Below it: x and y of an impulse.
@@ -133,17 +137,15 @@ namespace diptych::discrete
     return rolling_velocity(c.rolling_arm, v[c.i].surface, v[c.j].surface);
   }
 
-  // Normal and tangential part of the next impulse, and below it the couple. A part at its bound takes omega `slipping`; for both
-  // equal to 1 the solution is exact.
+  // Normal and tangential part of the next impulse, and below it the couple.
   inline Parts<double> signorini_coulomb(const ContactRow                &c,
                                          const std::vector<BodyVelocity> &v,
                                          const Impulse                   &r,
-                                         const double                     sticking,
-                                         const double                     slipping)
+                                         const Relaxation                 omega)
   {
     const LawTerms<double> terms{c.normal_term, c.tangential_term, c.friction, c.inverse_wnn, c.inverse_wtt};
     return signorini_coulomb(terms, relative_velocity(c, v), {r.normal, r.tangential},
-                             relaxation(c.friction, r.normal, r.tangential, sticking, slipping));
+                             relaxation(c.friction, r.normal, r.tangential, omega));
   }
 
   // `w` is the rolling velocity after the tangential part changed, `normal` the new normal part.
@@ -151,11 +153,10 @@ namespace diptych::discrete
                                    const double      w,
                                    const Impulse    &r,
                                    const double      normal,
-                                   const double      sticking,
-                                   const double      slipping)
+                                   const Relaxation  omega)
   {
     return rolling_resistance({c.rolling_friction, c.rolling_arm, c.inverse_wmm}, w, r.rolling, normal,
-                              relaxation(c.rolling_friction, r.normal, r.rolling, sticking, slipping));
+                              relaxation(c.rolling_friction, r.normal, r.rolling, omega));
   }
 
   // Prefetches the row some contacts ahead of acting[at]: no hardware prefetcher can foresee which rows act.
@@ -189,13 +190,13 @@ namespace diptych::discrete
       apply_couple(c, dr.rolling, vi, vj);
   }
 
-  inline void update(const ContactRow &c, const double sticking, const double slipping, std::vector<BodyVelocity> &v, Impulse &r)
+  inline void update(const ContactRow &c, const Relaxation omega, std::vector<BodyVelocity> &v, Impulse &r)
   {
-    const Parts<double> next = signorini_coulomb(c, v, r, sticking, slipping);
+    const Parts<double> next = signorini_coulomb(c, v, r, omega);
     apply_impulse(c, {next.normal - r.normal, next.tangential - r.tangential}, v);
     if (c.rolling_friction != 0)
       {
-        const double rolling = rolling_resistance(c, rolling_velocity(c, v), r, next.normal, sticking, slipping);
+        const double rolling = rolling_resistance(c, rolling_velocity(c, v), r, next.normal, omega);
         apply_couple(c, rolling - r.rolling, v[c.i], v[c.j]);
         r.rolling = rolling;
       }
@@ -222,14 +223,14 @@ namespace diptych::discrete
 
     void add(const ContactRow &c, const std::vector<BodyVelocity> &v, const Impulse &r)
     {
-      const Parts<double> p = signorini_coulomb(c, v, r, 1., 1.);
+      const Parts<double> p = signorini_coulomb(c, v, r, exact);
       difference += (r.normal - p.normal) * (r.normal - p.normal) + (r.tangential - p.tangential) * (r.tangential - p.tangential);
       norm += r.normal * r.normal + r.tangential * r.tangential;
       if (c.rolling_friction == 0)
         return;
       const double turn   = p.tangential - r.tangential;
       const double w      = rolling_velocity(c.rolling_arm, v[c.i].surface - c.ki * turn, v[c.j].surface - c.kj * turn);
-      const double change = r.rolling - rolling_resistance(c, w, r, p.normal, 1., 1.);
+      const double change = r.rolling - rolling_resistance(c, w, r, p.normal, exact);
       difference += change * change;
       norm += r.rolling * r.rolling;
     }
