@@ -148,7 +148,9 @@ namespace diptych::discrete
         const Losses here = apply_law(law, problem.contacts[k], gap, v, h, result.impulses[k]);
         lost.sliding += here.sliding;
         lost.rolling += here.rolling;
-        result.contact_dissipation.push_back(here.sliding + here.rolling);
+        result.contact_dissipation.push_back(here.sliding);
+        if (here.rolling != 0)
+          result.contact_dissipation.back() += here.rolling;
         result.largest_penetration = std::max(result.largest_penetration, -gap);
       }
 
