@@ -34,6 +34,7 @@ SLOPE = """units lj
 dimension 2
 boundary f f p
 newton off
+comm_modify vel yes
 atom_style sphere
 atom_modify map yes
 region box block -3 60 -3 3 -0.5 0.5
