@@ -77,9 +77,13 @@ def load(options, seed, method):
     """(binned columns, CPU seconds of the loading) of one run."""
     settings, folder = METHODS[method], f"{options.output}/{re.sub('[ ,/=]+', '_', method)}"
     if isinstance(settings, float):
-        columns, seconds = lammps.run(rigid_limit.sample_file(seed), f"{folder}/seed_{seed}", settings, INERTIAL, rigid_limit.STRAIN,
-                                      rolling_friction=ROLLING)
-        return rigid_limit.binned(columns), seconds
+        done = f"{folder}/seed_{seed}/binned.npz"
+        if not os.path.exists(done):
+            columns, seconds = lammps.run(rigid_limit.sample_file(seed), os.path.dirname(done), settings, INERTIAL, rigid_limit.STRAIN,
+                                          rolling_friction=ROLLING)
+            numpy.savez(done, cpu_s=seconds, **rigid_limit.binned(columns))
+        columns = dict(numpy.load(done))
+        return columns, float(columns.pop("cpu_s"))
     runs = claims.Runs(argparse.Namespace(program=options.program, reuse=True, set=[]), seed, folder)
     return rigid_limit.of_panel(runs.run(f"seed_{seed}", "discrete", rigid_limit.SCENE, f"loading/axial_strain={rigid_limit.STRAIN}",
                                          "loading/stage_strain=0.01", f"sample/file={rigid_limit.sample_file(seed)}",
