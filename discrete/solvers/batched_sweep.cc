@@ -22,6 +22,11 @@ namespace diptych::discrete
       return batch;
     }
 
+    template <class Part> auto couples_of(Part &part)
+    {
+      return part.rolling.empty() ? nullptr : part.rolling.data();
+    }
+
     // Number of sweeps that a part has finished, visible to other threads. Each counter has a cache line of its own.
     class alignas(64) Progress
     {
@@ -154,6 +159,8 @@ namespace diptych::discrete
     pack(idle, part, own);
     if (std::all_of(rows.begin(), rows.end(), [&](const int row) { return problem_.contacts[row].tangential_term == 0; }))
       part.tangential_term.clear();
+    if (std::any_of(rows.begin(), rows.end(), [&](const int row) { return problem_.contacts[row].rolling_friction != 0; }))
+      add_couples(part);
     return part;
   }
 
@@ -223,6 +230,20 @@ namespace diptych::discrete
     part.rows.back()[lane]            = row;
   }
 
+  void BatchedContacts::add_couples(Part &part) const
+  {
+    part.rolling.resize(part.batches.size());
+    for (std::size_t b = 0; b < part.rows.size(); ++b)
+      for (int lane = 0; lane < lanes; ++lane)
+        if (const int row = part.rows[b][lane]; row >= 0)
+          {
+            const ContactRow &c               = problem_.contacts[row];
+            part.rolling[b].friction[lane]    = c.rolling_friction;
+            part.rolling[b].arm[lane]         = c.rolling_arm;
+            part.rolling[b].inverse_wmm[lane] = c.inverse_wmm;
+          }
+  }
+
   template <class Function> void BatchedContacts::for_each_part(Function &&function)
   {
     for (Part &part : blocks_)
@@ -240,6 +261,8 @@ namespace diptych::discrete
             {
               part.batches[b].normal[lane]     = impulses[row].normal;
               part.batches[b].tangential[lane] = impulses[row].tangential;
+              if (!part.rolling.empty())
+                part.rolling[b].rolling[lane] = impulses[row].rolling;
             }
     });
     for (std::size_t k = 0; k < rest_.size(); ++k)
@@ -255,7 +278,8 @@ namespace diptych::discrete
         for (std::size_t b = 0; b < part.batches.size(); ++b)
           for (int lane = 0; lane < lanes; ++lane)
             if (const int row = part.rows[b][lane]; row >= 0)
-              result[row] = {part.batches[b].normal[lane], part.batches[b].tangential[lane]};
+              result[row] = {part.batches[b].normal[lane], part.batches[b].tangential[lane],
+                             part.rolling.empty() ? 0 : part.rolling[b].rolling[lane]};
     for (std::size_t k = 0; k < rest_.size(); ++k)
       result[rest_[k]] = rest_impulses_[k];
     return result;
@@ -264,14 +288,14 @@ namespace diptych::discrete
   void BatchedContacts::refresh_velocities()
   {
     std::copy(problem_.free_velocity.begin(), problem_.free_velocity.end(), v_.begin());
-    for_each_part([&](Part &part) { add_impulses(part.batches.data(), part.batches.size(), v_.data()); });
+    for_each_part([&](Part &part) { add_impulses(part.batches.data(), couples_of(part), part.batches.size(), v_.data()); });
     for (std::size_t k = 0; k < rest_.size(); ++k)
       apply_impulse(problem_.contacts[rest_[k]], rest_impulses_[k], v_);
   }
 
   void BatchedContacts::sweep_part(Part &part, const double omega_sticking, const double omega_slipping, const bool with_idle)
   {
-    sweep_batches(part.batches.data(), part.tangential_term.empty() ? nullptr : part.tangential_term.data(),
+    sweep_batches(part.batches.data(), couples_of(part), part.tangential_term.empty() ? nullptr : part.tangential_term.data(),
                   with_idle ? part.batches.size() : part.n_awake, omega_sticking, omega_slipping, v_.data());
     if (with_idle)
       wake(part);
@@ -288,6 +312,8 @@ namespace diptych::discrete
           continue;
         std::swap(part.batches[b], part.batches[part.n_awake]);
         std::swap(part.rows[b], part.rows[part.n_awake]);
+        if (!part.rolling.empty())
+          std::swap(part.rolling[b], part.rolling[part.n_awake]);
         if (!part.tangential_term.empty())
           std::swap(part.tangential_term[b], part.tangential_term[part.n_awake]);
         ++part.n_awake;
@@ -297,12 +323,7 @@ namespace diptych::discrete
   void BatchedContacts::sweep_rest(const double omega_sticking, const double omega_slipping)
   {
     for (std::size_t row = 0; row < n_swept_rest_; ++row)
-      {
-        const ContactRow &c     = problem_.contacts[rest_[row]];
-        Impulse          &r     = rest_impulses_[row];
-        const double      omega = is_slipping(c.friction, r) ? omega_slipping : omega_sticking;
-        update(c, omega, v_, r);
-      }
+      update(problem_.contacts[rest_[row]], omega_sticking, omega_slipping, v_, rest_impulses_[row]);
   }
 
   // There is no barrier between blocks and the contacts between them. A block waits for the contacts at both its ends, and these
@@ -346,8 +367,8 @@ namespace diptych::discrete
   NaturalMapSquares BatchedContacts::residual_squares(const Part &part) const
   {
     NaturalMapSquares squares;
-    add_squares(part.batches.data(), part.tangential_term.empty() ? nullptr : part.tangential_term.data(), part.batches.size(),
-                v_.data(), &squares.difference, &squares.norm);
+    add_squares(part.batches.data(), couples_of(part), part.tangential_term.empty() ? nullptr : part.tangential_term.data(),
+                part.batches.size(), v_.data(), &squares.difference, &squares.norm);
     return squares;
   }
 
