@@ -82,9 +82,10 @@ run {steps}
 
 SLIDING = """pair_style gran/hooke/history {kn} {kt} {gn} 0.0 {friction} 0 limit_damping
 pair_coeff * *"""
-# The same with a couple between grains: a spring kt Re^2 and the bound mu Re |N|, Re = Ri Rj / (Ri + Rj).
+# The same with couples between grains: a spring kt Re^2 and the bound mu Re |N|, Re = Ri Rj / (Ri + Rj).
 ROLLING = """pair_style granular
-pair_coeff * * hooke {kn} {gn} damping mass_velocity tangential linear_history {kt} 0.0 {friction} rolling sds {kt} 0.0 {rolling} limit_damping"""
+pair_coeff * * hooke {kn} {gn} damping mass_velocity tangential linear_history {kt} 0.0 {friction} &
+  rolling sds {kt} 0.0 {rolling} limit_damping"""
 
 
 def read_sample(path):

@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """picture.py DIR FILE [--seed 1] [--rolling 0.1]
 
-Draws the rotation of the grains between 2 and 4 % axial strain for mu_r = 0 and another mu_r, from the folder DIR of rolling.py.
-Needs numpy, matplotlib and the Python package diptych."""
+Draws the rotation of the grains between 2 and 4 % axial strain for mu_r = 0 and another mu_r, from the folder DIR of
+rolling.py. Needs numpy, matplotlib and the Python package diptych."""
 import argparse
 
 import diptych
@@ -26,7 +26,8 @@ def draw(axis, folder, title):
     start, end = (diptych.load(folder).discrete.snapshots[k] for k in WINDOW)
     turned = numpy.degrees(end.rotation - start.rotation)
     discs = EllipseCollection(2 * end.radius, 2 * end.radius, 0, units="xy", offsets=end.position,
-                              transOffset=axis.transData, array=turned, cmap="RdBu_r", clim=(-LIMIT, LIMIT), edgecolor="0.6", linewidth=0.2)
+                              transOffset=axis.transData, array=turned, cmap="RdBu_r", clim=(-LIMIT, LIMIT), edgecolor="0.6",
+                              linewidth=0.2)
     axis.add_collection(discs)
     for band in diptych.find_bands(**diptych.increment(start, end), band_resamples=0).bands:
         along = numpy.array([-100, 100])
@@ -49,9 +50,9 @@ def main():
     figure, axes = pyplot.subplots(1, 2, figsize=(9.6, 5), constrained_layout=True)
     for axis, rolling in zip(axes, (0, options.rolling)):
         discs, turned = draw(axis, f"{options.folder}/band/0.4_{rolling:g}_{options.seed}", f"mu_r = {rolling:g}")
-        print(f"mu_r = {rolling:g}: rotation, root mean square {numpy.sqrt((turned ** 2).mean()):.1f}, median size {numpy.median(abs(turned)):.1f},"
-              f" {100 * (abs(turned) > LIMIT).mean():.0f} % above {LIMIT} degrees")
-    figure.colorbar(discs, ax=axes, shrink=0.6, label="rotation between 2 and 4 % axial strain (degrees, anticlockwise)", extend="both")
+        print(f"mu_r = {rolling:g}: rms rotation {numpy.sqrt((turned ** 2).mean()):.1f} degrees, "
+              f"median {numpy.median(abs(turned)):.1f}, above {LIMIT} {100 * (abs(turned) > LIMIT).mean():.1f} % of the grains")
+    figure.colorbar(discs, ax=axes, shrink=0.6, label="rotation, 2 to 4 % strain (degrees, anticlockwise)", extend="both")
     figure.savefig(options.figure, dpi=100)
     Image.open(options.figure).quantize(128).save(options.figure, optimize=True)
 
