@@ -24,7 +24,7 @@ from rigid_limit import claims  # noqa: E402
 STORED = os.path.join(HERE, "referee.csv")
 INERTIAL, ROLLING = 1.13e-3, 0.1
 METHODS = {"LAMMPS, kn/P = 1e4": 1e4, "penalty, 1e4": ("discrete/method=penalty", "discrete/penalty_stiffness=1e4"),
-           "NSCD, accuracy 0.02": ("discrete/accuracy=0.02",), "NSCD, accuracy 0.005": ("discrete/accuracy=0.005",)}
+           "NSCD, accuracy 0.01": ("discrete/accuracy=0.01",)}
 REFERENCE = "LAMMPS, kn/P = 1e4"
 SLOPE_CASES = ((0.3, 0.5, 0.1), (0.3, 0.5, 0.4), (0.3, 0.1, 0.1), (0.05, 0.5, 0.1))  # Slope [rad], friction, rolling friction.
 # A disc of radius 1/2 and mass pi/4, whose weight is pi/4 at a slope of 0, on a plane; springs of 1e6.

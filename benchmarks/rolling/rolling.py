@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # diptych: strength, dilation, density and shear bands over the rolling resistance
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""rolling.py [PROGRAM --output DIR] [--figure FILE]
+"""rolling.py [PROGRAM --output DIR [--seeds 1,2,3,4]] [--figure FILE]
 
 Prints and draws the results stored in critical.csv (steady plane shear) and band.csv (biaxial compression). With PROGRAM it
-first makes the runs (those in DIR are kept) and stores them again. All values of mu_r load the same prepared grains of a seed, so
-that differences from mu_r = 0 are paired. Needs h5py, numpy, pandas and the Python package diptych, the figure matplotlib."""
+first makes the runs (those in DIR are kept) and stores them again. All values of mu_r load the same prepared grains of a seed:
+differences from mu_r = 0 are paired. Needs h5py, numpy, pandas and the Python package diptych, the figure matplotlib."""
 import argparse
 import json
 import os
@@ -21,17 +21,16 @@ import claims  # noqa: E402
 import plane_shear  # noqa: E402
 
 ROLLING = (0., 0.02, 0.05, 0.1, 0.2, 0.3)
-SEEDS = range(1, 5)
 ACCURACY = "discrete/accuracy=0.05"  # Of the strength; nearly the same error for all mu_r, so that the differences are better.
 # Loosely prepared, so that the steady state begins early. I = strain rate sqrt(m/P) = 0.005.
 STEADY = ("loading/inertial_number=0.00564", "sample/box_solid_fraction=0.75", "sample/preparation_friction=1",
           "loading/axial_strain=2.5")
 STEADY_FROM = 0.5  # Shear strain.
-FRICTIONS = (0.1, 0.4, 0.8)
+COLOURS = {0.1: "#0072B2", 0.4: "#D55E00", 0.8: "#007A5E"}  # Of the frictions between grains.
 BAND = ("loading/axial_strain=0.06", "loading/stage_strain=0.02", "comparison/window_edges=0,0.02,0.04,0.06")
 RESIDUAL = (0.04, 0.06)
 WINDOW = (1, 2)  # Stages: the band is sought in the displacements from 2 to 4 %.
-STUDIES = {"critical": FRICTIONS, "band": (0.4,)}  # Frictions between grains.
+STUDIES = {"critical": tuple(COLOURS), "band": (0.4,)}  # Frictions.
 COLUMNS = {"critical": {"t_over_s": "t/s", "platen": "shear / normal force", "solid_fraction": "solid fraction",
                         "coordination": "contacts per grain"},
            "band": {"peak": "peak t/s", "residual": "t/s, 4-6 %", "dilation": "dilation at 6 % [%]",
@@ -82,7 +81,8 @@ def band(runs, name, *settings):
     shear = numpy.nan_to_num(shear)
     return {"peak": claims.running_mean(history["axial_strain"], history["stress_ratio"])[1].max(),
             "residual": strength(history, late), "dilation": -100 * history["volumetric_strain"][-1],
-            "solid_fraction": history["solid_fraction"][-1], "bands": len(bands), "width": bands[0].width_10_90 / moved.mean_diameter if bands else numpy.nan,
+            "solid_fraction": history["solid_fraction"][-1], "bands": len(bands),
+            "width": bands[0].width_10_90 / moved.mean_diameter if bands else numpy.nan,
             "sheared": (area @ shear) ** 2 / (area.sum() * (area @ shear ** 2)), "coordination": coordination(history, late),
             "cpu_s": cost(result)}
 
@@ -90,7 +90,7 @@ def band(runs, name, *settings):
 def measured(study, options):
     """Table: one row per friction, mu_r and seed."""
     measure, rows = {"critical": critical, "band": band}[study], []
-    for seed in SEEDS:
+    for seed in options.seeds:
         folder = os.path.join(options.output, study)
         runs = claims.Runs(argparse.Namespace(program=options.program, reuse=True, set=[]), seed, folder)
         for friction in STUDIES[study]:
@@ -123,16 +123,17 @@ def draw(tables, path):
     figure, axes = pyplot.subplots(2, 3, figsize=(11, 6.4), constrained_layout=True)
     for axis, name in zip(axes[0], ("t_over_s", "solid_fraction", "coordination")):
         found = paired(tables["critical"], name)
-        for friction, colour in zip(FRICTIONS, ("#0072B2", "#D55E00", "#007A5E")):
-            part = found.loc[friction]
-            axis.errorbar(part.index, part["mean"], part["error"], fmt="o-", color=colour, label=f"mu = {friction:g}")
+        for friction, part in found.groupby(level="friction"):
+            part = part.droplevel("friction")
+            axis.errorbar(part.index, part["mean"], part["error"], fmt="o-", color=COLOURS[friction], capsize=3,
+                          label=f"mu = {friction:g}")
         axis.set(ylabel="steady shear: " + COLUMNS["critical"][name])
     for axis, names in zip(axes[1], (("peak", "residual"), ("dilation",), ("width",))):
         for name, mark in zip(names, ("o-", "s--")):
             part = paired(tables["band"], name).loc[0.4]
-            axis.errorbar(part.index, part["mean"], part["error"], fmt=mark, color="#D55E00", capsize=3,
+            axis.errorbar(part.index, part["mean"], part["error"], fmt=mark, color=COLOURS[0.4], capsize=3,
                           label=COLUMNS["band"][name])
-        axis.set(ylabel="compression: " + COLUMNS["band"][names[0]])
+        axis.set(ylabel="compression: " + ("t/s" if len(names) > 1 else COLUMNS["band"][names[0]]))
     for axis in axes.flat:
         axis.set(xlabel="rolling friction mu_r")
         axis.grid(alpha=0.3)
@@ -145,6 +146,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=os.path.abspath, nargs="?")
     parser.add_argument("--output", type=os.path.abspath)
+    parser.add_argument("--seeds", type=lambda text: [int(word) for word in text.split(",")], default=[1, 2, 3, 4])
     parser.add_argument("--figure")
     options = parser.parse_args()
     tables = {}
