@@ -83,15 +83,19 @@ namespace diptych::discrete
     return smaller(bound, larger(-bound, r - omega * w * c.inverse_wmm));
   }
 
-  // A contact at its Coulomb bound takes omega `slipping`. The margin absorbs the rounding of mu r_n. The couple has an omega of
-  // its own, by its own bound.
-  inline constexpr double coulomb_margin = 0.9999;
+  // omega of a part of the impulse: `slipping` if the part is at its bound. The margin absorbs the rounding of mu r_n. The couple
+  // has its own omega.
+  struct Relaxation
+  {
+    double sticking, slipping;
+  };
+  inline constexpr Relaxation exact          = {1, 1};
+  inline constexpr double     coulomb_margin = 0.9999;
 
   template <class Number>
-  DIPTYCH_INLINE Number
-  relaxation(const Number friction, const Number normal, const Number bounded, const Number sticking, const Number slipping)
+  DIPTYCH_INLINE Number relaxation(const Number friction, const Number normal, const Number bounded, const Relaxation omega)
   {
-    return size_of(bounded) > coulomb_margin * friction * normal ? slipping : sticking;
+    return size_of(bounded) > coulomb_margin * friction * normal ? Number{} + omega.slipping : Number{} + omega.sticking;
   }
 
   // Relative velocity u from the velocity difference of the bodies and their surface speeds. Below it: x and y of an impulse.
@@ -119,28 +123,40 @@ namespace diptych::discrete
     return relative_velocity(c.nx, c.ny, dx, dy, vi.surface, vj.surface);
   }
 
+  // Gives a row rolling resistance: its bound |r_m| / r_n and the arm of body i.
+  inline void set_rolling(const double friction, const double arm, ContactRow &c)
+  {
+    const double wmm   = c.ki * arm * arm + c.kj * (1 - arm) * (1 - arm);
+    c.rolling_friction = friction;
+    c.rolling_arm      = arm;
+    c.inverse_wmm      = wmm > 0 ? 1 / wmm : 0;
+  }
+
   inline double rolling_velocity(const ContactRow &c, const std::vector<BodyVelocity> &v)
   {
     return rolling_velocity(c.rolling_arm, v[c.i].surface, v[c.j].surface);
   }
 
-  // A part of the impulse that is at its bound takes omega `slipping`. For both equal to 1: the exact solution.
-  inline Impulse local_solution(const ContactRow                &c,
-                                const std::vector<BodyVelocity> &v,
-                                const Impulse                   &r,
-                                const double                     sticking,
-                                const double                     slipping)
+  // Normal and tangential part of the next impulse, and below it the couple.
+  inline Parts<double> signorini_coulomb(const ContactRow                &c,
+                                         const std::vector<BodyVelocity> &v,
+                                         const Impulse                   &r,
+                                         const Relaxation                 omega)
   {
     const LawTerms<double> terms{c.normal_term, c.tangential_term, c.friction, c.inverse_wnn, c.inverse_wtt};
-    const Parts<double>    next = signorini_coulomb(terms, relative_velocity(c, v), {r.normal, r.tangential},
-                                                    relaxation(c.friction, r.normal, r.tangential, sticking, slipping));
-    if (c.rolling_friction == 0)
-      return {next.normal, next.tangential};
-    const double turn = next.tangential - r.tangential;
-    const double w    = rolling_velocity(c.rolling_arm, v[c.i].surface - c.ki * turn, v[c.j].surface - c.kj * turn);
-    return {next.normal, next.tangential,
-            rolling_resistance({c.rolling_friction, c.rolling_arm, c.inverse_wmm}, w, r.rolling, next.normal,
-                               relaxation(c.rolling_friction, r.normal, r.rolling, sticking, slipping))};
+    return signorini_coulomb(terms, relative_velocity(c, v), {r.normal, r.tangential},
+                             relaxation(c.friction, r.normal, r.tangential, omega));
+  }
+
+  // `w` is the rolling velocity after the tangential part changed, `normal` the new normal part.
+  inline double rolling_resistance(const ContactRow &c,
+                                   const double      w,
+                                   const Impulse    &r,
+                                   const double      normal,
+                                   const Relaxation  omega)
+  {
+    return rolling_resistance({c.rolling_friction, c.rolling_arm, c.inverse_wmm}, w, r.rolling, normal,
+                              relaxation(c.rolling_friction, r.normal, r.rolling, omega));
   }
 
   // Prefetches the row some contacts ahead of acting[at]: no hardware prefetcher can foresee which rows act.
@@ -149,6 +165,12 @@ namespace diptych::discrete
     constexpr std::size_t ahead = 12;
     const char           *row   = reinterpret_cast<const char *>(&rows[acting[std::min(at + ahead, acting.size() - 1)]]);
     __builtin_prefetch(row);
+  }
+
+  inline void apply_couple(const ContactRow &c, const double dr, BodyVelocity &vi, BodyVelocity &vj)
+  {
+    vi.surface += c.ki * c.rolling_arm * dr;
+    vj.surface -= c.kj * (1 - c.rolling_arm) * dr;
   }
 
   // Adds M^-1 H dr of one contact to the velocities of its bodies.
@@ -164,17 +186,22 @@ namespace diptych::discrete
     vj.surface -= c.kj * dr.tangential;
     if (c.cell >= 0)
       v[c.cell].x -= c.image * v[c.cell].inverse_mass * px;
-    if (dr.rolling == 0)
-      return;
-    vi.surface += c.ki * c.rolling_arm * dr.rolling;
-    vj.surface -= c.kj * (1 - c.rolling_arm) * dr.rolling;
+    if (dr.rolling != 0)
+      apply_couple(c, dr.rolling, vi, vj);
   }
 
-  inline void update(const ContactRow &c, const double sticking, const double slipping, std::vector<BodyVelocity> &v, Impulse &r)
+  inline void update(const ContactRow &c, const Relaxation omega, std::vector<BodyVelocity> &v, Impulse &r)
   {
-    const Impulse next = local_solution(c, v, r, sticking, slipping);
-    apply_impulse(c, {next.normal - r.normal, next.tangential - r.tangential, next.rolling - r.rolling}, v);
-    r = next;
+    const Parts<double> next = signorini_coulomb(c, v, r, omega);
+    apply_impulse(c, {next.normal - r.normal, next.tangential - r.tangential}, v);
+    if (c.rolling_friction != 0)
+      {
+        const double rolling = rolling_resistance(c, rolling_velocity(c, v), r, next.normal, omega);
+        apply_couple(c, rolling - r.rolling, v[c.i], v[c.j]);
+        r.rolling = rolling;
+      }
+    r.normal     = next.normal;
+    r.tangential = next.tangential;
   }
 
   inline bool is_slipping(const double friction, const Impulse &r)
@@ -196,11 +223,16 @@ namespace diptych::discrete
 
     void add(const ContactRow &c, const std::vector<BodyVelocity> &v, const Impulse &r)
     {
-      const Impulse p = local_solution(c, v, r, 1., 1.);
-      difference += (r.normal - p.normal) * (r.normal - p.normal) +
-                    (r.tangential - p.tangential) * (r.tangential - p.tangential) +
-                    (r.rolling - p.rolling) * (r.rolling - p.rolling);
-      norm += r.normal * r.normal + r.tangential * r.tangential + r.rolling * r.rolling;
+      const Parts<double> p = signorini_coulomb(c, v, r, exact);
+      difference += (r.normal - p.normal) * (r.normal - p.normal) + (r.tangential - p.tangential) * (r.tangential - p.tangential);
+      norm += r.normal * r.normal + r.tangential * r.tangential;
+      if (c.rolling_friction == 0)
+        return;
+      const double turn   = p.tangential - r.tangential;
+      const double w      = rolling_velocity(c.rolling_arm, v[c.i].surface - c.ki * turn, v[c.j].surface - c.kj * turn);
+      const double change = r.rolling - rolling_resistance(c, w, r, p.normal, exact);
+      difference += change * change;
+      norm += r.rolling * r.rolling;
     }
   };
 } // namespace diptych::discrete

@@ -78,17 +78,14 @@ namespace diptych::discrete
       row.inverse_wtt = row.cell < 0 && row.jx == row.jy && row.kj == 2 * row.jx ? row.inverse_wnn * disc_wnn_over_wtt : 1 / wtt;
     }
 
-    void set_rolling(const Grains &grains, const Contact &c, const double coefficient, ContactRow &row)
+    // The length of the law is 2R between discs and R at a wall (contact_law.h).
+    void add_rolling(const Grains &grains, const Contact &c, const double coefficient, ContactRow &row)
     {
       row.rolling_friction = 0;
       if (coefficient == 0)
         return;
-      const bool   discs   = std::size_t(c.j) < grains.size();
-      const double arm     = effective_radius(grains, c.i, c.j) / grains.radius[row.i];
-      row.rolling_arm      = row.i == c.i ? arm : -arm;
-      const double wmm     = row.ki * arm * arm + row.kj * (1 - arm) * (1 - arm);
-      row.rolling_friction = (discs ? 2 : 1) * coefficient; // l = 2R or R (contact_law.h)
-      row.inverse_wmm      = wmm > 0 ? 1 / wmm : 0;
+      const double arm = effective_radius(grains, c.i, c.j) / grains.radius[row.i];
+      set_rolling((std::size_t(c.j) < grains.size() ? 2 : 1) * coefficient, row.i == c.i ? arm : -arm, row);
     }
   } // namespace
 
@@ -173,7 +170,7 @@ namespace diptych::discrete
         row.friction             = f.sliding;
         row.normal_term          = normal_term(c, u.normal, setting.law.normal_restitution, share, setting.step);
         row.tangential_term      = setting.law.tangential_restitution * u.tangential;
-        set_rolling(state.grains, c, f.rolling, row);
+        add_rolling(state.grains, c, f.rolling, row);
       }
     return problem;
   }

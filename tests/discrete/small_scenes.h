@@ -161,13 +161,14 @@ namespace diptych::tests
     StepResult  result;
   };
 
-  inline ShearedSample sheared_sample()
+  inline ShearedSample sheared_sample(const double rolling_friction = 0)
   {
     PreparedSample sample = prepare_sample(small_sample(), {}, [](int, int) { return true; });
     ShearedSample  sheared;
-    sheared.setting.step              = 0.1;
-    sheared.setting.solver.tolerance  = 1e-5;
-    sheared.setting.solver.max_sweeps = 400000;
+    sheared.setting.step                 = 0.1;
+    sheared.setting.solver.tolerance     = 1e-5;
+    sheared.setting.solver.max_sweeps    = 400000;
+    sheared.setting.law.rolling_friction = sheared.setting.law.platen_rolling_friction = rolling_friction;
     // An affine start, because an impulsive start of a dense sample is much harder to solve.
     const Eigen::Vector2d velocity(0.02, -0.02);
     sample.state.walls[1].velocity = velocity;

@@ -12,14 +12,6 @@ namespace
 {
   using namespace diptych::tests;
 
-  // Gives a contact rolling resistance. Discs of different radii have an arm other than 1/2; on a plane it is 1.
-  void add_rolling(const double friction, const double arm, ContactRow &c)
-  {
-    c.rolling_friction = friction;
-    c.rolling_arm      = arm;
-    c.inverse_wmm      = 1 / (c.ki * arm * arm + c.kj * (1 - arm) * (1 - arm));
-  }
-
   // Free discs (mass 1) in a triangle, pressed onto a floor. This is small enough that all solvers reach the same solution.
   ContactProblem pyramid(const double friction, const double rolling = 0)
   {
@@ -33,7 +25,7 @@ namespace
     };
     row(0, 3, 0, 1), row(1, 3, 0, 1), row(2, 0, c, s), row(2, 1, -c, s);
     for (ContactRow &each : problem.contacts)
-      add_rolling(rolling, each.j == 3 ? 1 : 0.5, each);
+      set_rolling(rolling, each.j == 3 ? 1 : 0.5, each);
     return problem;
   }
 
@@ -119,7 +111,7 @@ namespace
         problem.contacts.push_back({c.normal.x(), c.normal.y(), c.i, c.j, 0, -1, 2 * wi, 2 * wj, wj, wj, 0.001,
                                     tangential_term * double(c.i % 3), 0.4, wnn, wnn * disc_wnn_over_wtt});
         const std::vector<double> &r = sample.state.grains.radius;
-        add_rolling(rolling, std::size_t(c.j) < r.size() ? r[c.j] / (r[c.i] + r[c.j]) : 1, problem.contacts.back());
+        set_rolling(rolling, std::size_t(c.j) < r.size() ? r[c.j] / (r[c.i] + r[c.j]) : 1, problem.contacts.back());
       }
     problem.order = sweep_order(contacts, 1.);
     return problem;
