@@ -71,8 +71,7 @@ thermo_style custom step time v_strain v_width c_ke v_mxx v_myy c_fr c_mw[1]
 run {preload_steps}
 reset_timestep 0
 variable V equal {speed}
-pair_style gran/hooke/history {kn} {kt} {gn} 0.0 {friction} 0 limit_damping
-pair_coeff * *
+{law}
 velocity grains ramp vy 0.0 -{speed} y 0.0 {height} sum no
 velocity grains set 0.0 NULL 0.0
 velocity piston set 0.0 0.0 0.0
@@ -80,6 +79,13 @@ set group grains omega 0.0 0.0 0.0
 fix out grains ave/time {every} 1 {every} v_strain v_width v_height v_mxx v_myy v_mxy c_ke file history.txt format " %.9g"
 run {steps}
 """
+
+SLIDING = """pair_style gran/hooke/history {kn} {kt} {gn} 0.0 {friction} 0 limit_damping
+pair_coeff * *"""
+# The same with couples between grains: a spring kt Re^2 and the bound mu Re |N|, Re = Ri Rj / (Ri + Rj).
+ROLLING = """pair_style granular
+pair_coeff * * hooke {kn} {gn} damping mass_velocity tangential linear_history {kt} 0.0 {friction} &
+  rolling sds {kt} 0.0 {rolling} limit_damping"""
 
 
 def read_sample(path):
@@ -110,9 +116,9 @@ def loading_seconds(log):
     return float(loops[-1]) * float(shares[-1]) / 100
 
 
-def run(sample, folder, stiffness, inertial_number, strain, friction=0.4):
+def run(sample, folder, stiffness, inertial_number, strain, friction=0.4, rolling_friction=0.):
     """(columns by name, CPU seconds of the loading). Columns: axial_strain, t, s [P], volumetric_strain, kinetic_energy [P d^2].
-    Throws RuntimeError if LAMMPS fails."""
+    rolling_friction: that of the discrete panel, whose couples are at most this x 2 Re |N|. Throws RuntimeError if LAMMPS fails."""
     os.makedirs(folder, exist_ok=True)
     position, radius, width, height = read_sample(sample)
     mass = numpy.pi * radius ** 2
@@ -123,8 +129,9 @@ def run(sample, folder, stiffness, inertial_number, strain, friction=0.4):
                   piston_density=numpy.sqrt(n) * mass.mean() / (0.01 * numpy.pi), speed=f"{inertial_number * height:.12g}",
                   preload_steps=int(PRELOAD / step), steps=int(numpy.ceil(strain / inertial_number / step)),
                   every=max(1, round(ROW_STRAIN / inertial_number / step)))
+    law = (ROLLING if rolling_friction else SLIDING).format(rolling=2 * rolling_friction, **values)
     with open(os.path.join(folder, "in.biaxial"), "w") as file:
-        file.write(SCRIPT.format(**values))
+        file.write(SCRIPT.format(law=law, **values))
     done = subprocess.run(["lmp", "-in", "in.biaxial", "-log", "log.lammps", "-screen", "none"], cwd=folder, capture_output=True, text=True)
     if done.returncode != 0:
         raise RuntimeError(f"{folder}: lmp failed: {(done.stderr or done.stdout)[-500:]}")
