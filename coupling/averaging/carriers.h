@@ -79,8 +79,7 @@ namespace diptych::coupling
   // couple's moment.
   enum MomentColumn : Eigen::Index
   {
-    stress_moment    = 0, // xx, xy, yx, yy
-    couple_moment    = 4, // x, y
+    couple_moment    = 4, // first of the two columns -m vector
     n_moment_columns = 6
   };
   Carriers moment_carriers(const std::vector<Eigen::Vector2d>        &position,

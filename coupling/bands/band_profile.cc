@@ -3,7 +3,6 @@
 #include "coupling/bands/band_profile.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace diptych::coupling
@@ -12,6 +11,11 @@ namespace diptych::coupling
   {
     constexpr int    n_widths       = 46; // candidates for delta: 7 % apart, refined by a parabola
     constexpr double smallest_width = 0.5, largest_width = 12;
+
+    double candidate_width(const double number)
+    {
+      return smallest_width * std::pow(largest_width / smallest_width, number / (n_widths - 1.));
+    }
 
     double squared_sech(const double x)
     {
@@ -24,7 +28,7 @@ namespace diptych::coupling
       return squared_sech(x) * std::tanh(x) * 1.5 * std::sqrt(3.);
     }
 
-    template <class Shape> Eigen::VectorXd shape_of(const std::vector<double> &distance, const double delta, Shape &&shape)
+    Eigen::VectorXd shape_of(const std::vector<double> &distance, const double delta, double (*shape)(double))
     {
       Eigen::VectorXd values(Eigen::Index(distance.size()));
       for (Eigen::Index k = 0; k < values.size(); ++k)
@@ -53,38 +57,19 @@ namespace diptych::coupling
       return {xy / xx, yy - xy * xy / xx};
     }
 
-    // Fits a + b sech^2(x / delta) with the delta of the smallest sum of squares.
-    class RotationFit
+    // 2.197 delta of the fit a + b sech^2(x / delta) with the smallest sum of squares; NaN at an end of the range.
+    double fitted_width(const Eigen::VectorXd &y, const std::vector<Eigen::VectorXd> &candidates)
     {
-    public:
-      explicit RotationFit(const std::vector<double> &distance)
-      {
-        for (int w = 0; w < n_widths; ++w)
-          {
-            delta.push_back(smallest_width * std::pow(largest_width / smallest_width, w / (n_widths - 1.)));
-            shape.push_back(shape_of(distance, delta.back(), squared_sech));
-          }
-      }
-
-      std::array<double, 2> amplitude_and_width(const Eigen::VectorXd &y) const
-      {
-        std::vector<LineFit> fits;
-        for (const Eigen::VectorXd &one : shape)
-          fits.push_back(fitted(y, one));
-        const auto less = [](const LineFit &a, const LineFit &b) { return a.sum_of_squares < b.sum_of_squares; };
-        const auto best = std::size_t(std::min_element(fits.begin(), fits.end(), less) - fits.begin());
-        if (best == 0 || best + 1 == fits.size() || std::isnan(fits[best].slope))
-          return {fits[best].slope, NAN};
-        const double before = fits[best - 1].sum_of_squares, at = fits[best].sum_of_squares,
-                     after     = fits[best + 1].sum_of_squares;
-        const double curvature = before - 2 * at + after, shift = curvature > 0 ? 0.5 * (before - after) / curvature : 0;
-        return {fits[best].slope, 2 * std::atanh(0.8) * delta[best] * std::pow(delta[best + 1] / delta[best], shift)};
-      }
-
-    private:
-      std::vector<double>          delta;
-      std::vector<Eigen::VectorXd> shape;
-    };
+      std::vector<double> sum;
+      for (const Eigen::VectorXd &shape : candidates)
+        sum.push_back(fitted(y, shape).sum_of_squares);
+      const auto best = std::min_element(sum.begin(), sum.end());
+      if (best == sum.begin() || best + 1 == sum.end())
+        return NAN;
+      const double curvature = best[-1] - 2 * best[0] + best[1],
+                   shift     = curvature > 0 ? 0.5 * (best[-1] - best[1]) / curvature : 0;
+      return 2 * std::atanh(0.8) * candidate_width(double(best - sum.begin()) + shift);
+    }
 
     // Means over the blocks that a strip has, each counted `times`; NaN without one.
     Eigen::VectorXd strip_means(const Eigen::MatrixXd &values, const std::vector<int> &times)
@@ -153,31 +138,34 @@ namespace diptych::coupling
   BandProfile band_profile(const ProfileBlocks &blocks, const double half_width, const BootstrapOptions &bootstrap)
   {
     BandProfile profile;
-    profile.distance            = blocks.distance;
-    profile.blocks              = int(blocks.spin.cols());
-    const auto            draws = resampled_blocks(profile.blocks, bootstrap);
-    const RotationFit     fit(blocks.distance);
-    const Eigen::VectorXd gradient = shape_of(blocks.distance, half_width, gradient_shape),
-                          strain   = shape_of(blocks.distance, half_width, squared_sech);
-    const auto slope_of            = [](const Eigen::VectorXd &shape, const double sign) {
+    profile.distance               = blocks.distance;
+    profile.blocks                 = int(blocks.spin.cols());
+    const auto            draws    = resampled_blocks(profile.blocks, bootstrap);
+    const Eigen::VectorXd strain   = shape_of(blocks.distance, half_width, squared_sech),
+                          gradient = shape_of(blocks.distance, half_width, gradient_shape);
+    const auto amplitude           = [](const Eigen::VectorXd &shape, const double sign) {
       return [&shape, sign](const Eigen::VectorXd &mean) { return sign * fitted(mean, shape).slope; };
     };
 
     const Resampled rotation = resampled(blocks.relative_rotation, draws), couple = resampled(blocks.couple_stress, draws),
-                    solid        = resampled(blocks.solid_fraction, draws);
+                    solid = resampled(blocks.solid_fraction, draws), spin = resampled(blocks.spin, draws);
     profile.relative_rotation    = curve_of(blocks.relative_rotation, rotation);
     profile.couple_stress        = curve_of(blocks.couple_stress, couple);
     profile.solid_fraction       = curve_of(blocks.solid_fraction, solid);
-    profile.spin                 = curve_of(blocks.spin, resampled(blocks.spin, draws));
+    profile.spin                 = curve_of(blocks.spin, spin);
     profile.velocity_fluctuation = rooted(curve_of(blocks.squared_fluctuation, resampled(blocks.squared_fluctuation, draws)));
 
-    profile.rotation_amplitude = interval_of(rotation, profile.blocks,
-                                             [&](const Eigen::VectorXd &mean) { return fit.amplitude_and_width(mean)[0]; });
-    if (profile.rotation_amplitude.low * profile.rotation_amplitude.high > 0)
-      profile.rotation_width_10_90 = interval_of(rotation, profile.blocks,
-                                                 [&](const Eigen::VectorXd &mean) { return fit.amplitude_and_width(mean)[1]; });
-    profile.couple_stress_peak = interval_of(couple, profile.blocks, slope_of(gradient, 1));
-    profile.loosening          = interval_of(solid, profile.blocks, slope_of(strain, -1));
+    profile.spin_amplitude     = interval_of(spin, profile.blocks, amplitude(strain, 1));
+    profile.rotation_amplitude = interval_of(rotation, profile.blocks, amplitude(strain, 1));
+    profile.couple_stress_peak = interval_of(couple, profile.blocks, amplitude(gradient, 1));
+    profile.loosening          = interval_of(solid, profile.blocks, amplitude(strain, -1));
+    if (!(profile.rotation_amplitude.low * profile.rotation_amplitude.high > 0))
+      return profile;
+    std::vector<Eigen::VectorXd> candidates;
+    for (int k = 0; k < n_widths; ++k)
+      candidates.push_back(shape_of(blocks.distance, candidate_width(k), squared_sech));
+    profile.rotation_width_10_90 = interval_of(rotation, profile.blocks,
+                                               [&](const Eigen::VectorXd &mean) { return fitted_width(mean, candidates); });
     return profile;
   }
 } // namespace diptych::coupling

@@ -36,15 +36,16 @@ namespace diptych::coupling
     ProfileCurve        relative_rotation, spin, couple_stress, solid_fraction;
     ProfileCurve        velocity_fluctuation; // root mean square |v'| / velocity of the upper platen
 
-    // From least squares fits a + b shape(x / delta) to the curves, x the distance. The relative rotation has the shape of the
-    // strain in a band, the derivative sech^2 of its tanh, with its own delta. The others have the delta of the band.
-    Interval spin_amplitude;       // b of the spin with sech^2, the scale of the next number [radians]
+    // From least squares fits a + b shape(x / delta) to the curves, x the distance and delta the half width of the band.
+    // Rotations and solid fraction have the shape of the strain in a band, the derivative sech^2 of its tanh. The couple stress
+    // has that of the gradient of such a rotation, sech^2 tanh, scaled to the largest value 1.
+    Interval spin_amplitude;       // b of the spin [radians]
     Interval rotation_amplitude;   // b of the relative rotation [radians]
-    Interval rotation_width_10_90; // 2.197 delta [mean diameters]; NaN if delta is at an end of its range (0.5 to 12), or if the
-                                   // interval of the amplitude contains 0
-    Interval couple_stress_peak;   // largest value of b sech^2 tanh, the gradient of such a rotation [pressure * length]
-    Interval loosening;            // -b of the solid fraction with sech^2 [-]
-    int      blocks = 0;           // along the band
+    Interval rotation_width_10_90; // 2.197 delta of the fit to the relative rotation with its own delta [mean diameters]; NaN if
+                                   // it is at an end of its range (0.5 to 12), or if the interval of the amplitude contains 0
+    Interval couple_stress_peak; // b of the couple stress [pressure * length]
+    Interval loosening;          // -b of the solid fraction [-]
+    int      blocks = 0;         // along the band
   };
 
   // half_width: delta of the band [mean diameters]. The intervals come from blocks drawn with replacement, the same for all

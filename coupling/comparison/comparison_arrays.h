@@ -159,7 +159,7 @@ namespace diptych::coupling
                      "value, low, high: component along the band's normal; nan in a classical continuum"},
           arrays::rows_of(p.couple_stress));
     visit(ArrayEntry{"solid_fraction", "solid fraction", "-",
-                     "value, low, high; continuum: that of the grains at the start over its volume ratio"},
+                     "value, low, high; continuum: that of the grains at the start times initial over present area"},
           arrays::rows_of(p.solid_fraction));
     visit(ArrayEntry{"velocity_fluctuation", "fluctuation of velocity", "-",
                      "value, low, high: root mean square about the affine motion / speed of the platen; nan in a continuum"},

@@ -55,7 +55,8 @@ namespace diptych::coupling
       p.rotation_amplitude);
     v({"rotation_width_10_90_d", "mean diameters", "10–90 % width of this relative rotation, from the band's fit"},
       p.rotation_width_10_90);
-    v({"couple_stress_peak", "pressure length", "couple stress along the band's normal where the rotation's gradient is largest"},
+    v({"couple_stress_peak", "pressure length",
+       "largest couple stress along the band's normal, from a fit with the shape of a rotation's gradient"},
       p.couple_stress_peak);
     v({"loosening", "-", "solid fraction beside the band minus that in its middle"}, p.loosening);
   }
