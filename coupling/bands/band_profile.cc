@@ -48,8 +48,12 @@ namespace diptych::coupling
       for (Eigen::Index k = 0; k < y.size(); ++k)
         if (std::isfinite(y[k]))
           {
-            ++n, sx += shape[k], sy += y[k];
-            sxx += shape[k] * shape[k], sxy += shape[k] * y[k], syy += y[k] * y[k];
+            ++n;
+            sx += shape[k];
+            sy += y[k];
+            sxx += shape[k] * shape[k];
+            sxy += shape[k] * y[k];
+            syy += y[k] * y[k];
           }
       const double xx = sxx - sx * sx / n, xy = sxy - sx * sy / n, yy = syy - sy * sy / n;
       if (n < 4 || !(xx > 0))

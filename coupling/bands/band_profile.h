@@ -43,9 +43,9 @@ namespace diptych::coupling
     Interval rotation_amplitude;   // b of the relative rotation [radians]
     Interval rotation_width_10_90; // 2.197 delta of the fit to the relative rotation with its own delta [mean diameters]; NaN if
                                    // it is at an end of its range (0.5 to 12), or if the interval of the amplitude contains 0
-    Interval couple_stress_peak; // b of the couple stress [pressure * length]
-    Interval loosening;          // -b of the solid fraction [-]
-    int      blocks = 0;         // along the band
+    Interval couple_stress_peak;   // b of the couple stress [pressure * length]
+    Interval loosening;            // -b of the solid fraction [-]
+    int      blocks = 0;           // along the band
   };
 
   // half_width: delta of the band [mean diameters]. The intervals come from blocks drawn with replacement, the same for all

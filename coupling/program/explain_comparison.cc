@@ -53,7 +53,8 @@ namespace diptych::coupling
       list_increment_attributes(increment, AddArrays{windows, "", result});
       list_increment_arrays(increment, grains, AddArrays{windows, "", result});
       for (const std::string &group : {stages, windows})
-        list_profile_arrays(BandProfile(), AddArrays{group, "profile/discrete/, profile/continuum/ ", result});
+        for (const char *panel : {"profile/discrete/", "profile/continuum/"})
+          list_profile_arrays(BandProfile(), AddArrays{group, panel, result});
       list_mesh_arrays(QuadMesh(), AddArrays{windows, "cells/", result});
       list_window_cell_arrays(increment, {}, AddArrays{windows, "cells/", result});
       list_history_arrays(history, 1, AddArrays{"comparison.h5, groups histories/discrete and histories/continuum", "", result});
