@@ -50,10 +50,12 @@ namespace diptych::coupling
     v({"offset_d", "mean diameters", "offset of this band from the sample's centre along its normal", Kind::setting, true},
       p.offset);
     v({"blocks", "-", "number of resampled blocks along the band", Kind::setting}, p.blocks);
+    v({"spin_amplitude", "rad", "spin of the material in the band's middle, beyond that beside it; positive as the shear turns"},
+      p.spin_amplitude);
     v({"rotation_amplitude", "rad",
        "rotation minus spin in the band's middle, beyond that beside it; positive as the shear turns"},
       p.rotation_amplitude);
-    v({"rotation_width_10_90_d", "mean diameters", "10–90 % width of this relative rotation, from the band's fit"},
+    v({"rotation_width_10_90_d", "mean diameters", "10–90 % width of this relative rotation; null if its amplitude may be 0"},
       p.rotation_width_10_90);
     v({"couple_stress_peak", "pressure length",
        "largest couple stress along the band's normal, from a fit with the shape of a rotation's gradient"},
