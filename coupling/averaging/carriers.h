@@ -69,7 +69,7 @@ namespace diptych::coupling
   //   |K| mu_K = -sum_c integral over the branch in K of ((x_c - x) x f + m) ds          [pressure * length^2]
   // Its divergence balances the skew stress of the same branches and the couples of the grains about their centres, node by node
   // (README.md). The reference point is the point x itself, so the value does not depend on the origin. Summed over a contact it
-  // is the couple stress of coarse graining at the grains' centres, (c_i - c_j)/2 (x) branch with c_i the couple of the contact
+  // is the couple stress of coarse graining at the grains' centres, -(c_i - c_j)/2 (x) branch with c_i the couple of the contact
   // about the centre of i (Goldhirsch, Granular Matter 12 (2010) 239). The couple stress of a finite volume about a point X also
   // contains the moment of the skew stress about X (Elias and Cusatis, arXiv 2412.12616); it equals the mean of mu for X at the
   // volume's centroid if the skew stress is uniform.
