@@ -230,7 +230,7 @@ def number_of_figures():
     """(pictures, canvases) of the page of the complete folder, with JavaScript.
 
     Pictures: 7 of histories, work, kinetic energy and solver; inclination, width, dissipation, stress difference: 4; pairs for
-    the strips of every increment and the profiles of those with bands, and for chains + traction and the circles of every stage; one rose per probe and stage; resolution: 4.
+    the strips of every increment and the profiles of every window, and for chains + traction and the circles of every stage; one rose per probe and stage; resolution: 4.
     Canvases: 5 pairs of maps and the pair of the difference; 3 colour bars.
     """
-    return 7 + 4 + 2 * (STAGES + WINDOWS) + 2 * (STAGES - 1 + WINDOWS) + 4 * STAGES + PROBES * STAGES + 4, 2 * 6 + 3
+    return 7 + 4 + 2 * (STAGES + WINDOWS) + 2 * WINDOWS + 4 * STAGES + PROBES * STAGES + 4, 2 * 6 + 3

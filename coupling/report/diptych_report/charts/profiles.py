@@ -55,7 +55,7 @@ def _limits(curves):
 
 
 def _panel(panel, curves, numbers, limits, title):
-    boxes = [[0.16, 1 - (0.3 + (k + 1) * 1.66 + k * 0.14) / HEIGHT, 0.82, 1.66 / HEIGHT] for k in range(len(ROWS))]
+    boxes = [[0.175, 1 - (0.3 + (k + 1) * 1.66 + k * 0.14) / HEIGHT, 0.805, 1.66 / HEIGHT] for k in range(len(ROWS))]
     figure, every = frame("profiles", (4.5, HEIGHT), boxes)
     x, colour = curves["distance"], PANEL_COLOURS[panel]
     for (name, (label, key, word)), axes in zip(ROWS.items(), every):
@@ -70,6 +70,7 @@ def _panel(panel, curves, numbers, limits, title):
             axes.text(0.5, 0.5, NONE.get(name, CLASSICAL), transform=axes.transAxes, ha="center", color=INK)
         axes.axvline(0, color=FAINT, linewidth=0.7)
         axes.set(ylabel=label, xlim=(x.min() - 0.5, x.max() + 0.5), ylim=limits[name])
+        axes.yaxis.set_label_coords(-0.17, 0.5)
         axes.tick_params(labelbottom=axes is every[-1])
         if axes.get_legend_handles_labels()[0]:
             axes.legend(loc="upper left", handlelength=1.6)
