@@ -74,16 +74,45 @@ namespace diptych::coupling
     Carriers c;
     c.position = position;
     c.radius   = radius;
-    std::vector<double> moment;
     for (const discrete::ContactForce &contact : contacts)
       if (!contact.force.isZero(0))
-        for_each_half(contact, position, [&](const unsigned int grain, const Eigen::Vector2d &l, const Eigen::Vector2d &f) {
-          c.half.push_back({grain, l});
-          c.half_size.push_back(f.norm() * l.norm());
-          moment.insert(moment.end(), {-f.x() * l.x(), -f.x() * l.y(), -f.y() * l.x(), -f.y() * l.y()});
+        for_each_half(contact, position,
+                      [&](const unsigned int grain, const Eigen::Vector2d &l, const Eigen::Vector2d &f, double) {
+                        c.half.push_back({grain, l});
+                        c.half_size.push_back(f.norm() * l.norm());
+                      });
+    c.uniform.resize(Eigen::Index(c.half.size()), n_moment_columns);
+    c.tapered.resize(Eigen::Index(c.half.size()), 2);
+    Eigen::Index row = 0;
+    for (const discrete::ContactForce &contact : contacts)
+      if (!contact.force.isZero(0))
+        for_each_half(contact, position, [&](unsigned int, const Eigen::Vector2d &l, const Eigen::Vector2d &f, const double m) {
+          c.uniform.row(row)   = uniform_moments(l, f, m);
+          c.tapered.row(row++) = tapered_couple(l, f);
         });
-    c.uniform = Eigen::Map<const Columns>(moment.data(), Eigen::Index(c.half.size()), 4);
     return c;
+  }
+
+  Eigen::Matrix<double, 1, n_moment_columns> uniform_moments(const Eigen::Vector2d &l, const Eigen::Vector2d &f, const double m)
+  {
+    Eigen::Matrix<double, 1, n_moment_columns> row;
+    row << -f.x() * l.x(), -f.x() * l.y(), -f.y() * l.x(), -f.y() * l.y(), -m * l.x(), -m * l.y();
+    return row;
+  }
+
+  // (x_c - x) x f decreases linearly from l x f at the centre to zero at the contact point. Its integral is half of l x f.
+  Eigen::RowVector2d tapered_couple(const Eigen::Vector2d &l, const Eigen::Vector2d &f)
+  {
+    return -0.5 * (l.x() * f.y() - l.y() * f.x()) * l.transpose();
+  }
+
+  std::vector<Eigen::Vector2d> couple_moments(const Carriers &moments)
+  {
+    std::vector<Eigen::Vector2d> of_grain(moments.position.size(), Eigen::Vector2d::Zero());
+    for (std::size_t h = 0; h < moments.half.size(); ++h)
+      of_grain[moments.half[h].grain] +=
+        (moments.uniform.block<1, 2>(Eigen::Index(h), couple_moment) + moments.tapered.row(Eigen::Index(h))).transpose();
+    return of_grain;
   }
 
   CellSums zero_sums(const TargetCells &target, const Carriers &carriers)

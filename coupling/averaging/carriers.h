@@ -34,7 +34,7 @@ namespace diptych::coupling
     std::vector<double> half_size; // n_halves: weight of a half branch in outside_share, >= 0; |f| x length for a force
 
     bool count_joined = false; // compute CellSums::joined
-    // Compute CellSums::nodal_residual. The first four columns of `uniform` must be moments -force (x) vector.
+    // Compute the residuals of CellSums. The columns of `uniform` and `tapered` must begin with those of moment_carriers().
     bool judge_nodes = false;
   };
 
@@ -49,22 +49,51 @@ namespace diptych::coupling
     double outside_share = 0;
     // Only for segments with judge_nodes: residual of the nodal identity (README.md), also at the collar's nodes, over the
     // largest force. NaN if the mesh can have no collar, a half leaves it, or there is no force.
-    double nodal_residual = NAN;
+    double nodal_residual  = NAN;
+    double couple_residual = NAN; // the same for the nodal balance of moment, over largest force x longest half branch
     // Number of equal grains that a mean over the cell joins: (sum of the shares of grains)^2 / sum of their squares. n_cells
     // entries, 0 for a cell without grains; empty if not wanted. The projection solves one system per cell for it.
     std::vector<double> joined;
   };
 
-  // Calls action(grain, vector, force) for each half of a contact's branch. `vector` runs from the grain's centre to the contact
-  // point and `force` acts on this grain. A platen has no half. Throws std::invalid_argument for a grain that does not exist.
+  // Calls action(grain, vector, force, couple) for each half of a contact's branch. `vector` runs from the grain's centre to the
+  // contact point; `force` and `couple` act on this grain. A platen has no half. Throws std::invalid_argument for a grain that
+  // does not exist.
   template <class Action>
   void for_each_half(const discrete::ContactForce &contact, const std::vector<Eigen::Vector2d> &position, Action &&action);
 
-  // Half branches of the contacts that carry force, each with its moment -f (x) vector, where f acts on its grain. Row index =
-  // force (columns xx, xy, yx, yy of `uniform`), positive in compression [pressure * length^2].
+  // Couple stress. The body beyond a point x of a branch exerts the couple c(x) = (x_c - x) x f + m about x on the grain's part
+  // of the branch. Here x_c is the contact point, f and m are force and couple of the contact on the grain. The moment of the
+  // couple is -integral of c(x) ds over the branch, ds from the centre to the contact point, with the sign of the stress
+  // (compression):
+  //   |K| mu_K = -sum_c integral over the branch in K of ((x_c - x) x f + m) ds          [pressure * length^2]
+  // Its divergence balances the skew stress of the same branches and the couples of the grains about their centres, node by node
+  // (README.md). The reference point is the point x itself, so the value does not depend on the origin. Summed over a contact it
+  // is the couple stress of coarse graining at the grains' centres, -(c_i - c_j)/2 (x) branch with c_i the couple of the contact
+  // about the centre of i (Goldhirsch, Granular Matter 12 (2010) 239). The couple stress of a finite volume about a point X also
+  // contains the moment of the skew stress about X (Elias and Cusatis, arXiv 2412.12616); it equals the mean of mu for X at the
+  // volume's centroid if the skew stress is uniform.
+  //
+  // Half branches of the contacts that carry force. Columns of `uniform`: the moments -f (x) vector, positive in compression, row
+  // index = force (xx, xy, yx, yy), then -m vector (x, y). Columns of `tapered`: -1/2 (vector x f) vector, the other part of the
+  // couple's moment.
+  enum MomentColumn : Eigen::Index
+  {
+    couple_moment    = 4, // first of the two columns -m vector
+    n_moment_columns = 6
+  };
   Carriers moment_carriers(const std::vector<Eigen::Vector2d>        &position,
                            const std::vector<double>                 &radius,
                            const std::vector<discrete::ContactForce> &contacts);
+
+  // The columns of one half branch, as above.
+  Eigen::Matrix<double, 1, n_moment_columns> uniform_moments(const Eigen::Vector2d &vector,
+                                                             const Eigen::Vector2d &force,
+                                                             double                 couple);
+  Eigen::RowVector2d                         tapered_couple(const Eigen::Vector2d &vector, const Eigen::Vector2d &force);
+
+  // Moments of the couples of each grain's half branches, n_grains entries [pressure * length^2].
+  std::vector<Eigen::Vector2d> couple_moments(const Carriers &moments);
 
   [[noreturn]] void refuse_contact(const discrete::ContactForce &contact);
 
@@ -74,9 +103,9 @@ namespace diptych::coupling
     const int n = int(position.size());
     if (contact.i < 0 || contact.i >= n || contact.j < 0)
       refuse_contact(contact);
-    action(unsigned(contact.i), Eigen::Vector2d(contact.point - position[contact.i]), contact.force);
+    action(unsigned(contact.i), Eigen::Vector2d(contact.point - position[contact.i]), contact.force, contact.couple);
     if (contact.j < n)
       action(unsigned(contact.j), Eigen::Vector2d(contact.point - position[contact.j] - Eigen::Vector2d(contact.shift, 0)),
-             Eigen::Vector2d(-contact.force));
+             Eigen::Vector2d(-contact.force), -contact.couple);
   }
 } // namespace diptych::coupling

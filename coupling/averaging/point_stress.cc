@@ -52,7 +52,7 @@ namespace diptych::coupling
         for (std::size_t q = 0; q < rule.t.size(); ++q)
           {
             place.push_back(start + rule.t[q] * half.vector);
-            moment.push_back(rule.weight[q] * carriers.uniform.row(Eigen::Index(h)));
+            moment.push_back(rule.weight[q] * carriers.uniform.row(Eigen::Index(h)).head<4>());
           }
       }
 

@@ -82,50 +82,81 @@ namespace diptych::coupling
       return ground ? *std::move(ground) : without_collar(target.mesh, target.period);
     }
 
-    // Both sides of the nodal identity of the half branches' forces. They are summed while the half branches are cut.
+    // Both sides of the nodal identities of the half branches' forces and couples (README.md). They are summed while the half
+    // branches are cut. `moment_sides` holds the two sides of
+    // the balance of moment as the components of one vector per node.
     class NodalIdentity
     {
     public:
       NodalIdentity(const CollaredMesh &ground, const TriangleSearch &search)
           : ground(ground),
             search(search),
-            force_side(ground.mesh.node.size(), Eigen::Vector2d::Zero())
+            force_side(ground.mesh.node.size(), Eigen::Vector2d::Zero()),
+            moment_sides(force_side)
       {
         mapped.triangle_moment.assign(ground.mesh.triangle.size(), Eigen::Matrix2d::Zero());
       }
 
-      void add(const Eigen::Matrix2d                    &moment,
+      void add(const Carriers                           &carriers,
+               const Eigen::Index                        row,
                const Eigen::Vector2d                    &from,
-               const Eigen::Vector2d                    &to,
                const std::vector<TriangleSearch::Piece> &pieces)
       {
+        const auto            m     = carriers.uniform.row(row);
+        const Eigen::Vector2d along = carriers.half[std::size_t(row)].vector, to = from + along;
+        Eigen::Matrix2d       moment;
+        moment << m[0], m[1], m[2], m[3];
         if (moment.isZero(0))
           return;
-        const Eigen::Vector2d along = to - from, force = -moment * along / along.squaredNorm();
+        const Eigen::Vector2d force     = -moment * along / along.squaredNorm();
+        const double          turn      = along.x() * force.y() - along.y() * force.x(),
+                     couple             = -m.segment<2>(couple_moment).dot(along) / along.squaredNorm();
+        const Eigen::RowVector2d spread = m.segment<2>(couple_moment), tapered = carriers.tapered.row(row).head<2>();
         for (const TriangleSearch::Piece &piece : pieces)
           {
-            mapped.triangle_moment[piece.triangle] += (piece.to - piece.from) * moment;
+            const double share = piece.to - piece.from;
+            mapped.triangle_moment[piece.triangle] += share * moment;
             has_left = has_left || !piece.inside;
+
+            const auto            node     = triangle_nodes(ground.mesh, piece.triangle);
+            const auto            gradient = shape_gradients(ground.mesh, piece.triangle);
+            const Eigen::Vector2d middle   = from + 0.5 * (piece.from + piece.to) * along;
+            const Eigen::Vector3d value    = shape_values(ground.mesh, piece.triangle, middle);
+            const Eigen::Vector2d part     = (share * spread + tapered_share(piece.from, piece.to) * tapered).transpose();
+            for (unsigned int k = 0; k < 3; ++k)
+              moment_sides[node[k]] += Eigen::Vector2d(part.dot(gradient.col(k)) + value[k] * share * turn, 0);
           }
         largest_force = std::max(largest_force, force.norm());
+        longest       = std::max(longest, along.norm());
         add_at_nodes(ground.mesh, search, force, from, force_side);
         add_at_nodes(ground.mesh, search, -force, to, force_side);
+        add_at_nodes(ground.mesh, search, {0, turn + couple}, from, moment_sides);
+        add_at_nodes(ground.mesh, search, {0, -couple}, to, moment_sides);
       }
 
+      bool   is_known() const { return !has_left && ground.n_inner < ground.mesh.triangle.size() && largest_force > 0; }
       double residual() const
       {
-        if (has_left || ground.n_inner == ground.mesh.triangle.size() || largest_force == 0)
-          return NAN;
-        return largest_difference(ground, nodal_forces(ground.mesh, mapped), force_side) / largest_force;
+        return is_known() ? largest_difference(ground, nodal_forces(ground.mesh, mapped), force_side) / largest_force : NAN;
+      }
+      double couple_residual() const
+      {
+        std::vector<Eigen::Vector2d> left, right;
+        for (const Eigen::Vector2d &sides : moment_sides)
+          {
+            left.emplace_back(sides.x(), 0);
+            right.emplace_back(sides.y(), 0);
+          }
+        return is_known() ? largest_difference(ground, left, right) / (largest_force * longest) : NAN;
       }
 
     private:
       const CollaredMesh          &ground;
       const TriangleSearch        &search;
       MappedMoment                 mapped;
-      std::vector<Eigen::Vector2d> force_side;
-      double                       largest_force = 0;
-      bool                         has_left      = false; // a half branch lay beyond the collar
+      std::vector<Eigen::Vector2d> force_side, moment_sides;
+      double                       largest_force = 0, longest = 0;
+      bool                         has_left = false; // a half branch lay beyond the collar
     };
 
     void cut_halves(const TargetCells &target, const Carriers &carriers, CellSums &sums)
@@ -153,16 +184,12 @@ namespace diptych::coupling
                 outside += share * carriers.half_size[h];
             }
           if (carriers.judge_nodes)
-            {
-              const auto      m = carriers.uniform.row(row);
-              Eigen::Matrix2d moment;
-              moment << m[0], m[1], m[2], m[3];
-              identity.add(moment, from, to, pieces);
-            }
+            identity.add(carriers, row, from, pieces);
         }
-      sums.nodal_residual = identity.residual();
-      const double size   = std::accumulate(carriers.half_size.begin(), carriers.half_size.end(), 0.);
-      sums.outside_share  = size > 0 ? outside / size : 0;
+      sums.nodal_residual  = identity.residual();
+      sums.couple_residual = identity.couple_residual();
+      const double size    = std::accumulate(carriers.half_size.begin(), carriers.half_size.end(), 0.);
+      sums.outside_share   = size > 0 ? outside / size : 0;
     }
   } // namespace
 

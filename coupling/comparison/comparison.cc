@@ -6,7 +6,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "coupling/averaging/periodic.h"
 #include "coupling/cells/principal_axes.h"
+#include "coupling/comparison/increment_profiles.h"
 #include "coupling/statistics/batch_means.h"
 
 namespace diptych::coupling
@@ -57,12 +59,14 @@ namespace diptych::coupling
       std::uint64_t            seed;
       double                   averaging_width; // range of progress
       bool                     is_mirror_symmetric;
+      double                   start_solid_fraction; // of the grains inside the sample
     };
 
     Increment increment_of(const StagePair &pair, const Settings &settings)
     {
       Increment increment           = make_increment(pair, settings.options.band, settings.seed);
       increment.is_mirror_symmetric = settings.is_mirror_symmetric;
+      add_profiles(pair, settings.options, settings.start_solid_fraction, settings.seed, increment);
       return increment;
     }
 
@@ -188,10 +192,11 @@ namespace diptych::coupling
   Comparison compare(const Scene &scene, const Results &results, const OnProgress &on_progress)
   {
     const std::size_t n = n_common_snapshots(results);
-    const Settings    settings{scene.comparison, std::uint64_t(scene.sample.seed), averaging_width(scene),
-                            is_mirror_symmetric(scene)};
-    Pieces            pieces(on_progress, n + 2 * scene.comparison.window_edges.size());
-    Comparison        c;
+    const Settings    settings{
+      scene.comparison, std::uint64_t(scene.sample.seed), averaging_width(scene), is_mirror_symmetric(scene),
+      grain_cover(quad_mesh(results.continuum.snapshots.front()), results.discrete.snapshots.front()).typical_solid_fraction};
+    Pieces     pieces(on_progress, n + 2 * scene.comparison.window_edges.size());
+    Comparison c;
     c.discrete_history  = history_table(results.discrete.rows);
     c.continuum_history = history_table(results.continuum.rows);
     for (std::size_t k = 1; k < n; ++k)

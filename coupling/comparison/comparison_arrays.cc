@@ -38,6 +38,13 @@ namespace diptych::coupling
       return continuum_fields(from, to).displacement_increment;
     }
 
+    void write_profiles(discrete::Hdf5Writer &file, const std::string &group, const Increment &increment)
+    {
+      for (const auto &[name, panel] :
+           {std::pair{"/profile/discrete", &increment.discrete}, std::pair{"/profile/continuum", &increment.continuum}})
+        list_profile_arrays(panel->profile.value_or(BandProfile()), IntoGroup{file, group + name});
+    }
+
     void write_stage(discrete::Hdf5Writer &file,
                      const std::string    &group,
                      const StageRecord    &stage,
@@ -53,6 +60,7 @@ namespace diptych::coupling
           list_cell_arrays(*fields, motion_units(stage.increment), IntoGroup{file, group + name});
         }
       list_increment_attributes(stage.increment, IntoGroup{file, group});
+      write_profiles(file, group, stage.increment);
     }
 
     void write_window(discrete::Hdf5Writer &file, const std::string &group, const Increment &window, const Results &results)
@@ -64,6 +72,7 @@ namespace diptych::coupling
       list_window_cell_arrays(window, moved_cells(results.continuum.snapshots[from], results.continuum.snapshots[to]),
                               IntoGroup{file, group + "/cells"});
       list_increment_attributes(window, IntoGroup{file, group});
+      write_profiles(file, group, window);
     }
 
     discrete::VtuGrid vtu_of(const CellFields &fields, const MotionUnits &unit)
@@ -106,6 +115,14 @@ namespace diptych::coupling
       return of_each(stress, [](const Eigen::Matrix2d &m) { return 0.5 * std::atan2(m(0, 1) + m(1, 0), m(0, 0) - m(1, 1)); });
     }
 
+    std::vector<std::vector<double>> rows_of(const ProfileCurve &curve)
+    {
+      std::vector<std::vector<double>> rows;
+      for (std::size_t k = 0; k < curve.value.size(); ++k)
+        rows.push_back({curve.value[k], curve.low[k], curve.high[k]});
+      return rows;
+    }
+
     std::vector<double> sizes_over(const std::vector<Eigen::Vector2d> &vectors, const double unit)
     {
       std::vector<double> sizes;
@@ -128,6 +145,11 @@ namespace diptych::coupling
       for (std::size_t k = 0; k < a.size() && k < b.size(); ++k)
         result.push_back(a[k] - b[k]);
       return result;
+    }
+
+    std::vector<Eigen::Vector2d> couple_moments(const discrete::Snapshot &grains)
+    {
+      return coupling::couple_moments(moment_carriers(grains.position, grains.radius, grains.window_forces));
     }
 
     std::vector<Eigen::Matrix2d> grain_stress(const discrete::Snapshot &grains)

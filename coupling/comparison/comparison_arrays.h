@@ -28,9 +28,14 @@ namespace diptych::coupling
     std::vector<double> minor_stress(const std::vector<Eigen::Matrix2d> &stress);
     std::vector<double> stress_direction(const std::vector<Eigen::Matrix2d> &stress);
 
+    std::vector<std::vector<double>> rows_of(const ProfileCurve &curve); // value, low, high
+
     std::vector<double> sizes_over(const std::vector<Eigen::Vector2d> &vectors, double unit);
     std::vector<double> difference(const std::vector<double> &a, const std::vector<double> &b); // a - b if both are known
     std::vector<Eigen::Matrix2d> difference(const std::vector<Eigen::Matrix2d> &a, const std::vector<Eigen::Matrix2d> &b);
+
+    // Moments of the couples of single grains (averaging/carriers.h), mean over the stage.
+    std::vector<Eigen::Vector2d> couple_moments(const discrete::Snapshot &grains);
 
     // Stress of single grains: moment over the grain's share of the sample's area [pressure].
     std::vector<Eigen::Matrix2d> grain_stress(const discrete::Snapshot &grains);
@@ -76,7 +81,7 @@ namespace diptych::coupling
       ArrayEntry{"discrete_spin_increment", "spin increment of the medium", "rad", "grains: half the curl of the displacement"},
       g.spin_increment);
     visit(ArrayEntry{"discrete_relative_rotation", "rotation minus spin", "rad",
-                     "grains: rotation of the grains minus spin of the medium"},
+                     "grains: rotation of the grains minus spin of the medium, both over 2.5 d"},
           g.relative_rotation);
     visit(ArrayEntry{"discrete_couple_stress", "couple stress", "pressure length",
                      "grains: power-conjugate to the gradient of rotation"},
@@ -125,8 +130,9 @@ namespace diptych::coupling
     visit(ArrayEntry{"continuum_spin_increment", "spin increment of the medium", "rad",
                      "continuum: half the curl of the displacement"},
           f.continuum_spin);
-    visit(ArrayEntry{"continuum_relative_rotation", "rotation minus spin", "rad", "continuum: Cosserat rotation minus spin"},
-          arrays::difference(c.rotation_increment, f.continuum_spin));
+    visit(ArrayEntry{"continuum_relative_rotation", "rotation minus spin", "rad",
+                     "continuum: Cosserat rotation minus spin, both over 2.5 d"},
+          f.continuum_relative);
     visit(ArrayEntry{"continuum_couple_stress", "couple stress", "pressure length",
                      "continuum: same sign convention as for the grains"},
           c.couple_stress);
@@ -137,6 +143,27 @@ namespace diptych::coupling
           c.dissipation);
     visit(ArrayEntry{"stress_difference", "difference of the stresses", "pressure", "continuum minus grains"},
           arrays::difference(c.stress, g.stress));
+  }
+
+  // Curves across the band, rows of value and ends of the 95 % interval; without rows if no panel has a band.
+  template <class Visit> void list_profile_arrays(const BandProfile &p, Visit &&visit)
+  {
+    visit(ArrayEntry{"distance", "distance from the band", "mean diameters", "middles of the strips, along the band's normal"},
+          p.distance);
+    visit(ArrayEntry{"relative_rotation", "rotation minus spin", "rad",
+                     "value, low, high; as the band's shear turns; nan in a classical continuum"},
+          arrays::rows_of(p.relative_rotation));
+    visit(ArrayEntry{"spin", "spin of the material", "rad", "value, low, high: half the curl of the displacement increment"},
+          arrays::rows_of(p.spin));
+    visit(ArrayEntry{"couple_stress", "couple stress", "pressure length",
+                     "value, low, high: component along the band's normal; nan in a classical continuum"},
+          arrays::rows_of(p.couple_stress));
+    visit(ArrayEntry{"solid_fraction", "solid fraction", "-",
+                     "value, low, high; continuum: that of the grains at the start times initial over present area"},
+          arrays::rows_of(p.solid_fraction));
+    visit(ArrayEntry{"velocity_fluctuation", "fluctuation of velocity", "-",
+                     "value, low, high: root mean square about the affine motion / speed of the platen; nan in a continuum"},
+          arrays::rows_of(p.velocity_fluctuation));
   }
 
   template <class Visit> void list_increment_arrays(const Increment &i, const discrete::Snapshot &to, Visit &&visit)
@@ -200,6 +227,9 @@ namespace diptych::coupling
     visit(ArrayEntry{"discrete/mean_internal_moment", "internal moment", "pressure length^2",
                      "internal moment of each grain, mean over the stage"},
           to.mean_internal_moment);
+    visit(ArrayEntry{"discrete/couple_moment", "moment of couples", "pressure length^2",
+                     "couple stress of each grain times area, mean over the stage"},
+          arrays::couple_moments(to));
     visit(
       ArrayEntry{"discrete/stress", "stress", "pressure", "internal moment of each grain over its share of the sample's area"},
       stress);

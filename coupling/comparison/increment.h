@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "continuum/snapshot.h"
 #include "coupling/bands/band_detection.h"
+#include "coupling/bands/band_profile.h"
 #include "coupling/fields/cell_fields.h"
 #include "coupling/averaging/cell_cover.h"
 #include "coupling/cells/mesh_cells.h"
@@ -21,6 +23,8 @@ namespace diptych::coupling
     BandReport          band;
     Strips              strips;
     std::vector<double> cell_shear; // n_cells shear strain increments at the cell centres of the continuum's mesh
+
+    std::optional<BandProfile> profile; // increment_profiles.h; empty if no panel has a band
   };
 
   struct Increment

@@ -44,6 +44,25 @@ namespace diptych::coupling
       s.background_slope);
   }
 
+  template <class Visitor> void list_numbers(const BandProfile &p, Visitor &v)
+  {
+    v({"angle_deg", "degrees", "inclination of the band across which the profile runs", Kind::setting}, p.angle_deg);
+    v({"offset_d", "mean diameters", "offset of this band from the sample's centre along its normal", Kind::setting, true},
+      p.offset);
+    v({"blocks", "-", "number of resampled blocks along the band", Kind::setting}, p.blocks);
+    v({"spin_amplitude", "rad", "spin of the material in the band's middle, beyond that beside it; positive as the shear turns"},
+      p.spin_amplitude);
+    v({"rotation_amplitude", "rad",
+       "rotation minus spin in the band's middle, beyond that beside it; positive as the shear turns"},
+      p.rotation_amplitude);
+    v({"rotation_width_10_90_d", "mean diameters", "10–90 % width of this relative rotation; null if its amplitude may be 0"},
+      p.rotation_width_10_90);
+    v({"couple_stress_peak", "pressure length",
+       "largest couple stress along the band's normal, from a fit with the shape of a rotation's gradient"},
+      p.couple_stress_peak);
+    v({"loosening", "-", "solid fraction beside the band minus that in its middle"}, p.loosening);
+  }
+
   template <class Visitor> void list_numbers(const PanelIncrement &p, Visitor &v)
   {
     v.list("bands", "shear bands, the strongest first", p.band.bands);
@@ -51,6 +70,7 @@ namespace diptych::coupling
     v({"bic_of_0_1_2_bands", "-", "Bayesian information criterion for no, one and two bands"}, p.band.bic);
     v({"independent_samples", "-", "number of independent samples assumed"}, p.band.n_effective);
     v.group("strips", "means over strips parallel to the band", p.strips);
+    v.group("profile", "fits to the profiles across the band, whose curves are arrays of comparison.h5", p.profile);
   }
 
   template <class Visitor> void list_numbers(const BandDifference &d, Visitor &v)

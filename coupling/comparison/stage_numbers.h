@@ -259,6 +259,9 @@ namespace diptych::coupling
     v({"total_relative_error", "-", "relative error of the mapped total moment"}, m.total_relative_error);
     v({"nodal_residual", "-", "largest residual of the nodal equilibrium, relative to the largest contact force"},
       m.nodal_residual);
+    v({"couple_residual", "-",
+       "largest residual of the nodal balance of moment, relative to largest force x longest half branch"},
+      m.couple_residual);
     v({"outside_share", "-", "share of the contact forces that lies outside the mesh"}, m.outside_share);
     v({"window_time", "time", "time over which the grains' forces are averaged"}, m.window_time);
   }

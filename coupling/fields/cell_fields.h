@@ -30,6 +30,7 @@ namespace diptych::coupling
     std::vector<Eigen::Matrix2d> continuum_gradient; // gradient of the displacement increment, see GrainFields
     std::vector<double>          continuum_shear;    // eps_1 - eps_2 of the displacement increment, computed as for the grains
     std::vector<double>          continuum_spin;     // half the curl of the same increment, anticlockwise [radians]
+    std::vector<double> continuum_relative; // relative rotation as of the grains [radians]; NaN if the law has no rotation
   };
 
   // Strain increments -sym(gradient), positive in compression.

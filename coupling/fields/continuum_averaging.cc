@@ -19,7 +19,8 @@ namespace diptych::coupling
               carried_over<Eigen::Vector2d>(overlap, fields.couple_stress, no_vector),
               carried_over<Eigen::Vector2d>(overlap, fields.displacement_increment, no_vector),
               carried_over<double>(overlap, fields.rotation_increment, NAN),
-              carried_over<double>(overlap, fields.dissipation, NAN)};
+              carried_over<double>(overlap, fields.dissipation, NAN),
+              carried_over<double>(overlap, fields.volume_ratio, NAN)};
     }
 
     // Points that represent a triangle in the smoothing: the centroids of its parts, none with an edge longer than `spacing`.
@@ -65,7 +66,8 @@ namespace diptych::coupling
         displacement = 7,
         rotation     = 9,
         dissipation  = 10,
-        n_columns    = 11
+        volume       = 11,
+        n_columns    = 12
       };
       Carriers carriers;
       carriers.mean_diameter             = scale.mean_diameter;
@@ -79,7 +81,7 @@ namespace diptych::coupling
           carriers.position.push_back(point[k].position);
           carriers.of_grains.row(Eigen::Index(k)) << 1, f.stress[c](0, 0), f.stress[c](0, 1), f.stress[c](1, 0),
             f.stress[c](1, 1), f.couple_stress[c].transpose(), f.displacement_increment[c].transpose(), f.rotation_increment[c],
-            f.dissipation[c];
+            f.dissipation[c], f.volume_ratio[c];
           carriers.of_grains.row(Eigen::Index(k)) *= point[k].area;
         }
       const TargetCells target(receiving, scale.period);
@@ -96,6 +98,7 @@ namespace diptych::coupling
           fields.displacement_increment.push_back(per_weight * Eigen::Vector2d(sum[displacement], sum[displacement + 1]));
           fields.rotation_increment.push_back(per_weight * sum[rotation]);
           fields.dissipation.push_back(per_area * sum[dissipation]);
+          fields.volume_ratio.push_back(per_weight * sum[volume]);
         }
       return fields;
     }

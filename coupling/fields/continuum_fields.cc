@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "coupling/cells/polygon.h"
 #include "coupling/fields/node_transfer.h"
 
 namespace diptych::coupling
@@ -23,17 +24,21 @@ namespace diptych::coupling
         fields.couple_stress.push_back(-after.couple_stress); // the snapshot has the sign convention of mechanics
         fields.dissipation.push_back(after.dissipation - before.dissipation);
 
-        Eigen::Vector2d increment = Eigen::Vector2d::Zero();
-        double          turn      = turns ? 0 : NAN;
+        std::vector<Eigen::Vector2d> now, initial;
+        Eigen::Vector2d              increment = Eigen::Vector2d::Zero();
+        double                       turn      = turns ? 0 : NAN;
         for (unsigned int corner = 0; corner < 4; ++corner)
           {
             const unsigned int node = to.cells[k][corner];
             increment += 0.25 * (to.displacement[node] - earlier[node]);
+            now.push_back(to.position[node]);
+            initial.emplace_back(to.position[node] - to.displacement[node]);
             if (turns)
               turn += 0.25 * (to.rotation[node] - earlier_rotation[node]);
           }
         fields.displacement_increment.push_back(increment);
         fields.rotation_increment.push_back(turn);
+        fields.volume_ratio.push_back(polygon_area(initial) / polygon_area(now));
       }
     return fields;
   }

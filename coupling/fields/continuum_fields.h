@@ -19,6 +19,7 @@ namespace diptych::coupling
     std::vector<Eigen::Vector2d> displacement_increment; // mean of the corners [length]
     std::vector<double>          rotation_increment;     // Cosserat rotation, anticlockwise [radians]; NaN if the law has none
     std::vector<double>          dissipation;            // plastic work per area between the instants [pressure]
+    std::vector<double>          volume_ratio;           // initial area over the area at the later instant [-]
   };
 
   // The mesh may be refined between the instants. The earlier values of a cell are those of the cell of `from` that holds its

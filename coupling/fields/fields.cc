@@ -40,8 +40,8 @@ namespace diptych::coupling
     {
       enum : Eigen::Index
       {
-        moment, // xx, xy, yx, yy
-        dissipation = moment + 4,
+        moments, // of moment_carriers()
+        dissipation = moments + n_moment_columns,
         bearing,
         fabric, // xx, xy, yy of n (x) n
         n_columns = fabric + 3
@@ -99,31 +99,31 @@ namespace diptych::coupling
         {
           const discrete::ContactForce &contact = s.window_forces[k];
           const double                  share   = contact.j < n_grains ? 0.5 : 1;
-          for_each_half(contact, s.position, [&](const unsigned int i, const Eigen::Vector2d &l, const Eigen::Vector2d &f) {
-            UniformRow row               = UniformRow::Zero();
-            row.segment<4>(half::moment) = Eigen::RowVector4d(-f.x() * l.x(), -f.x() * l.y(), -f.y() * l.x(), -f.y() * l.y());
-            row[half::dissipation]       = has_dissipation ? share * s.window_dissipation[k] : 0;
-            uniform.push_back(row);
-            // (x_c - x) x f decreases linearly from l x f at the centre to zero at the contact point. Its integral is half of l
-            // x f.
-            tapered.push_back(-0.5 * (l.x() * f.y() - l.y() * f.x()) * l.transpose());
-            c.half.push_back({i, l});
-            c.half_size.push_back(f.norm() * l.norm());
-          });
+          for_each_half(contact, s.position,
+                        [&](const unsigned int i, const Eigen::Vector2d &l, const Eigen::Vector2d &f, const double m) {
+                          UniformRow row                               = UniformRow::Zero();
+                          row.segment<n_moment_columns>(half::moments) = uniform_moments(l, f, m);
+                          row[half::dissipation]                       = has_dissipation ? share * s.window_dissipation[k] : 0;
+                          uniform.push_back(row);
+                          tapered.push_back(tapered_couple(l, f));
+                          c.half.push_back({i, l});
+                          c.half_size.push_back(f.norm() * l.norm());
+                        });
         }
       for (const discrete::ContactForce &contact : s.contacts)
         if (bears(contact))
-          for_each_half(contact, s.position, [&](const unsigned int i, const Eigen::Vector2d &l, const Eigen::Vector2d &) {
-            const Eigen::Vector2d &n     = contact.normal;
-            UniformRow             row   = UniformRow::Zero();
-            row[half::bearing]           = 1;
-            row.segment<3>(half::fabric) = Eigen::RowVector3d(n.x() * n.x(), n.x() * n.y(), n.y() * n.y());
-            uniform.push_back(row);
-            tapered.push_back(Eigen::RowVector2d::Zero());
-            c.half.push_back({i, l});
-            c.half_size.push_back(0);
-            ++n_contacts[i];
-          });
+          for_each_half(contact, s.position,
+                        [&](const unsigned int i, const Eigen::Vector2d &l, const Eigen::Vector2d &, double) {
+                          const Eigen::Vector2d &n     = contact.normal;
+                          UniformRow             row   = UniformRow::Zero();
+                          row[half::bearing]           = 1;
+                          row.segment<3>(half::fabric) = Eigen::RowVector3d(n.x() * n.x(), n.x() * n.y(), n.y() * n.y());
+                          uniform.push_back(row);
+                          tapered.push_back(Eigen::RowVector2d::Zero());
+                          c.half.push_back({i, l});
+                          c.half_size.push_back(0);
+                          ++n_contacts[i];
+                        });
       c.uniform.resize(Eigen::Index(uniform.size()), half::n_columns);
       c.tapered.resize(Eigen::Index(tapered.size()), 2);
       for (std::size_t h = 0; h < uniform.size(); ++h)
@@ -159,11 +159,12 @@ namespace diptych::coupling
         {
           const auto      h = sums.uniform.row(Eigen::Index(k)), g = sums.of_grains.row(Eigen::Index(k));
           Eigen::Matrix2d contact_stress;
-          contact_stress << h[half::moment], h[half::moment + 1], h[half::moment + 2], h[half::moment + 3];
+          contact_stress << h[half::moments], h[half::moments + 1], h[half::moments + 2], h[half::moments + 3];
           contact_stress /= area[k];
           fields.contact_stress.push_back(contact_stress);
           fields.stress.push_back(contact_stress - g[grain::spin_term] / area[k] * Eigen::Matrix2d::Identity());
-          fields.couple_stress.push_back(sums.tapered.row(Eigen::Index(k)).transpose() / area[k]);
+          fields.couple_stress.push_back(
+            (sums.tapered.row(Eigen::Index(k)) + h.segment<2>(half::moments + couple_moment)).transpose() / area[k]);
           fields.dissipation.push_back(h[half::dissipation] / area[k]);
 
           const double          n = g[grain::count], density = n / area[k];
@@ -203,14 +204,15 @@ namespace diptych::coupling
     {
       const double                       radius  = strain_radius(to.mean_diameter);
       const std::vector<Eigen::Vector2d> centres = cell_centres(target.mesh);
-      fields.displacement_gradient = displacement_gradient(periodic_displacement_field(target, from, to, radius), centres,
-                                                           radius);
+      const DisplacementField            moved   = periodic_displacement_field(target, from, to, radius);
+      fields.displacement_gradient               = displacement_gradient(moved, centres, radius);
+      fields.relative_rotation                   = mean_rotation(moved, centres, radius);
       for (std::size_t k = 0; k < centres.size(); ++k)
         {
           const Eigen::Matrix2d &g = fields.displacement_gradient[k];
           fields.shear_strain_increment.push_back(std::hypot(g(0, 0) - g(1, 1), g(0, 1) + g(1, 0)));
           fields.spin_increment.push_back(0.5 * (g(1, 0) - g(0, 1)));
-          fields.relative_rotation.push_back(fields.rotation_increment[k] - fields.spin_increment[k]);
+          fields.relative_rotation[k] -= fields.spin_increment[k];
         }
     }
 
@@ -262,6 +264,7 @@ namespace diptych::coupling
     take_gradients(target, from, to, f);
     f.outside_share        = sums.outside_share;
     f.nodal_residual       = sums.nodal_residual;
+    f.couple_residual      = sums.couple_residual;
     f.total_relative_error = relative_error(to, target.area, f);
     if (to.window_dissipation.size() != to.window_forces.size())
       f.dissipation.assign(f.dissipation.size(), NAN);

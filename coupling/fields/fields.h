@@ -22,9 +22,8 @@ namespace diptych::coupling
     // Mean over the window of `to`, since the preceding snapshot. Unsymmetric: row index = force [pressure]. The dynamic part of
     // the stress is -<spin term> 1 (Moreau 1997). A kinetic (streaming) stress is not included.
     std::vector<Eigen::Matrix2d> stress, contact_stress; // with and without the dynamic part
-    // |K| mu_K = -sum_c integral over the branch in K of ((x_c - x) x f) ds, f on i, ds directed from i to j [pressure * length].
-    // It is power-conjugate to the gradient of the grains' rotation, as the stress is to that of displacement. Mechanics uses the
-    // opposite sign.
+    // Couple stress (averaging/carriers.h) [pressure * length]. It is power-conjugate to the gradient of the grains' rotation, as
+    // the stress is to that of displacement. Mechanics uses the opposite sign.
     std::vector<Eigen::Vector2d> couple_stress;
     std::vector<double>          dissipation; // by friction, over the window, per area [pressure]; NaN: not known
 
@@ -41,7 +40,7 @@ namespace diptych::coupling
     std::vector<double>          rotation_increment;     // of the grains, anticlockwise [radians]
     std::vector<double>          spin_increment;         // rotation of the medium: half the curl of the displacement increment
                                                          // [radians]
-    std::vector<double> relative_rotation;               // rotation of the grains minus that of the medium [radians]
+    std::vector<double> relative_rotation; // mean_rotation() of the grains over 2.5 d minus spin_increment [radians]
 
     // At the instant of `to`, from the contacts that carry force in its last step. coordination_number = <number of contacts>,
     // with rattlers. A contact with a platen counts for its grain. fabric = mean of n (x) n over half branches, trace 1.
@@ -59,7 +58,7 @@ namespace diptych::coupling
     double                    total_relative_error = 0; // deviation of the sum of |K| stress from the sum of the grains' mean
                                                         // moments
     double outside_share  = 0;                          // see CellSums, of |f| x length
-    double nodal_residual = NAN;                        // see CellSums, of the window's forces
+    double nodal_residual = NAN, couple_residual = NAN; // see CellSums, of the window's forces and couples
   };
 
   // Fields of the grains between two stages, on the cells of a mesh in its shape at `to`. The period is that of `to`.

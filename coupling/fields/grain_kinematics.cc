@@ -89,6 +89,7 @@ namespace diptych::coupling
       {
         field.increment.push_back(grains.increment[i]);
         field.weight.push_back(grains.weight[i]);
+        field.rotation.push_back(grains.rotation[i]);
       }
     return field;
   }

@@ -63,6 +63,8 @@ namespace diptych::coupling
       field.increment.resize(to.displacement.size());
       for (std::size_t i = 0; i < to.displacement.size(); ++i)
         field.increment[i] = to.displacement[i] - from.displacement[i];
+      for (std::size_t i = 0; i < std::min(from.rotation.size(), to.rotation.size()); ++i)
+        field.rotation.push_back(to.rotation[i] - from.rotation[i]);
       return field;
     }
   } // namespace
@@ -90,6 +92,11 @@ namespace diptych::coupling
     const std::vector<Eigen::Vector2d> earlier = displacement_at_nodes_of(from, to);
     for (std::size_t k = 0; k < earlier.size(); ++k)
       field.increment.emplace_back(to.displacement[k] - earlier[k]);
+    if (from.rotation.empty() || to.rotation.empty())
+      return field;
+    const std::vector<double> earlier_rotation = rotation_at_nodes_of(from, to);
+    for (std::size_t k = 0; k < to.rotation.size(); ++k)
+      field.rotation.push_back(to.rotation[k] - earlier_rotation[k]);
     return field;
   }
 
@@ -109,6 +116,27 @@ namespace diptych::coupling
     for (std::size_t k = 0; k < sample_points.size(); ++k)
       gradient[k] = gradient_around(field, bins, sample_points[k], radius);
     return gradient;
+  }
+
+  std::vector<double> mean_rotation(const DisplacementField            &field,
+                                    const std::vector<Eigen::Vector2d> &sample_points,
+                                    const double                        radius)
+  {
+    std::vector<double> means(sample_points.size(), NAN);
+    if (field.rotation.empty())
+      return means;
+    const PointBins bins(field.position, radius);
+    for (std::size_t k = 0; k < sample_points.size(); ++k)
+      {
+        double sum = 0, weight = 0;
+        bins.for_each_near(sample_points[k], radius, [&](const unsigned int i) {
+          const double share = radius * radius - (field.position[i] - sample_points[k]).squaredNorm();
+          sum += std::max(0., share) * field.weight[i] * field.rotation[i];
+          weight += std::max(0., share) * field.weight[i];
+        });
+        means[k] = weight > 0 ? sum / weight : NAN;
+      }
+    return means;
   }
 
   std::vector<double> shear_strain_increment(const DisplacementField            &field,

@@ -17,6 +17,7 @@ namespace diptych::coupling
     std::vector<Eigen::Vector2d> position;  // [length]
     std::vector<Eigen::Vector2d> increment; // [length]
     std::vector<double>          weight;    // area that the point represents; 0: ignore the point
+    std::vector<double>          rotation;  // increment of grains or of Cosserat nodes, anticlockwise [radians]; empty: none
   };
 
   // The weight of a grain is its disc's area. A grain that is a rattler at either instant has weight 0. If no grain has a contact
@@ -37,6 +38,13 @@ namespace diptych::coupling
   std::vector<Eigen::Matrix2d> displacement_gradient(const DisplacementField            &field,
                                                      const std::vector<Eigen::Vector2d> &sample_points,
                                                      double                              radius);
+
+  // Mean of the rotations around each sample point, weighted by area x (radius^2 - distance^2). For points of even density the
+  // affine fit above is the mean of the true gradient with these weights, so the difference of rotation and spin has no bias
+  // where the gradient varies. NaN without points of positive weight or without rotations.
+  std::vector<double> mean_rotation(const DisplacementField            &field,
+                                    const std::vector<Eigen::Vector2d> &sample_points,
+                                    double                              radius);
 
   // eps_1 - eps_2 >= 0 of the symmetric part of this gradient.
   std::vector<double> shear_strain_increment(const DisplacementField            &field,

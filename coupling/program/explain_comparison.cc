@@ -52,6 +52,9 @@ namespace diptych::coupling
       list_cell_arrays(fields, {}, AddArrays{stages + "; fields/stage_NNNN.vtu (cells)", "cells/, grid/ ", result});
       list_increment_attributes(increment, AddArrays{windows, "", result});
       list_increment_arrays(increment, grains, AddArrays{windows, "", result});
+      for (const std::string &group : {stages, windows})
+        for (const char *panel : {"profile/discrete/", "profile/continuum/"})
+          list_profile_arrays(BandProfile(), AddArrays{group, panel, result});
       list_mesh_arrays(QuadMesh(), AddArrays{windows, "cells/", result});
       list_window_cell_arrays(increment, {}, AddArrays{windows, "cells/", result});
       list_history_arrays(history, 1, AddArrays{"comparison.h5, groups histories/discrete and histories/continuum", "", result});

@@ -13,6 +13,7 @@ namespace diptych::python
     struct Mapped
     {
       std::vector<Eigen::Matrix2d> stress;
+      std::vector<Eigen::Vector2d> couple_stress;
       double                       outside_share = 0, total_relative_error = 0;
     };
 
@@ -22,14 +23,17 @@ namespace diptych::python
       Eigen::Vector4d total = Eigen::Vector4d::Zero(), expected = total;
       for (std::size_t k = 0; k < area.size(); ++k)
         {
-          const Eigen::Vector4d moment = sums.uniform.row(Eigen::Index(k));
+          const auto            row    = sums.uniform.row(Eigen::Index(k));
+          const Eigen::Vector4d moment = row.head<4>();
           Eigen::Matrix2d       stress;
           stress << moment[0], moment[1], moment[2], moment[3];
           result.stress.emplace_back(stress / area[k]);
+          result.couple_stress.emplace_back(
+            (row.segment<2>(coupling::couple_moment) + sums.tapered.row(Eigen::Index(k))).transpose() / area[k]);
           total += moment;
         }
       for (Eigen::Index k = 0; k < carriers.uniform.rows(); ++k)
-        expected += carriers.uniform.row(k).transpose();
+        expected += carriers.uniform.row(k).head<4>().transpose();
       result.outside_share        = sums.outside_share;
       result.total_relative_error = expected.norm() > 0 ? (total - expected).norm() / expected.norm() : total.norm();
       return result;
@@ -62,6 +66,7 @@ namespace diptych::python
       }
       py::dict map;
       map["stress"]               = own(std::move(result.stress));
+      map["couple_stress"]        = own(std::move(result.couple_stress));
       map["area"]                 = own(std::move(area));
       map["solid_fraction"]       = own(std::move(cover.solid_fraction));
       map["covered"]              = own(std::move(cover.covered));

@@ -15,7 +15,8 @@ namespace diptych::python
     {
       coupling::DisplacementField field{vectors_of(arrays["position"].cast<Numbers>(), "points"),
                                         vectors_of(arrays["increment"].cast<Numbers>(), "displacement"),
-                                        numbers_of(arrays["weight"].cast<Numbers>(), "weight")};
+                                        numbers_of(arrays["weight"].cast<Numbers>(), "weight"),
+                                        {}};
       if (field.increment.size() != field.position.size() || field.weight.size() != field.position.size())
         throw std::invalid_argument(
           "displacement and weight: one entry per point is needed: " + std::to_string(field.position.size()) + ", not " +

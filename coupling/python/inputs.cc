@@ -43,6 +43,10 @@ namespace diptych::python
     if (const py::object given = entry(contacts, "shift"); !given.is_none())
       demand_size("shift", (shift = numbers_of(given.cast<Numbers>(), "shift")).size(), i.size());
 
+    std::vector<double> couple;
+    if (const py::object given = entry(contacts, "couple"); !given.is_none())
+      demand_size("couple", (couple = numbers_of(given.cast<Numbers>(), "couple")).size(), i.size());
+
     std::vector<discrete::ContactForce> list;
     for (std::size_t k = 0; k < i.size(); ++k)
       {
@@ -51,7 +55,7 @@ namespace diptych::python
                                       std::to_string(j[k]) + "; i must be one of the grains 0 ... " +
                                       std::to_string(grains.position.size() - 1) + ", walls j count on from their number");
         const Eigen::Vector2d n = normal.empty() ? (grains.position[std::size_t(i[k])] - point[k]).normalized() : normal[k];
-        list.push_back({i[k], j[k], point[k], n, force[k], shift.empty() ? 0 : shift[k]});
+        list.push_back({i[k], j[k], point[k], n, force[k], shift.empty() ? 0 : shift[k], couple.empty() ? 0 : couple[k]});
       }
     return list;
   }

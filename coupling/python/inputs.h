@@ -24,7 +24,7 @@ namespace diptych::python
   };
   GrainInput grains_of(const py::dict &grains);
 
-  // {"i": (c), "j": (c), "point": (c, 2), "force": (c, 2), "normal": (c, 2) or None, "shift": (c) or None}. Without
+  // {"i": (c), "j": (c), "point": (c, 2), "force": (c, 2), "normal": (c, 2) or None, "shift" and "couple": (c) or None}. Without
   // "normal", normals point from the contact point to the centre of i.
   std::vector<discrete::ContactForce> contacts_of(const py::dict &contacts, const GrainInput &grains);
 

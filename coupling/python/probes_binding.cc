@@ -37,7 +37,7 @@ namespace diptych::python
       network.moment.assign(grains.radius.size(), Eigen::Matrix2d::Zero());
       for (std::size_t k = 0; k < carriers.half.size(); ++k)
         {
-          const Eigen::Vector4d moment = carriers.uniform.row(Eigen::Index(k));
+          const Eigen::Vector4d moment = carriers.uniform.row(Eigen::Index(k)).head<4>();
           Eigen::Matrix2d       tensor;
           tensor << moment[0], moment[1], moment[2], moment[3];
           network.moment[carriers.half[k].grain] += tensor;

@@ -44,6 +44,7 @@ class QuickScene(unittest.TestCase):
             self.assertLess(stage["mapping"]["outside_share"], 0.05)
             # Round-off, and up to a few 1e-12 where a branch runs so close along a platen that it is not cut there.
             self.assertLess(stage["mapping"]["nodal_residual"], 5e-12)
+            self.assertLess(stage["mapping"]["couple_residual"], 5e-12)
 
     def test_one_straight_zone_near_45_degrees_in_the_grains(self):
         """P26, P27. Four seeds of this scene: see benchmarks/moreau_quick/README.md."""

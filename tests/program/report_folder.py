@@ -113,6 +113,12 @@ def write_group(file, name, start, end, stress):
         store(group, place + "/continuum_displacement_over_platen", np.linspace(0.1, 0.6, 6))
         store(group, place + "/continuum_shear_strain_increment", np.linspace(0, 0.08, 6))
         store(group, place + "/discrete_shear_strain_increment", np.array([0.01, np.nan, 0.01, 0.02, 0.01, 0.0]))
+    for panel in ("discrete", "continuum") if end == 0.01 else ():  # where there is a band
+        store(group, f"profile/{panel}/distance", np.arange(-20.0, 21.0), "mean diameters")
+        for curve in ("relative_rotation", "spin", "couple_stress", "solid_fraction", "velocity_fluctuation"):
+            known = panel == "discrete" or curve in ("spin", "solid_fraction")  # a classical continuum
+            store(group, f"profile/{panel}/{curve}", np.tile([0.5, 0.4, 0.6] if known else [np.nan] * 3, (41, 1)),
+                  "pressure length" if curve == "couple_stress" else "-")
     if stress:
         write_state(group)
 
@@ -224,7 +230,7 @@ def number_of_figures():
     """(pictures, canvases) of the page of the complete folder, with JavaScript.
 
     Pictures: 7 of histories, work, kinetic energy and solver; inclination, width, dissipation, stress difference: 4; pairs for
-    the strips of every increment, and for chains + traction and the circles of every stage; one rose per probe and stage; resolution: 4.
+    the strips of every increment and the profiles of every window, and for chains + traction and the circles of every stage; one rose per probe and stage; resolution: 4.
     Canvases: 5 pairs of maps and the pair of the difference; 3 colour bars.
     """
-    return 7 + 4 + 2 * (STAGES + WINDOWS) + 4 * STAGES + PROBES * STAGES + 4, 2 * 6 + 3
+    return 7 + 4 + 2 * (STAGES + WINDOWS) + 2 * WINDOWS + 4 * STAGES + PROBES * STAGES + 4, 2 * 6 + 3

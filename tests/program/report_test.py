@@ -79,6 +79,14 @@ class CompleteFolder(unittest.TestCase):
         canvases = re.findall(r'<canvas [^>]*aria-label="[^"]+"', self.text)
         self.assertEqual((len(images), len(canvases)), report_folder.number_of_figures())
 
+    def test_profiles_of_a_classical_continuum_are_those_that_it_has(self):
+        pictures = dict(re.findall(r'src="data:image/svg\+xml;base64,([^"]*)" alt="(Grains|Continuum): rotation minus spin', self.text))
+        drawn = {panel: base64.b64decode(picture).decode() for picture, panel in pictures.items()}
+        self.assertEqual(drawn["Continuum"].count("a classical continuum has none"), 2)  # rotation and couple stress
+        self.assertIn("a continuum has no fluctuations", drawn["Continuum"])
+        self.assertNotIn("a classical continuum has none", drawn["Grains"])
+        self.assertIn("solid fraction", drawn["Continuum"])
+
     def test_both_panels_share_their_colour_limits(self):
         # The 98th percentiles are 0.98 * 2 % (grains) and 0.98 * 8 % (continuum); the lower counts. Over axial strain this is 1.96/0.5
         # in both stages and 1.96/1 in the window. The median 3.92 gives 1.96 % over 0.5 % and 3.92 % over 1 %, rounded to two digits.

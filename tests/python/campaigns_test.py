@@ -4,6 +4,7 @@
 
 import math
 
+import h5py
 import numpy as np
 import pandas as pd
 import pytest
@@ -11,6 +12,7 @@ from scipy import stats
 
 import diptych
 from diptych.campaigns import ensemble, histories, statistics
+from diptych.campaigns.ensemble_profiles import profile_arrays
 from diptych.campaigns.input_file import read_seeds
 from diptych.campaigns.members import member_of_record
 from diptych.campaigns.study_file import quantity
@@ -208,6 +210,24 @@ def test_means_of_curves_need_all_members():
     half = stats.t.ppf(0.975, 1) * stats.sem([1, 3])
     assert (mean[0], low[0], high[0]) == pytest.approx((2, 2 - half, 2 + half))
     assert (mean[1], low[1], high[1]) == (2, 2, 2) and np.isnan([mean[2], low[2], high[2]]).all()
+
+
+def test_profiles_are_averaged_over_the_samples_that_reach_a_strip(tmp_path):
+    """Relative rotation of 41 strips k: k and k + 2 in two samples, the first without the last strip, the third without a band."""
+    names = ("relative_rotation", "spin", "couple_stress", "solid_fraction", "velocity_fluctuation")
+    for seed, n in enumerate((41, 41, 0)):
+        (tmp_path / str(seed)).mkdir()
+        with h5py.File(tmp_path / str(seed) / "comparison.h5", "w") as file:
+            for group in (file.create_group(f"window_0/profile/{panel}") for panel in ("discrete", "continuum")):
+                group["distance"] = np.arange(-20.0, 21)[:n]
+                for name in names:
+                    group[name] = np.tile(np.arange(41.0)[:n, None] + 2 * seed, 3)
+                    group[name].attrs.update(title=np.bytes_(name), unit=np.bytes_("rad"))
+                group["relative_rotation"][40 if n and not seed else n:] = np.nan
+    arrays = profile_arrays([str(tmp_path / str(seed)) for seed in range(3)])
+    mean, error, low = (arrays[f"window_0/profile/discrete/relative_rotation/{key}"][0] for key in ("mean", "standard_error", "low"))
+    assert mean[:40] == pytest.approx(np.arange(40) + 1) and error[:40] == pytest.approx(1)  # deviation sqrt(2) / sqrt(2)
+    assert low[:40] == pytest.approx(np.arange(40) + 1 - stats.t.ppf(0.975, 1)) and np.isnan([mean[40], error[40], low[40]]).all()
 
 
 def test_lists_of_seeds():

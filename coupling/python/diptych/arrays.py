@@ -101,6 +101,7 @@ class StressMap:
 
     mesh: Mesh
     stress: Array  # (k, 2, 2) [pressure], raw: not made symmetric
+    couple_stress: Array  # (k, 2) [pressure length]: of the contacts' couples and of their forces about the centres
     area: Array  # (k) [length^2]
     solid_fraction: Array  # (k) exact: area of the discs in a cell over its area
     covered: Array  # (k) bool: grains cover at least half of the typical share

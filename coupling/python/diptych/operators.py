@@ -12,7 +12,7 @@ import numpy as np
 from . import _diptych, scenes
 from .arrays import Array, Band, BandReport, Interval, Mesh, Record, StressMap
 
-_CONTACT = ("i", "j", "point", "force", "normal", "shift")
+_CONTACT = ("i", "j", "point", "force", "normal", "shift", "couple")
 
 
 def _column(table: Any, name: str) -> Any:
@@ -115,14 +115,14 @@ def map_stress(grains: Any, contacts: Any = None, mesh: Any = None, method: str 
 
     grains    snapshot of a DiscretePanel, or position (n, 2), or x and y, and radius (or r) [length] in a dict or a DataFrame
     contacts  i, j (c), point (c, 2) [length], force (c, 2) ON i from j [pressure length]; i is a grain, j a grain or (from n on) a
-              wall; shift (c) of a periodic image of j. Default for a snapshot: the mean forces over the stage, or before the first
+              wall; shift (c) of a periodic image of j; couple (c) ON i [pressure length^2]. Default for a snapshot: the mean forces over the stage, or before the first
               stage those of the instant.
     mesh      (nodes (m, 2), cells (k, 4) anticlockwise), grid(...), a continuum snapshot; default: grid over the grains' box, 3 d
     method    segments (branches cut by the cells), centroid, laguerre, kernel, projection
     period    width of a periodic cell [length], 0: none; default: that of the snapshot
     options   averaging_kernel, averaging_width [mean diameters]: as in the section comparison of a scene
 
-    Returns a StressMap: stress (k, 2, 2) positive in compression, row index = component of the force. The spin term, small in slow
+    Returns a StressMap: stress (k, 2, 2) positive in compression, row index = component of the force, and couple_stress (k, 2). The spin term, small in slow
     flow, is not added. Source: coupling/averaging (branches: Drescher & de Josselin de Jong 1972; Bagi 1996). Raises SceneError for a
     wrong option, ValueError for a wrong array.
     """

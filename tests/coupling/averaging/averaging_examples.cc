@@ -81,6 +81,71 @@ namespace
       }
   }
 
+  // A column of discs, 1.3 wide, of different radii. Every contact carries the horizontal force 0.7 on the upper disc, and the
+  // couples balance: each disc takes up 0.7 x its diameter. The skew stress is then uniform, s_xy - s_yx = 0.7/1.3, and in a
+  // continuum in equilibrium the couple stress changes linearly by this amount per length. The mapped one is exact in cells of
+  // any height, the reference point of each being its centre. Couples at the contacts alone would make a staircase.
+  TEST(Averaging, CoupleStressOfAColumnOfDiscsIsThatOfACosseratContinuum)
+  {
+    const double force = 0.7, width = 1.3, at_bottom = 0.4;
+    Network      column;
+    double       y = 0;
+    for (const double radius : {0.3, 0.5, 0.4, 0.65, 0.3, 0.55, 0.5, 0.35})
+      {
+        column.position.emplace_back(0.2, y + radius);
+        column.radius.push_back(radius);
+        const int                       i = int(column.radius.size()) - 1;
+        diptych::discrete::ContactForce below{i, i > 0 ? i - 1 : 9, {0.2, y}, {0, 1}, {force, 1}};
+        below.couple = at_bottom + force * y; // on the upper disc
+        column.contacts.push_back(below);
+        y += 2 * radius;
+      }
+    diptych::discrete::ContactForce top{7, 8, {0.2, y}, {0, -1}, {-force, -1}};
+    top.couple = -(at_bottom + force * y);
+    column.contacts.push_back(top);
+
+    const Carriers    carriers = moment_carriers(column.position, column.radius, column.contacts);
+    const QuadMesh    mesh     = box_mesh({-0.45, 0}, {width - 0.45, y}, 1, 5);
+    const TargetCells target(mesh);
+    const CellSums    sums = distribute({}, target, carriers);
+    for (unsigned int k = 0; k < target.n_cells(); ++k)
+      {
+        const double skew = (sums.uniform(k, 1) - sums.uniform(k, 2)) / target.area[k], middle = cell_centre(mesh, k).y();
+        EXPECT_NEAR(skew, force / width, 1e-12);
+        EXPECT_NEAR((sums.uniform(k, couple_moment + 1) + sums.tapered(k, 1)) / target.area[k],
+                    (at_bottom + force * middle) / width, 1e-12);
+      }
+    Eigen::Vector2d of_grains = Eigen::Vector2d::Zero(); // conservative
+    for (const Eigen::Vector2d &moment : couple_moments(carriers))
+      of_grains += moment;
+    const double total = y * (at_bottom + force * y / 2);
+    EXPECT_NEAR(of_grains.y(), total, 1e-12);
+    // The couples at the ends, times their distances from a point, give the couple stress of the whole column only about its
+    // centroid. About another point the moment of the skew stress belongs to it (Elias and Cusatis, arXiv 2412.12616).
+    for (const double point : {0., y / 2, 5.})
+      {
+        const double at_ends   = (at_bottom + force * y) * (y - point) + at_bottom * point;
+        const double of_stress = force * ((y - point) * (y - point) - point * point) / 2;
+        EXPECT_NEAR(at_ends - of_stress, total, 1e-12);
+      }
+  }
+
+  // Random forces and couples, nothing in equilibrium: sum_K |K| mu_K grad N_a plus the skew stress with N_a must equal the
+  // couples of the grains with N_a at their centres, minus those of the platens, at every node of mesh and collar.
+  TEST(Averaging, CouplesBalanceAtEveryNode)
+  {
+    std::mt19937_64 random(25);
+    Network         network = random_network({-2, -2}, {22, 32}, 800, 24);
+    for (auto &contact : network.contacts)
+      contact.couple = normal(random);
+    Carriers carriers    = moment_carriers(network.position, network.radius, network.contacts);
+    carriers.judge_nodes = true;
+    for (const NamedMesh &mesh : averaging_meshes())
+      EXPECT_LT(distribute({}, TargetCells(mesh.mesh), carriers).couple_residual, 1e-12) << mesh.name;
+    carriers.tapered *= 1.001;
+    EXPECT_GT(distribute({}, TargetCells(averaging_meshes()[0].mesh), carriers).couple_residual, 1e-6);
+  }
+
   // The moments of cells must equal those of map_grains(), which keeps triangles separate. This includes parts outside the mesh
   // and periodic samples. So map_grains() has all invariances of the method segments.
   TEST(Averaging, SegmentsAgreesWithTheMappingOntoTriangles)

@@ -57,6 +57,49 @@ namespace
     EXPECT_NEAR(d.half_width.value, 0, 0.02);
   }
 
+  // Grains and nodes turn with the material and beyond it by a known profile of half width 2. Its amplitude is a third of the
+  // spin's, (travel/2)/3 x 1/2. Averaging over 2.5 d spreads both profiles by one d along each axis, the same in both panels. The
+  // fit with the half width 3 of the band gives 0.7 of the amplitude. Periodic sides change nothing away from them.
+  TEST(Compare, ProfilesAcrossTheBandHoldTheKnownRotation)
+  {
+    const double travel = 2 * example_step.norm(), spin = travel / 12, beyond = spin / 3;
+    const auto   rotation = [&](const Eigen::Vector2d &x, const double stage) {
+      const double across = (x - Eigen::Vector2d(20, 28)).dot(Eigen::Vector2d(1, 1)) / std::sqrt(2.);
+      return -stage / 2 * (spin / std::pow(std::cosh(across / 3), 2) + beyond / std::pow(std::cosh(across / 2), 2));
+    };
+    Scene scene                             = example_scene();
+    scene.comparison.probes.probe_resamples = 100;
+    for (const double cell_width : {0., double(example_columns)})
+      {
+        Results results = example_results();
+        for (int stage = 0; stage <= 2; ++stage)
+          {
+            diptych::discrete::Snapshot  &grains = results.discrete.snapshots[std::size_t(stage)];
+            diptych::continuum::Snapshot &nodes  = results.continuum.snapshots[std::size_t(stage)];
+            grains.cell_width                    = cell_width;
+            for (std::size_t i = 0; i < grains.position.size(); ++i)
+              grains.rotation[i] = rotation(grains.position[i], stage);
+            for (const Eigen::Vector2d &x : nodes.position)
+              nodes.rotation.push_back(rotation(x, stage));
+          }
+        const Comparison c = compare(scene, results);
+        for (const PanelIncrement *panel : {&c.windows[0].discrete, &c.windows[0].continuum})
+          {
+            ASSERT_TRUE(panel->profile);
+            const BandProfile &p = *panel->profile;
+            EXPECT_NEAR(p.spin_amplitude.value, spin, 0.1 * spin);
+            EXPECT_NEAR(p.rotation_amplitude.value, 0.7 * beyond, 0.1 * beyond);
+            EXPECT_NEAR(p.rotation_width_10_90.value, 2.197 * 2.45, 0.4);
+            EXPECT_NEAR(p.loosening.value, 0, 0.01);
+            EXPECT_NEAR(p.couple_stress_peak.value, 0, 1e-12); // central forces only
+            EXPECT_NEAR(p.relative_rotation.value[4], 0, 0.01 * spin);
+          }
+        EXPECT_EQ(c.windows[0].discrete.profile->velocity_fluctuation.value[20], 0);
+        EXPECT_TRUE(std::isnan(c.windows[0].continuum.profile->velocity_fluctuation.value[20]));
+      }
+    EXPECT_TRUE(std::isnan(example().windows[0].continuum.profile->relative_rotation.value[20])); // a classical continuum
+  }
+
   TEST(Compare, FrameHasTheOutlinesBoxAndThePlatensTravel)
   {
     const Increment &window = example().windows[0];

@@ -26,6 +26,7 @@ namespace
         fields.displacement_increment.emplace_back(x.x(), 0);
         fields.rotation_increment.push_back(x.y());
         fields.dissipation.push_back(3);
+        fields.volume_ratio.push_back(1);
       }
     return fields;
   }

@@ -20,6 +20,7 @@ from .. import _diptych
 from ..errors import SceneError
 from . import ensemble_summary, validation
 from .engine import DONE, NOT_CONVERGED, Options, Run, complain, execute, panels, run_program, say
+from .ensemble_profiles import profile_arrays
 from .folders import Folder, Runs, draw, read_json, write_arrays, write_json, write_text
 from .histories import panel_table, resampled, running_mean
 from .input_file import read_seeds, settings_of
@@ -116,6 +117,7 @@ def _write_curves(directory: str, scene: Any, seeds: Sequence[int]) -> None:
             arrays[group + "low"] = (low, "lower end", "-",
                                      "lower end of the 95 % Student interval of the mean; nan like the mean")
             arrays[group + "high"] = (high, "upper end", "-", "upper end of the same interval; nan like the mean")
+    arrays |= profile_arrays([member_folder(directory, seed) for seed in seeds])
     write_arrays(os.path.join(directory, "ensemble.h5"), arrays, {"/": {"averaging_width": width}})
 
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 import os
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -22,6 +22,7 @@ class Ensemble:
     """quantities: by name. numbers: those of a member's comparison. averaging: width of the running means; None: not stored.
 
     curves: {"discrete/stress_ratio": {"members": (m, n), "mean": (n), "low": (n), "high": (n)}} over progress (n); {} if absent.
+    profiles: {window number: {panel: {"distance": (k), name: (k, 3) mean, low, high}}} of windows in which both panels have profiles.
     """
 
     folder: str
@@ -34,6 +35,7 @@ class Ensemble:
     averaging: float
     scene_text: str
     provenance: dict
+    profiles: dict = field(default_factory=dict)
 
     @property
     def parameters_from(self):
@@ -53,12 +55,13 @@ class Ensemble:
 def load(folder):
     """The ensemble of a folder. Raises InputError if ensemble.json is missing, broken or has another format."""
     record = read_json(os.path.join(folder, "ensemble.json"), FORMAT)
-    progress, curves, averaging = _curves(os.path.join(folder, "ensemble.h5"))
     member, provenance = _member(folder, record["done"]), os.path.join(folder, "provenance.json")
+    progress, curves, profiles, averaging = _curves(os.path.join(folder, "ensemble.h5"),
+                                                    member.get("pressure", 1) * member.get("mean_diameter", 1))
     return Ensemble(folder, record, {q["name"]: q for q in record["quantities"]}, Descriptions(member.get("numbers")),
                     loading_variable_of(record.get("walk", member.get("walk"))), progress, curves, averaging,
                     read_text(os.path.join(folder, "ensemble.prm")),
-                    read_provenance(provenance) if os.path.isfile(provenance) else {})
+                    read_provenance(provenance) if os.path.isfile(provenance) else {}, profiles)
 
 
 def _member(folder, seeds):
@@ -67,11 +70,23 @@ def _member(folder, seeds):
     return next((read_json(path) for path in paths if os.path.isfile(path)), {})
 
 
-def _curves(path):
+def _curves(path, couple_unit):
     if not os.path.isfile(path):
-        return None, {}, None
+        return None, {}, {}, None
     with open_arrays(path) as file:
         curves = {f"{panel}/{name}": {key: item[()] for key, item in group.items()}
                   for panel in PANEL_NAMES for name, group in file.get(panel, {}).items()}
         averaging = file.attrs.get("averaging_width")
-        return file["progress"][()], curves, None if averaging is None else float(averaging)
+        return file["progress"][()], curves, _profiles(file, couple_unit), None if averaging is None else float(averaging)
+
+
+def _profiles(file, couple_unit):
+    found = {}
+    for window in (name for name in file if name.startswith("window_")):
+        panels = {panel: {name: item[()] if name == "distance" else np.column_stack([item[key][()] for key in ("mean", "low", "high")])
+                          for name, item in group.items()} for panel, group in file[window + "/profile"].items()}
+        if len(panels) == len(PANEL_NAMES):
+            for panel in panels.values():
+                panel["couple_stress"] /= couple_unit
+            found[int(window.rpartition("_")[2])] = panels
+    return found

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 from diptych_report.charts import ensemble as figures
-from diptych_report.charts import style
+from diptych_report.charts import profiles, style
 from diptych_report.data.ensemble import load
 from diptych_report.page.writing import template, write
 from diptych_report.tables import ensemble as tables
@@ -25,9 +25,11 @@ def page(results):
     curves = [(figures.curves(results, "stress_ratio", "stress ratio t/s"), "Stress ratio of the whole sample." + lines),
               (figures.curves(results, "volumetric_strain", "volumetric strain (%)", 100),
                "Volumetric strain 1 − V/V₀; dilation is negative." + lines)]
+    last = max(results.profiles, default=None)
+    across = None if last is None else profiles.of_means(results.profiles[last], "means over the samples")
     return template("ensemble.html").render(
         record=results.record, first=summary.first(results.record), verdicts=rows,
         validation=tables.validation_table(results),
-        differences=figures.differences(labelled), dots=dots, curves=curves,
+        differences=figures.differences(labelled), dots=dots, curves=curves, across=across,
         bands=tables.band_table(results), members=tables.members(results), quantities=tables.quantity_table(results),
         provenance=tables.provenance(results), fitted=results.parameters_from)

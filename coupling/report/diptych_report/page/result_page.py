@@ -1,7 +1,7 @@
 # diptych: report.html of a result folder
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
-from diptych_report.charts import chains, circular, histories, ledgers, probes, resolution, strips, style, trends
+from diptych_report.charts import chains, circular, histories, ledgers, probes, profiles, resolution, strips, style, trends
 from diptych_report.charts.style import Pair
 from diptych_report.data.result import load
 from diptych_report.page import viewer
@@ -45,6 +45,7 @@ def parts(result):
             "notes": paragraph((i.record.get("difference") or {}).get("stress_verdict"))}, "difference"),
         Part("arrows", "Displacements and velocities", every, end, lambda i: {}, "arrows"),
         Part("strips", "Sixteen strips parallel to the band", every, end, lambda i: {"pair": strips.pair(i)}),
+        Part("profiles", "Profiles across the band", [i for i in every if i.kind == "window"] or stages, end, lambda i: {"pair": profiles.pair(i)}),
         Part("probes", "Probes: mean stress and contact normals", stages, end, lambda i: {
             "roses": probes.roses(i), "notes": [], "tables": [
                 stage.probes(result, i), stage.differences(result, i), stage.grain_pressures(result, i)]}, "probes"),

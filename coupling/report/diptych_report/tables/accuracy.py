@@ -7,6 +7,7 @@ from diptych_report.data.scene import scene_value
 from diptych_report.tables.wording import ABSENT, EXPECTED, number, rounded, shown_unit
 
 MAPPING = {"total_relative_error": "conservative: round-off", "nodal_residual": "identity of virtual power: round-off",
+           "couple_residual": "balance of moment: round-off",
            "outside_share": "the program warns above 5 %"}
 
 

@@ -68,9 +68,10 @@ def stress_difference(result, increment):
 def mapping(result):
     """Errors of the mapping at each stage."""
     rows = [[result.loading_variable.text(stage.end), str(kept.get("method", "")), number(kept.get("total_relative_error"), "", 2),
-             number(kept.get("nodal_residual"), "", 2), rounded(kept.get("outside_share"), "%", 2)]
+             *[number(kept.get(key), "", 2) for key in ("nodal_residual", "couple_residual")],
+             rounded(kept.get("outside_share"), "%", 2)]
             for stage in result.stages for kept in [stage.record.get("mapping") or {}] if kept]
-    words = [result.numbers.meaning(f"stages/mapping/{key}") for key in ("total_relative_error", "nodal_residual", "outside_share")]
+    words = [result.numbers.meaning(f"stages/mapping/{key}") for key in ("total_relative_error", "nodal_residual", "couple_residual", "outside_share")]
     return {"head": [result.loading_variable.word, "method", *words], "rows": rows} if rows else None
 
 
