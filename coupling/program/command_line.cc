@@ -223,6 +223,14 @@ namespace diptych::coupling
         add_overwrite(point);
         add_quiet(point);
 
+        CLI::App *element = add(Command::element,
+                                "drive grains and the law's point along one path and draw them beside each other");
+        add_scene(element);
+        element->add_option("--seeds", ignored, "samples of the grains, a list like 1-4 (default: the scene's one)")
+          ->type_name("LIST");
+        add_output(element, "folder of the results (default: results/<scene name>_element)");
+        add_many_runs(element);
+
         CLI::App *law = add(Command::check_law, "check tangent, objectivity, dissipation, repeatability of a law of your own");
         law->add_option("SCENE", line.target, "scene file, or a shared library, .so, with its usual parameters")->required();
         add_set(law);

@@ -24,6 +24,7 @@ namespace diptych::coupling
     discrete,
     continuum,
     material_point,
+    element,
     check_law,
     solve,
     compare,
