@@ -76,7 +76,8 @@ namespace diptych::coupling
       refuse_contact(contact);
     action(unsigned(contact.i), Eigen::Vector2d(contact.point - position[contact.i]), contact.force);
     if (contact.j < n)
-      action(unsigned(contact.j), Eigen::Vector2d(contact.point - position[contact.j] - Eigen::Vector2d(contact.shift, 0)),
+      action(unsigned(contact.j),
+             Eigen::Vector2d(contact.point - position[contact.j] - Eigen::Vector2d(contact.shift, contact.shift_y)),
              Eigen::Vector2d(-contact.force));
   }
 } // namespace diptych::coupling

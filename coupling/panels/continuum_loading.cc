@@ -98,6 +98,7 @@ namespace diptych::coupling
         case discrete::LoadingVariable::shear_strain:
           return continuum::LoadingVariable::shear_strain;
         case discrete::LoadingVariable::time:
+        case discrete::LoadingVariable::path:
           break;
         }
       return continuum::LoadingVariable::time;
@@ -120,6 +121,7 @@ namespace diptych::coupling
         case Lateral::periodic:
           return continuum::PeriodicSides{widening};
         case Lateral::none:
+        case Lateral::cell:
           return continuum::FreeSides{};
         case Lateral::end_grains:
           break;
@@ -314,6 +316,8 @@ namespace diptych::coupling
 
   continuum::Loading continuum_loading(const Scene &scene, const ContinuumSample &sample)
   {
+    if (scene.loading.mode == LoadingMode::path)
+      throw SceneError("loading/mode = path has no counterpart on a mesh: use `diptych element` or `diptych material-point`");
     const WallDrives drives = drives_of(scene.discrete.drives);
     const double rate = discrete::strain_rate(discrete_loading(scene.loading), scene.sample.mean_diameter, scene.sample.density);
     continuum::Loading loading;

@@ -233,6 +233,7 @@ namespace diptych::coupling
       const bool        time = o.mode == LoadingMode::time;
       unless(time, mode, {"duration", "stage_time"});
       unless(!time, mode, {"axial_strain", "stage_strain", "inertial_number", "strain_rate", "affine_start"});
+      unless(o.mode == LoadingMode::path, mode, {"path"});
       unless(o.mode == LoadingMode::descent, mode, {"horizontal_over_vertical"});
       unless(o.mode == LoadingMode::plane_shear, mode, {"normal_pressure"});
       const std::string stages = "loading/stages are given";
@@ -312,6 +313,10 @@ namespace diptych::coupling
   {
     check_comparison(scene, file, entries, compares);
     with_places({file, entries, ""}, [&] {
+      if (compares && scene.loading.mode == LoadingMode::path)
+        throw WrongKeys({"loading/mode", "discrete/lateral"},
+                        "loading/mode = path: a cell of grains has no counterpart on a mesh; `diptych element` compares it with a "
+                        "point of the law, `diptych discrete` runs it alone");
       const discrete::Loading loading = discrete_loading(scene.loading);
       discrete::validate(scene.sample, loading, scene.discrete);
       discrete::check_sample_file(scene.sample, discrete::preparation_setting(loading, scene.discrete),

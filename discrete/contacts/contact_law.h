@@ -87,7 +87,17 @@ namespace diptych::discrete
   inline RelativeVelocity relative_velocity(const ContactRow &c, const std::vector<BodyVelocity> &v)
   {
     const BodyVelocity &vi = v[c.i], &vj = v[c.j];
-    const double        dx = vi.x - vj.x - (c.cell >= 0 ? c.image * v[c.cell].x : 0.), dy = vi.y - vj.y;
+    double              dx = vi.x - vj.x, dy = vi.y - vj.y;
+    if (c.cell >= 0)
+      {
+        dx -= c.image * v[c.cell].x;
+        dy -= c.image * v[c.cell].y;
+      }
+    if (c.upward != 0)
+      {
+        dx -= c.upward * v[c.cell + 1].x;
+        dy -= c.upward * v[c.cell + 1].y;
+      }
     return relative_velocity(c.nx, c.ny, dx, dy, vi.surface, vj.surface);
   }
 

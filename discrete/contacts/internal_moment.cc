@@ -15,7 +15,7 @@ namespace diptych::discrete
       {
         moment[c.i] -= (c.point - position[c.i]) * c.force.transpose();
         if (std::size_t(c.j) < position.size())
-          moment[c.j] += (c.point - position[c.j] - Eigen::Vector2d(c.shift, 0)) * c.force.transpose();
+          moment[c.j] += (c.point - position[c.j] - Eigen::Vector2d(c.shift, c.shift_y)) * c.force.transpose();
       }
     return moment;
   }

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/panel/loading.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "discrete/contacts/lattice_motion.h"
 #include "discrete/files/out_of_memory.h"
 #include "discrete/samples/placed_grains.h"
 #include "discrete/samples/sample_file.h"
@@ -46,6 +48,7 @@ namespace diptych::discrete
         case LoadingMode::plane_shear:
           return {speed, 0};
         case LoadingMode::time:
+        case LoadingMode::path:
           break;
         }
       return {0, 0};
@@ -141,8 +144,46 @@ namespace diptych::discrete
     return loading.inertial_number / mean_diameter * std::sqrt(loading.pressure / density);
   }
 
+  namespace
+  {
+    LatticeDrive lattice_drive(const State &state, const LoadingStart &start)
+    {
+      const CellPath           &path  = start.loading.path;
+      const std::vector<double> times = times_of(path, start.loading.pressure, start.rate);
+      LatticeDrive              drive{path.form, path.is_stress, {}, lattice_inertia(state.grains)};
+      for (int k = 0; k < 3; ++k)
+        for (std::size_t row = 0; row < times.size(); ++row)
+          {
+            drive.value[k].time.push_back(times[row]);
+            drive.value[k].value.push_back(path.values[row][k]);
+          }
+      return drive;
+    }
+
+    // Prescribed strains start at their rate; the others as if the grains were elastic.
+    void start_lattice(State &state, const LoadingStart &start)
+    {
+      Grains  &g       = state.grains;
+      Lattice &lattice = *state.lattice;
+      state.time       = 0;
+      std::fill(g.velocity.begin(), g.velocity.end(), Eigen::Vector2d::Zero());
+      for (std::vector<double> *values : {&g.spin, &g.rotation})
+        std::fill(values->begin(), values->end(), 0.);
+      lattice.strain.setZero();
+      lattice.rate.setZero();
+      set_drives(state, start);
+      if (start.loading.affine_start)
+        lattice.rate = start_rate(lattice.drive);
+    }
+  } // namespace
+
   void set_drives(State &state, const LoadingStart &start)
   {
+    if (state.lattice)
+      {
+        state.lattice->drive = lattice_drive(state, start);
+        return;
+      }
     for (Wall &wall : state.walls)
       wall.drive_x = wall.drive_y = KeptVelocity{};
     if (state.cell)
@@ -156,6 +197,8 @@ namespace diptych::discrete
 
   void start_loading(State &state, const LoadingStart &start)
   {
+    if (state.lattice)
+      return start_lattice(state, start);
     const Loading         &loading = start.loading;
     const double           bottom = state.walls[0].point.y(), height = sample_height(state);
     const Eigen::Vector2d  velocity = platen_velocity(loading, start.rate * height);
@@ -189,9 +232,9 @@ namespace diptych::discrete
                           const Eigen::Vector2d &initial_platen,
                           const double           initial_height)
   {
-    const Eigen::Vector2d travel = state.walls[1].point - initial_platen;
     if (mode == LoadingMode::time)
       return state.time;
+    const Eigen::Vector2d travel = state.walls[1].point - initial_platen;
     return (mode == LoadingMode::descent ? -travel.y() : travel.x()) / initial_height;
   }
 } // namespace diptych::discrete

@@ -17,6 +17,8 @@ namespace diptych::discrete
       wall.velocity.setZero();
     if (state.cell)
       state.cell->velocity = 0;
+    if (state.lattice)
+      state.lattice->rate.setZero();
   }
 
   Settled settle(State &state, StepSetting setting, const SettlingOptions &options, const std::function<bool()> &go_on)

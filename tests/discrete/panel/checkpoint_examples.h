@@ -29,7 +29,7 @@ namespace
     void operator()(const Eigen::Matrix2d &m) { (*this)(Eigen::Vector2d(m.row(0))), (*this)(Eigen::Vector2d(m.row(1))); }
     void operator()(const ContactForce &c)
     {
-      (*this)(c.i), (*this)(c.j), (*this)(c.point), (*this)(c.normal), (*this)(c.force), (*this)(c.shift);
+      (*this)(c.i), (*this)(c.j), (*this)(c.point), (*this)(c.normal), (*this)(c.force), (*this)(c.shift), (*this)(c.couple);
     }
     void operator()(const ContactStatus &status) { (*this)(double(status)); }
     void operator()(const PairImpulse &r)
