@@ -6,7 +6,6 @@
 Runs `diptych element scene.prm` on every path and prints the root mean square of law - grains with the standard error of the
 grains, and the largest error of a prescribed stress in any step. Exit code 1: a number is outside its interval; 2: a run failed."""
 import argparse
-import csv
 import glob
 import json
 import os
@@ -21,18 +20,16 @@ SCENE = os.path.join(HERE, "scene.prm")
 TABLES = {"cycle": "cycle.csv", "rotation": "rotation.csv"}
 # Path -> further settings.
 PATHS = {"drained": (), "constant_volume": (), "constant_mean_stress": (), "simple_shear": (), "cycle": (), "rotation": ()}
-COLUMNS = (("stress_ratio", 1, "t/s"), ("volumetric_strain", 100, "volumetric strain [%]"), ("fabric_anisotropy", 1, "anisotropy a of the fabric"),
-           ("coordination", 1, "contacts per grain"))
+COLUMNS = (("stress_ratio", 1, "t/s"), ("volumetric_strain", 100, "volumetric strain [%]"),
+           ("fabric_anisotropy", 1, "anisotropy a of the fabric"), ("coordination", 1, "contacts per grain"))
 CONTROLS = {"sxx": ("drive_sxx", ), "syy": ("drive_syy", ), "sxy": ("drive_sxy", ), "mean_stress": ("drive_sxx", "drive_syy")}
 NAMED = {"drained": {"sxx": 1}, "constant_volume": {}, "constant_mean_stress": {"mean_stress": 1}, "simple_shear": {"syy": 1}}
 STRESS_ERROR = 1e-9  # of a prescribed stress, in units of the pressure
 
 
 def columns(path):
-    with open(path, encoding="utf-8") as file:
-        rows = list(csv.reader(file))
-    return {name: numpy.array([float(v) if v not in ("", "path", "reliable", "zz_outside", "unreliable") else numpy.nan for v in values])
-            for name, values in zip(rows[0], zip(*rows[1:]))}
+    rows = numpy.genfromtxt(path, delimiter=",", names=True)  # NaN where there is a text
+    return {name: rows[name] for name in rows.dtype.names}
 
 
 def run(options, path):
@@ -42,8 +39,8 @@ def run(options, path):
         return folder
     settings = ("loading/path=" + (os.path.join(HERE, TABLES[path]) if path in TABLES else path), *PATHS[path])
     words = [word for setting in settings for word in ("--set", setting)]
-    done = subprocess.run([options.program, "element", SCENE, *words, "--seeds", options.seeds, "--output", folder, "--overwrite", "--quiet"],
-                          capture_output=True, text=True)
+    words += ["--seeds", options.seeds, "--output", folder, "--overwrite", "--quiet"]
+    done = subprocess.run([options.program, "element", SCENE, *words], capture_output=True, text=True)
     if done.returncode != 0:
         sys.stderr.write(f"check.py: {path} ended with exit code {done.returncode}: {done.stderr.strip()}\n")
         sys.exit(2)
@@ -104,7 +101,8 @@ def main():
             n_outside += error > STRESS_ERROR
             print(f"{path}: largest error of a prescribed stress {error:.1e} P" + (" OUTSIDE" if error > STRESS_ERROR else ""))
             for one in rms:
-                print(f"    {one['quantity']:20}law - grains {one['value']:.4g} +- {one['error']:.2g}, standard error of the grains {one['noise']:.2g}")
+                print(f"    {one['quantity']:20}law - grains {one['value']:.4g} +- {one['error']:.2g}, "
+                      f"standard error of the grains {one['noise']:.2g}")
         if options.figure:
             draw(folders, options.figure)
     return 1 if n_outside else 0

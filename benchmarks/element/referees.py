@@ -42,7 +42,7 @@ def prepared(folder):
     """(positions, radii, lattice vectors as columns) of the prepared cell."""
     with h5py.File(os.path.join(folder, "discrete.h5")) as file:
         stage = file["stage_0000"]
-        vectors = numpy.array([stage.attrs["lattice_" + name] for name in ("a1_x", "a2_x", "a1_y", "a2_y")]).reshape(2, 2)
+        vectors = numpy.array([stage.attrs["cell_" + name] for name in ("a1_x", "a2_x", "a1_y", "a2_y")]).reshape(2, 2)
         return stage["grains/position"][:, :2], stage["grains/radius"][:], vectors
 
 

@@ -96,10 +96,13 @@ namespace diptych::coupling
     }
   } // namespace
 
-  int run_material_point(const CommandLine &line)
+  int run_material_point(const CommandLine &given)
   {
-    const Scene                scene = scene_of(line);
-    const continuum::PointPath path  = path_of(line, scene);
+    const Scene scene = scene_of(given);
+    CommandLine line  = given;
+    if (line.path.empty())
+      line.path = scene.loading.mode == discrete::LoadingMode::path ? scene.loading.path.text : "drained";
+    const continuum::PointPath path = path_of(line, scene);
     return writing(scene.output.directory, [&](FolderLock &lock) {
       Opening opening = opening_of(line, true);
       if (!continuum::value_of<continuum::NamedPath>(line.path))

@@ -73,8 +73,8 @@ def _write(directory: str, record: dict[str, Any], curves: Curves) -> None:
 
 
 def run_element(line: argparse.Namespace, options: Options) -> int:
-    """diptych element SCENE. line: target, seeds, output, set, set_file. Returns the exit code; 3: a run ended before the end of
-    the path, or stopped on request."""
+    """diptych element SCENE. line: target, seeds, output, set, set_file. Returns the exit code; 3: a run ended before the end
+    of the path, or stopped on request."""
     settings = settings_of(line.set, line.set_file)
     scene = _diptych.read_changed_scene(line.target, settings, False)
     seeds = read_seeds(line.seeds) if line.seeds else [scene.dict()["sample"]["seed"]]

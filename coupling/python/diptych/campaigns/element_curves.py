@@ -1,7 +1,8 @@
 # diptych: curves of grains and of the law's point along one path, and their numbers
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The path is divided into BINS equal parts of its progress. Every curve has the mean of each part; t/s, anisotropy and
-directions are those of the mean stress and of the mean fabric. Arrays of the grains are (sample, part); NaN: beyond the end of a run."""
+directions are those of the mean stress and of the mean fabric. Arrays of the grains are (sample, part); NaN: beyond the end of a run.
+"""
 
 from __future__ import annotations
 
@@ -42,9 +43,8 @@ def _means(x: np.ndarray, y: np.ndarray, edges: np.ndarray) -> np.ndarray:
 
 def _curves_of(table: pd.DataFrame, edges: np.ndarray, pressure: float) -> dict[str, np.ndarray]:
     if "syx" in table:  # of grains
-        double = np.radians(2 * table["fabric_angle"])
-        table = table.assign(sxy=0.5 * (table["sxy"] + table["syx"]), exy=0.5 * table["two_exy"],
-                             cosine=table["fabric_anisotropy"] * np.cos(double), sine=table["fabric_anisotropy"] * np.sin(double))
+        a, double = table["fabric_anisotropy"], np.radians(2 * table["fabric_angle"])
+        table = table.assign(sxy=0.5 * (table["sxy"] + table["syx"]), cosine=a * np.cos(double), sine=a * np.sin(double))
     x = table["progress"].to_numpy()
     found = {name: _means(x, table[name].to_numpy(), edges) for name in (*QUANTITIES, "cosine", "sine") if name in table}
     half, shear, s = 0.5 * (found["sxx"] - found["syy"]), found["sxy"], 0.5 * (found["sxx"] + found["syy"])
