@@ -30,11 +30,11 @@ def draw(axis, stage, rotation):
     start = position[body[:, 0]]
     for i, j in IMAGES:
         shift = vectors @ (i, j)
-        grains = EllipseCollection(2 * radius, 2 * radius, 0 * radius, units="xy", offsets=position + shift, transOffset=axis.transData,
-                                   array=rotation, cmap="RdBu", edgecolors="0.6", linewidths=0.3)
+        grains = EllipseCollection(2 * radius, 2 * radius, 0 * radius, units="xy", offsets=position + shift,
+                                   transOffset=axis.transData, array=rotation, cmap="RdBu", edgecolors="0.6", linewidths=0.3)
         grains.set_clim(-TURN, TURN)
-        lines = LineCollection(numpy.stack([start + shift, start + shift + branch], axis=1), colors="k", linewidths=1.2 * force / force.mean(),
-                               capstyle="round")
+        lines = LineCollection(numpy.stack([start + shift, start + shift + branch], axis=1), colors="k",
+                               linewidths=1.2 * force / force.mean(), capstyle="round")
         for artist in (grains, lines):
             axis.add_collection(artist)
             artist.set_clip_path(clip)

@@ -24,7 +24,7 @@ import lammps  # noqa: E402
 SCENE, WALLS = os.path.join(HERE, "scene.prm"), os.path.join(HERE, "../dense_biaxial/scene.prm")
 BEGIN, END = 0.005, 0.04  # strain over which strengths are taken
 INTERIOR = 4.  # mean diameters
-STIFFNESS = 1e4
+STIFFNESS, RATE = 1e4, 1.13e-3  # kn/P and inertial number, that of scene.prm
 
 
 def strength(columns):
@@ -32,8 +32,8 @@ def strength(columns):
     x = columns["progress"]
     inside = (x > BEGIN) & (x <= END * (1 + 1e-9))
     if "t" not in columns:
-        shear = 0.5 * (columns["sxy"] + columns["syx"])
-        columns = {**columns, "t": numpy.hypot(0.5 * (columns["sxx"] - columns["syy"]), shear), "s": 0.5 * (columns["sxx"] + columns["syy"])}
+        half, shear = 0.5 * (columns["sxx"] - columns["syy"]), 0.5 * (columns["sxy"] + columns["syx"])
+        columns = {**columns, "t": numpy.hypot(half, shear), "s": 0.5 * (columns["sxx"] + columns["syy"])}
     t, s = (numpy.trapz(columns[name][inside], x[inside]) for name in ("t", "s"))
     return t / s, columns["volumetric_strain"][inside][-1]
 
@@ -76,11 +76,11 @@ def against_lammps(run):
         springs = ("discrete/method=penalty", f"discrete/penalty_stiffness={STIFFNESS:g}")
         found = {"NSCD": [], "springs": [], "LAMMPS": []}
         for seed in run.seeds:
-            one = run.of(seed).run(path, "discrete", SCENE, f"loading/path={path}")
-            found["NSCD"].append(strength(one.grains))
-            found["springs"].append(strength(run.of(seed).run(path + "_springs", "discrete", SCENE, f"loading/path={path}", *springs).grains))
-            found["LAMMPS"].append(strength(lammps.run(prepared(one.folder), os.path.join(run.folder(seed), path + "_lammps"), path, STIFFNESS,
-                                                       1.13e-3, END)))
+            rigid, soft = (run.of(seed).run(path + name, "discrete", SCENE, f"loading/path={path}", *more)
+                           for name, more in (("", ()), ("_springs", springs)))
+            other = lammps.run(prepared(rigid.folder), os.path.join(run.folder(seed), path + "_lammps"), path, STIFFNESS, RATE, END)
+            for name, history in zip(found, (rigid.grains, soft.grains, other)):
+                found[name].append(strength(history))
         shown(f"{path}: LAMMPS", found["LAMMPS"], found["LAMMPS"])
         outside |= abs(shown(f"{path}: springs", found["springs"], found["LAMMPS"])) > 0.02
         shown(f"{path}: NSCD", found["NSCD"], found["LAMMPS"])
