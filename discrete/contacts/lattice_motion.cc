@@ -3,7 +3,6 @@
 #include "discrete/contacts/lattice_motion.h"
 
 #include <cmath>
-#include <numeric>
 
 namespace diptych::discrete
 {
@@ -32,10 +31,10 @@ namespace diptych::discrete
 
   Eigen::Matrix3d lattice_inertia(const Grains &grains)
   {
-    constexpr double share = 1. / 3;
-    const double     n     = double(grains.size());
-    const double     d     = 2 * std::accumulate(grains.radius.begin(), grains.radius.end(), 0.) / n;
-    return share * d * d * std::accumulate(grains.mass.begin(), grains.mass.end(), 0.) * isotropic;
+    double sum = 0; // of mass x diameter^2
+    for (std::size_t i = 0; i < grains.size(); ++i)
+      sum += 4 * grains.mass[i] * grains.radius[i] * grains.radius[i];
+    return 0.6 * sum * isotropic;
   }
 
   LatticeMotion lattice_motion(const State &state, const double step)

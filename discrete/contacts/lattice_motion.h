@@ -24,8 +24,9 @@ namespace diptych::discrete
   // False if a control follows from the others, whatever the grains do: a matrix of elastic moduli stands for their response.
   bool determines_motion(const Eigen::Matrix3d &form, const std::array<bool, 3> &is_stress);
 
-  // Inertia of the strains: mass of the grains x (mean diameter)^2, with the ratios of an isotropic elastic response. A sweep
-  // over the contacts answers to a change of q like a body of half this inertia, so sweeps and lattice converge together.
+  // Inertia of the strains: mass x diameter^2 of the grains, with the ratios of an isotropic elastic response. A sweep over the
+  // contacts of a dense packing answers to a change of q like half of this inertia. With less than that half, sweeps and lattice
+  // would excite each other.
   Eigen::Matrix3d lattice_inertia(const Grains &grains);
 
   struct LatticeMotion
