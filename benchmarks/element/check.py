@@ -18,13 +18,15 @@ import numpy
 HERE = os.path.dirname(os.path.abspath(__file__))
 SCENE = os.path.join(HERE, "scene.prm")
 TABLES = {"cycle": "cycle.csv", "rotation": "rotation.csv"}
-# Path -> further settings.
-PATHS = {"drained": (), "constant_volume": (), "constant_mean_stress": (), "simple_shear": (), "cycle": (), "rotation": ()}
+# Path -> further settings. At constant volume rigid grains have no mean stress, so these have springs.
+PATHS = {"drained": (), "constant_mean_stress": (), "simple_shear": (), "constant_volume": ("discrete/method=penalty", ),
+         "cycle": (), "rotation": ("loading/inertial_number=1e-4", )}
 COLUMNS = (("stress_ratio", 1, "t/s"), ("volumetric_strain", 100, "volumetric strain [%]"),
            ("fabric_anisotropy", 1, "anisotropy a of the fabric"), ("coordination", 1, "contacts per grain"))
 CONTROLS = {"sxx": ("drive_sxx", ), "syy": ("drive_syy", ), "sxy": ("drive_sxy", ), "mean_stress": ("drive_sxx", "drive_syy")}
 NAMED = {"drained": {"sxx": 1}, "constant_volume": {}, "constant_mean_stress": {"mean_stress": 1}, "simple_shear": {"syy": 1}}
-STRESS_ERROR = 1e-9  # of a prescribed stress, in units of the pressure
+# Largest error of a prescribed stress in units of the pressure. A row of a table may begin within a step, over which the mean acts.
+STRESS_ERROR = {"rotation": 1e-3}
 
 
 def columns(path):
@@ -48,13 +50,15 @@ def run(options, path):
 
 
 def stress_error(folder, path):
-    """Largest difference of a prescribed stress from that which drives the cell, over all steps of all samples."""
+    """Largest difference of a prescribed stress from that which drives the cell, over all steps of all samples. It acts over the
+    step, so that its value in the middle counts."""
     table = columns(os.path.join(HERE, TABLES[path])) if path in TABLES else {**NAMED[path], "progress": None}
     worst = 0.
     for file in glob.glob(os.path.join(folder, "runs", "*", "discrete.csv")):
         rows = columns(file)
+        middle = rows["progress"] - 0.5 * numpy.diff(rows["progress"], prepend=0)
         for name in CONTROLS.keys() & table.keys():
-            wanted = table[name] if path in NAMED else numpy.interp(rows["progress"], table["progress"], table[name])
+            wanted = table[name] if path in NAMED else numpy.interp(middle, table["progress"], table[name])
             worst = max(worst, abs(numpy.mean([rows[c] for c in CONTROLS[name]], axis=0) - wanted)[1:].max())
     return worst
 
@@ -98,8 +102,9 @@ def main():
             with open(os.path.join(folder, "element.json"), encoding="utf-8") as file:
                 rms = json.load(file)["rms"]
             error = stress_error(folder, path)
-            n_outside += error > STRESS_ERROR
-            print(f"{path}: largest error of a prescribed stress {error:.1e} P" + (" OUTSIDE" if error > STRESS_ERROR else ""))
+            outside = error > STRESS_ERROR.get(path, 1e-12)
+            n_outside += outside
+            print(f"{path}: largest error of a prescribed stress {error:.1e} P" + ("   OUTSIDE" if outside else ""))
             for one in rms:
                 print(f"    {one['quantity']:20}law - grains {one['value']:.4g} +- {one['error']:.2g}, "
                       f"standard error of the grains {one['noise']:.2g}")
