@@ -59,6 +59,14 @@ namespace diptych::discrete
     return text.str();
   }
 
+  std::string narrow_text(const int step, const double height)
+  {
+    std::ostringstream text;
+    text << "step " << step << ": the cell has become too narrow, its smaller height is " << height
+         << "; a larger sample/grains follows the path further";
+    return text.str();
+  }
+
   std::string endless_text(const int stage, const double steps, const StepChoice &choice)
   {
     std::ostringstream text;

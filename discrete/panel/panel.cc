@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/panel/panel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <stdexcept>
@@ -189,6 +190,18 @@ namespace diptych::discrete
       return true;
     }
 
+    // A large shear narrows every cell until a grain would meet two images of another one.
+    bool is_too_narrow()
+    {
+      const std::vector<double> &radius = now.state.grains.radius;
+      if (!now.state.lattice ||
+          least_height(*now.state.lattice) > 4 * (*std::max_element(radius.begin(), radius.end()) + 0.5 * sample_.mean_diameter))
+        return false;
+      now.report.status  = Status::not_converged;
+      now.report.message = narrow_text(now.row.step, least_height(*now.state.lattice));
+      return true;
+    }
+
     // Plans the next stage: a whole number of steps and a new window. Returns false if there are too many steps.
     bool plan_stage()
     {
@@ -330,7 +343,7 @@ namespace diptych::discrete
       now.report.progress     = follows_path()
                                   ? progress_at(loading_.path, times_, now.state.time)
                                   : loading_progress(now.state, loading_.mode, now.reference.platen, now.reference.height);
-      if (!done || runs_away())
+      if (!done || runs_away() || is_too_narrow())
         return;
       ++now.report.steps;
       --now.steps_left;
