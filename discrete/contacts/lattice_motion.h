@@ -59,7 +59,7 @@ namespace diptych::discrete
   {
     const std::size_t a1 = lattice.place.size() - 2;
     return c.cell < 0 ? Eigen::Vector2d(Eigen::Vector2d::Zero())
-                      : Eigen::Vector2d(c.image * lattice.place[a1] + c.upward * lattice.place[a1 + 1]);
+                      : Eigen::Vector2d(c.image.along * lattice.place[a1] + c.image.upward * lattice.place[a1 + 1]);
   }
 
   inline Eigen::Vector2d vector_of(const ContactRow &c, const Impulse &r)

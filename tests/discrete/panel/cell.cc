@@ -151,8 +151,10 @@ namespace
               ASSERT_LT(row.momentum_residual, 1e-11);
               for (int k = 0; k < 3; ++k)
                 if (test.is_stress[k])
-                  ASSERT_NEAR(test.form.row(k).dot(row.drive_stress),
-                              control_of(loading, k).at(row.time - 0.5 * course.report.step), 1e-10 * P);
+                  {
+                    ASSERT_NEAR(test.form.row(k).dot(row.drive_stress),
+                                control_of(loading, k).at(row.time - 0.5 * course.report.step), 1e-10 * P);
+                  }
               const Eigen::Vector3d contacts(row.stress(0, 0), row.stress(1, 1), row.stress(0, 1));
               inertia += (contacts - row.drive_stress).squaredNorm() / double(course.rows.size());
             }
@@ -161,7 +163,9 @@ namespace
           const Eigen::Vector3d strain(end.strain[0], end.strain[1], 2 * end.strain[2]);
           for (int k = 0; k < 3; ++k)
             if (!test.is_stress[k])
-              EXPECT_NEAR(test.form.row(k).dot(strain), test.values.back()[k], 1e-12);
+              {
+                EXPECT_NEAR(test.form.row(k).dot(strain), test.values.back()[k], 1e-12);
+              }
         }
   }
 
