@@ -49,24 +49,6 @@ namespace diptych::discrete
     return text.str();
   }
 
-  std::string runaway_text(const int step, const double inertial_number, const Lattice &lattice)
-  {
-    std::ostringstream text;
-    text << "step " << step
-         << ": the grains do not carry the stress that loading/path prescribes. The cell deforms at an inertial "
-         << "number of " << inertial_number << "; strains reached: exx " << lattice.strain[0] << ", eyy " << lattice.strain[1]
-         << ", exy " << 0.5 * lattice.strain[2];
-    return text.str();
-  }
-
-  std::string narrow_text(const int step, const double height)
-  {
-    std::ostringstream text;
-    text << "step " << step << ": the cell has become too narrow, its smaller height is " << height
-         << "; a larger sample/grains follows the path further";
-    return text.str();
-  }
-
   std::string endless_text(const int stage, const double steps, const StepChoice &choice)
   {
     std::ostringstream text;
