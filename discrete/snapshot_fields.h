@@ -64,7 +64,7 @@ namespace diptych::discrete
     visit("contacts/gap", s.gap, "length", "distance of the surfaces; negative: penetration");
     visit("contacts/status", s.status, "-", "0 open, 1 sticking, 2 slipping, 3 unknown (imported)");
     visit("window/dissipation", s.window_dissipation, "pressure length^2",
-          "friction dissipation, summed over the steps of the stage");
+          "dissipation by friction and rolling resistance, summed over the steps of the stage");
     visit("window/impact_dissipation", s.window_impact_dissipation, "pressure length^2",
           "dissipation along the normal, summed over the steps of the stage");
   }

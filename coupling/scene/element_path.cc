@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/scene/element_path.h"
 
-#include "coupling/scene/keys.h"
 #include "coupling/scene/scene_error.h"
 #include "discrete/files/csv_file.h"
 #include "discrete/files/words.h"
@@ -16,8 +15,10 @@ namespace diptych::coupling
 
   continuum::PointPath read_path_table(const std::string &file, const double pressure)
   {
-    const std::vector<std::string> controls = choices_of(continuum::Control());
-    discrete::CsvHeader            header{{}, controls};
+    std::vector<std::string> controls;
+    for (const auto &choice : choices(continuum::Control()))
+      controls.emplace_back(choice.second);
+    discrete::CsvHeader header{{}, controls};
     header.optional.push_back("progress");
     const discrete::CsvTable table = discrete::read_csv(file, header);
     continuum::PointPath     path{pressure, pressure * Eigen::Matrix2d::Identity(), pressure, {}, {}, {}};

@@ -118,7 +118,7 @@ namespace diptych::discrete
   };
 
   // Three controls of a lattice over time. A control is a linear form of the strains (exx, eyy, 2 exy) or of the stresses (sxx,
-  // syy, sxy). The controls must determine the motion: no_motion_follows() in contacts/lattice_motion.h.
+  // syy, sxy). The controls must determine the motion: determines_motion() in contacts/lattice_motion.h.
   struct LatticeDrive
   {
     Eigen::Matrix3d          form      = Eigen::Matrix3d::Identity(); // one row per control
@@ -157,6 +157,7 @@ namespace diptych::discrete
     int    i, j; // i < j
     double normal, tangential;
     double normal_change = 0, tangential_change = 0; // since the previous step; 0 if the pair did not act then
+    double rolling = 0, rolling_change = 0;          // couple / effective radius
   };
 
   struct State

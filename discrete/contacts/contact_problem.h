@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -17,29 +18,43 @@ namespace diptych::discrete
     double inverse_mass; // of a grain or the free cell; 0 for fixed grains and walls (jx, jy of the row) [1/mass]
   };
 
-  // Impulse on body i of a contact. Body j receives the opposite impulse.
+  // Impulse on body i of a contact. Body j receives the opposite impulse. `rolling` is the couple divided by the effective radius
+  // R of the contact: 1/R = 1/r_i + 1/r_j, or R = r_i at a plane. All three parts thus have the unit of an impulse.
   struct Impulse
   {
-    double normal = 0, tangential = 0;
+    double normal = 0, tangential = 0, rolling = 0;
+  };
+
+  // Number of cell widths (lattice vectors a1) and of lattice vectors a2 to an image.
+  struct RowImage
+  {
+    RowImage(const int along = 0, const int upward = 0)
+        : along(std::int16_t(along)),
+          upward(std::int16_t(upward))
+    {}
+
+    std::int16_t along, upward;
   };
 
   // One contact between bodies i and j: normal n from j to i, tangent t = n turned by +90 degrees, relative velocity
-  //   u_n = n.(v_i - v_j),  u_t = t.(v_i - v_j) - s_i - s_j.
+  //   u_n = n.(v_i - v_j),  u_t = t.(v_i - v_j) - s_i - s_j,  w = R (omega_i - omega_j) = a s_i - (1 - a) s_j,  a = R / r_i.
   struct alignas(64) ContactRow
   {
     // The velocities depend on these members. They fill one cache line, because they are read separately from the rest.
-    double nx, ny;
-    int    i = 0, j = 0;    // i is a grain
-    int    image = 0;       // j enters as its image this many cell widths (lattice vectors a1) away, which moves with the cell
-    int    cell  = -1;      // body whose velocity is that of the width or of a1, if the image moves; -1 otherwise
-    double ki, kj;          // r^2/I of each side, 2/m for a disc, 0 for a wall [1/mass]
-    double jx, jy;          // inverse mass of body j along x and y; they differ only for walls with one free component [1/mass]
-    double normal_term;     // c_n of  0 <= u_n' + c_n  _|_  r_n >= 0   [length/time]
-    double tangential_term; // c_t = e_t u_t of the friction law        [length/time]
-    double friction;        // mu
-    double inverse_wnn;     // 1 / (1/m_i + 1/m_j)                      [mass]
-    double inverse_wtt;     // 1 / (1/m_i + 1/m_j + k_i + k_j)          [mass]
-    int    upward = 0;      // lattice vectors a2 to the image; the velocity of a2 is that of the body after `cell`
+    double   nx, ny;
+    int      i = 0, j = 0; // i is a grain
+    RowImage image = {};   // j enters as this image, which moves with the cell
+    int      cell  = -1;   // body whose velocity is that of the width or of a1, if the image moves, followed by a2; -1 otherwise
+    double   ki, kj;       // r^2/I of each side, 2/m for a disc, 0 for a wall [1/mass]
+    double   jx, jy;       // inverse mass of body j along x and y; they differ only for walls with one free component [1/mass]
+    double   normal_term;  // c_n of  0 <= u_n' + c_n  _|_  r_n >= 0   [length/time]
+    double   tangential_term;    // c_t = e_t u_t of the friction law        [length/time]
+    double   friction;           // mu
+    double   inverse_wnn;        // 1 / (1/m_i + 1/m_j)                      [mass]
+    double   inverse_wtt;        // 1 / (1/m_i + 1/m_j + k_i + k_j)          [mass]
+    double rolling_friction = 0; // bound of |r_m| / r_n: mu_r times length of the law / R; the next two count only if it is not 0
+    double rolling_arm      = 0; // a; -a if the row is turned (step_problem.cc), so that r_m keeps its sign
+    double inverse_wmm      = 0; // 1 / (k_i a^2 + k_j (1 - a)^2)       [mass]
   };
 
   // Deformation of a lattice as three more unknowns, its rate of strain (lattice_motion.h).
@@ -49,10 +64,10 @@ namespace diptych::discrete
     Eigen::Matrix3d              mobility; // rate of strain = free rate - mobility x moment of the impulses
   };
 
-  // Unknowns are the impulses r; the velocities are v = v_free + M^-1 H r. Every contact obeys Signorini's condition and
-  // Coulomb's law (discrete/README.md, Method). For discs and walls the coupling W_nt between the normal and tangential part of
-  // one contact vanishes. Each contact by itself therefore has a closed solution (contact_law.h). Across the edge of a cell
-  // with free width W_nt is small but not zero.
+  // Unknowns are the impulses r; the velocities are v = v_free + M^-1 H r. Every contact obeys Signorini's condition, Coulomb's
+  // law and the law of rolling resistance (discrete/README.md, Method). For discs and walls the coupling W_nt between the normal
+  // and tangential part of one contact vanishes. Each contact by itself therefore has a closed solution (contact_law.h). Across
+  // the edge of a cell with free width W_nt is small but not zero.
   struct ContactProblem
   {
     // Grains first, then walls, then the cell if its width changes (x = d width/dt). With a lattice: grains, a1, a2 and a record

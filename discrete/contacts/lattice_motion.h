@@ -24,9 +24,8 @@ namespace diptych::discrete
   // False if a control follows from the others, whatever the grains do: a matrix of elastic moduli stands for their response.
   bool determines_motion(const Eigen::Matrix3d &form, const std::array<bool, 3> &is_stress);
 
-  // Inertia of the strains: mass x diameter^2 of the grains, with the ratios of an isotropic elastic response. A sweep over the
-  // contacts of a dense packing answers to a change of q like half of this inertia. With less than that half, sweeps and lattice
-  // would excite each other.
+  // Inertia of the strains: mass x diameter^2 of the grains, with the ratios of an isotropic elastic response. With less
+  // than half of it, over-relaxed sweeps and the lattice excite each other in dense packings.
   Eigen::Matrix3d lattice_inertia(const Grains &grains);
 
   struct LatticeMotion
@@ -59,7 +58,7 @@ namespace diptych::discrete
   {
     const std::size_t a1 = lattice.place.size() - 2;
     return c.cell < 0 ? Eigen::Vector2d(Eigen::Vector2d::Zero())
-                      : Eigen::Vector2d(c.image * lattice.place[a1] + c.upward * lattice.place[a1 + 1]);
+                      : Eigen::Vector2d(c.image.along * lattice.place[a1] + c.image.upward * lattice.place[a1 + 1]);
   }
 
   inline Eigen::Vector2d vector_of(const ContactRow &c, const Impulse &r)

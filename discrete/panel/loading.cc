@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 
 #include "discrete/contacts/lattice_motion.h"
@@ -88,6 +89,36 @@ namespace diptych::discrete
         (axis == 0 ? state.walls[w].drive_x : state.walls[w].drive_y) = read_drive(key, option);
       });
     }
+
+    LatticeDrive lattice_drive(const State &state, const LoadingStart &start)
+    {
+      const CellPath           &path  = start.loading.path;
+      const std::vector<double> times = times_of(path, start.loading.pressure, start.rate);
+      LatticeDrive              drive{path.form, path.is_stress, {}, lattice_inertia(state.grains)};
+      for (int k = 0; k < 3; ++k)
+        for (std::size_t row = 0; row < times.size(); ++row)
+          {
+            drive.value[k].time.push_back(times[row]);
+            drive.value[k].value.push_back(path.values[row][k]);
+          }
+      return drive;
+    }
+
+    // Prescribed strains start at their rate; the others as if the grains were elastic.
+    void start_lattice(State &state, const LoadingStart &start)
+    {
+      Grains  &g       = state.grains;
+      Lattice &lattice = *state.lattice;
+      state.time       = 0;
+      std::fill(g.velocity.begin(), g.velocity.end(), Eigen::Vector2d::Zero());
+      for (std::vector<double> *values : {&g.spin, &g.rotation})
+        std::fill(values->begin(), values->end(), 0.);
+      lattice.strain.setZero();
+      lattice.rate.setZero();
+      set_drives(state, start);
+      if (start.loading.affine_start)
+        lattice.rate = start_rate(lattice.drive);
+    }
   } // namespace
 
   DriveOption::DriveOption(const std::string &text)
@@ -144,39 +175,6 @@ namespace diptych::discrete
     return loading.inertial_number / mean_diameter * std::sqrt(loading.pressure / density);
   }
 
-  namespace
-  {
-    LatticeDrive lattice_drive(const State &state, const LoadingStart &start)
-    {
-      const CellPath           &path  = start.loading.path;
-      const std::vector<double> times = times_of(path, start.loading.pressure, start.rate);
-      LatticeDrive              drive{path.form, path.is_stress, {}, lattice_inertia(state.grains)};
-      for (int k = 0; k < 3; ++k)
-        for (std::size_t row = 0; row < times.size(); ++row)
-          {
-            drive.value[k].time.push_back(times[row]);
-            drive.value[k].value.push_back(path.values[row][k]);
-          }
-      return drive;
-    }
-
-    // Prescribed strains start at their rate; the others as if the grains were elastic.
-    void start_lattice(State &state, const LoadingStart &start)
-    {
-      Grains  &g       = state.grains;
-      Lattice &lattice = *state.lattice;
-      state.time       = 0;
-      std::fill(g.velocity.begin(), g.velocity.end(), Eigen::Vector2d::Zero());
-      for (std::vector<double> *values : {&g.spin, &g.rotation})
-        std::fill(values->begin(), values->end(), 0.);
-      lattice.strain.setZero();
-      lattice.rate.setZero();
-      set_drives(state, start);
-      if (start.loading.affine_start)
-        lattice.rate = start_rate(lattice.drive);
-    }
-  } // namespace
-
   void set_drives(State &state, const LoadingStart &start)
   {
     if (state.lattice)
@@ -228,13 +226,43 @@ namespace diptych::discrete
   }
 
   double loading_progress(const State           &state,
-                          const LoadingMode      mode,
+                          const Loading         &loading,
                           const Eigen::Vector2d &initial_platen,
                           const double           initial_height)
   {
-    if (mode == LoadingMode::time)
+    if (loading.mode == LoadingMode::time)
       return state.time;
+    if (loading.mode == LoadingMode::path)
+      return progress_at(loading.path, state.lattice->drive.value[0].time, state.time);
     const Eigen::Vector2d travel = state.walls[1].point - initial_platen;
-    return (mode == LoadingMode::descent ? -travel.y() : travel.x()) / initial_height;
+    return (loading.mode == LoadingMode::descent ? -travel.y() : travel.x()) / initial_height;
+  }
+
+  double duration_between(const State &state, const Loading &loading, const double rate, const double from, const double to)
+  {
+    if (loading.mode != LoadingMode::path)
+      return (to - from) / rate;
+    const std::vector<double> &times = state.lattice->drive.value[0].time;
+    return time_at(loading.path, times, to) - time_at(loading.path, times, from);
+  }
+
+  std::string cell_obstacle(const State &state, const Loading &loading, const double mean_diameter, const double density)
+  {
+    if (!state.lattice)
+      return "";
+    constexpr double           fast    = 0.1; // inertial number at which grains collide rather than press
+    const Lattice             &lattice = *state.lattice;
+    const double               unit    = mean_diameter * std::sqrt(density / loading.pressure); // of time
+    const double               number = unit * lattice.rate.norm(), height = least_height(lattice);
+    const std::vector<double> &radius = state.grains.radius;
+    std::ostringstream         text;
+    if (number > fast + 10 * unit * strain_rate(loading, mean_diameter, density))
+      text << "the grains do not carry the stress that loading/path prescribes: the cell deforms at an inertial number of "
+           << number << "; strains reached: exx " << lattice.strain[0] << ", eyy " << lattice.strain[1] << ", exy "
+           << 0.5 * lattice.strain[2];
+    else if (height < 4 * (*std::max_element(radius.begin(), radius.end()) + 0.5 * mean_diameter))
+      text << "the cell has become too narrow: its smaller height is " << height
+           << "; a larger sample/grains follows the path further";
+    return text.str();
   }
 } // namespace diptych::discrete

@@ -127,5 +127,15 @@ namespace diptych::discrete
   void set_drives(State &state, const LoadingStart &start);
 
   // Value of the loading variable: descent or travel of the upper platen / initial height, or the time.
-  double loading_progress(const State &state, LoadingMode mode, const Eigen::Vector2d &initial_platen, double initial_height);
+  double loading_progress(const State           &state,
+                          const Loading         &loading,
+                          const Eigen::Vector2d &initial_platen,
+                          double                 initial_height);
+
+  // Time between two values of the loading variable. `rate`: from strain_rate().
+  double duration_between(const State &state, const Loading &loading, double rate, double from, double to);
+
+  // Reason why a cell cannot follow its path any further; empty if it can or there is none. The prescribed stress accelerates a
+  // cell whose grains do not carry it, and a large shear narrows every cell until a grain would meet two images of another one.
+  std::string cell_obstacle(const State &state, const Loading &loading, double mean_diameter, double density);
 } // namespace diptych::discrete

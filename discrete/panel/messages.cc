@@ -49,16 +49,6 @@ namespace diptych::discrete
     return text.str();
   }
 
-  std::string runaway_text(const int step, const double inertial_number, const Lattice &lattice)
-  {
-    std::ostringstream text;
-    text << "step " << step
-         << ": the grains do not carry the stress that loading/path prescribes. The cell deforms at an inertial "
-         << "number of " << inertial_number << "; strains reached: exx " << lattice.strain[0] << ", eyy " << lattice.strain[1]
-         << ", exy " << 0.5 * lattice.strain[2];
-    return text.str();
-  }
-
   std::string endless_text(const int stage, const double steps, const StepChoice &choice)
   {
     std::ostringstream text;

@@ -13,9 +13,6 @@ namespace diptych::discrete
   std::string momentum_text(int step, double residual);
   std::string interpenetration_text(int step, double penetration); // [mean diameters]
 
-  // A cell that the prescribed stress accelerates. `inertial_number`: of its present rate of strain.
-  std::string runaway_text(int step, double inertial_number, const Lattice &lattice);
-
   std::string endless_text(int stage, double steps, const StepChoice &choice);
 
   // A step that did not converge, or in which springs blew up.

@@ -64,8 +64,8 @@ namespace diptych::discrete
       unused.unless(penalty || !o.time.step || !o.accuracy.tolerance, "discrete/step and discrete/tolerance are given",
                     {"accuracy"});
       unused.unless(o.lateral.lateral == Lateral::end_grains, lateral, {"band_height", "end_grains"});
-      unused.unless(o.lateral.lateral == Lateral::rigid_walls, lateral, {"wall_friction"});
-      unused.unless(o.lateral.lateral != Lateral::cell, lateral, {"platen_friction"});
+      unused.unless(o.lateral.lateral == Lateral::rigid_walls, lateral, {"wall_friction", "wall_rolling_friction"});
+      unused.unless(o.lateral.lateral != Lateral::cell, lateral, {"platen_friction", "platen_rolling_friction"});
       unused.unless(moves, lateral, {"wall_mass"});
       unused.unless(o.solver.solver == ContactSolver::psor, "discrete/solver = " + name_of(o.solver.solver),
                     {"omega_sticking", "omega_slipping"});
@@ -74,6 +74,34 @@ namespace diptych::discrete
                     "discrete/side_motion = " + name_of(o.lateral.side_motion), {"side_velocity"});
       unused.unless(penalty || o.sampling.snapshot_max_sweeps > 0, "discrete/snapshot_max_sweeps = 0",
                     {"snapshot_accuracy", "reference_sweeps"});
+    }
+
+    void validate_cell(const SampleOptions &sample, const Loading &loading, const Options &options)
+    {
+      const bool cell = options.lateral.lateral == Lateral::cell, path = loading.mode == LoadingMode::path;
+      if (cell != path)
+        throw WrongKeys({"discrete/lateral", "loading/mode"}, "discrete/lateral = " + name_of(options.lateral.lateral) +
+                                                                " does not go with loading/mode = " + name_of(loading.mode) +
+                                                                ": a cell needs loading/mode = path, and a path a cell");
+      if (!cell)
+        return;
+      validate(loading.path);
+      if (const double end = loading.path.progress.back(); std::abs(loading.stages.back() - end) > 1e-9 * std::abs(end))
+        throw WrongKeys({"loading/axial_strain", "loading/stages", "loading/path"},
+                        "the last stage is at " + exact_text(loading.stages.back()) +
+                          ", but the progress of loading/path ends at " + exact_text(end));
+      if (!sample.file.empty())
+        throw WrongKeys({"sample/file", "discrete/lateral"}, "sample/file: a cell cannot be read from a file");
+      if (sample.rough_platens)
+        throw WrongKeys({"sample/rough_platens", "discrete/lateral"}, "sample/rough_platens = true: a cell has no platens");
+      if (options.method.store_problems)
+        throw WrongKeys({"discrete/store_problems", "discrete/lateral"},
+                        "discrete/store_problems = true: the files of contact problems cannot hold a cell");
+      for_each_drive(options.drives, [](const int, int, const std::string &key, const DriveOption &drive) {
+        if (!drive.is_auto())
+          throw WrongKeys({"discrete/" + key, "discrete/lateral"},
+                          "discrete/" + key + " = '" + text_of(drive) + "': a cell has neither platens nor walls");
+      });
     }
   } // namespace
 
@@ -131,37 +159,6 @@ namespace diptych::discrete
       return steps / options.method.history_interval;
     return options.method.method == Method::penalty ? std::min(steps, 1000. * double(loading.stages.size())) : steps;
   }
-
-  namespace
-  {
-    void validate_cell(const SampleOptions &sample, const Loading &loading, const Options &options)
-    {
-      const bool cell = options.lateral.lateral == Lateral::cell, path = loading.mode == LoadingMode::path;
-      if (cell != path)
-        throw WrongKeys({"discrete/lateral", "loading/mode"}, "discrete/lateral = " + name_of(options.lateral.lateral) +
-                                                                " does not go with loading/mode = " + name_of(loading.mode) +
-                                                                ": a cell needs loading/mode = path, and a path a cell");
-      if (!cell)
-        return;
-      validate(loading.path);
-      if (const double end = loading.path.progress.back(); std::abs(loading.stages.back() - end) > 1e-9 * std::abs(end))
-        throw WrongKeys({"loading/axial_strain", "loading/stages", "loading/path"},
-                        "the last stage is at " + exact_text(loading.stages.back()) +
-                          ", but the progress of loading/path ends at " + exact_text(end));
-      if (!sample.file.empty())
-        throw WrongKeys({"sample/file", "discrete/lateral"}, "sample/file: a cell cannot be read from a file");
-      if (sample.rough_platens)
-        throw WrongKeys({"sample/rough_platens", "discrete/lateral"}, "sample/rough_platens = true: a cell has no platens");
-      if (options.method.store_problems)
-        throw WrongKeys({"discrete/store_problems", "discrete/lateral"},
-                        "discrete/store_problems = true: the files of contact problems cannot hold a cell");
-      for_each_drive(options.drives, [](const int, int, const std::string &key, const DriveOption &drive) {
-        if (!drive.is_auto())
-          throw WrongKeys({"discrete/" + key, "discrete/lateral"},
-                          "discrete/" + key + " = '" + text_of(drive) + "': a cell has neither platens nor walls");
-      });
-    }
-  } // namespace
 
   void validate(const SampleOptions &sample, const Loading &loading, const Options &options)
   {

@@ -36,8 +36,7 @@ namespace diptych::discrete
           options_(options),
           hooks_(std::move(hooks)),
           grains_(grains),
-          rate_(strain_rate(loading, sample.mean_diameter, sample.density)),
-          times_(follows_path() ? times_of(loading.path, loading.pressure, rate_) : std::vector<double>())
+          rate_(strain_rate(loading, sample.mean_diameter, sample.density))
     {
       validate(sample, loading, options);
       setting_.time          = options.time;
@@ -167,35 +166,13 @@ namespace diptych::discrete
       return false;
     }
 
-    bool follows_path() const { return loading_.mode == LoadingMode::path; }
-
-    double duration_between(const double from, const double to) const
-    {
-      return follows_path() ? time_at(loading_.path, times_, to) - time_at(loading_.path, times_, from) : (to - from) / rate_;
-    }
-
-    // A cell whose grains do not carry the prescribed stress deforms faster and faster, without an end.
-    bool runs_away()
-    {
-      if (!now.state.lattice)
-        return false;
-      constexpr double fast  = 0.1; // inertial number at which grains collide rather than press
-      const double     unit  = sample_.mean_diameter * std::sqrt(sample_.density / loading_.pressure); // of time
-      const double     speed = now.state.lattice->rate.norm() * unit;
-      if (speed <= fast + 10 * rate_ * unit)
-        return false;
-      now.report.status  = Status::not_converged;
-      now.report.message = runaway_text(now.row.step, speed, *now.state.lattice);
-      return true;
-    }
-
     // Plans the next stage: a whole number of steps and a new window. Returns false if there are too many steps.
     bool plan_stage()
     {
       prepared_.reset();
       now.window.reset();
       const double from     = now.stage == 0 ? 0. : loading_.stages[now.stage - 1];
-      const double duration = duration_between(from, loading_.stages[now.stage]);
+      const double duration = duration_between(now.state, loading_, rate_, from, loading_.stages[now.stage]);
       const double wanted   = wanted_step();
       if (duration / wanted > most_steps)
         return fail(endless_text(now.stage + 1, duration / wanted, {wanted, now.report.step_bound}));
@@ -324,13 +301,12 @@ namespace diptych::discrete
       const double  begin         = cpu_seconds();
       const bool    done          = advance_by(now.step, penalty() ? 0 : most_halvings);
       now.report.loading_cpu_s += cpu_seconds() - begin;
-      const Strains strains   = strains_of(now.state, now.reference);
-      now.report.axial_strain = strains.axial;
-      now.report.shear_strain = strains.shear;
-      now.report.progress     = follows_path()
-                                  ? progress_at(loading_.path, times_, now.state.time)
-                                  : loading_progress(now.state, loading_.mode, now.reference.platen, now.reference.height);
-      if (!done || runs_away())
+      const Strains strains      = strains_of(now.state, now.reference);
+      now.report.axial_strain    = strains.axial;
+      now.report.shear_strain    = strains.shear;
+      now.report.progress        = loading_progress(now.state, loading_, now.reference.platen, now.reference.height);
+      const std::string obstacle = done ? cell_obstacle(now.state, loading_, sample_.mean_diameter, sample_.density) : "";
+      if (!done || (!obstacle.empty() && !fail(obstacle)))
         return;
       ++now.report.steps;
       --now.steps_left;
@@ -352,7 +328,6 @@ namespace diptych::discrete
     const Hooks                 hooks_;
     const std::optional<Grains> grains_;
     const double                rate_;
-    const std::vector<double>   times_; // of the rows of a path
     StepSetting                 setting_;
     StepCache                   cache_;
     PenaltyState                springs_;

@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 
+#include "discrete/contacts/natural_map.h"
 #include "discrete/solvers/iteration.h"
 
 namespace diptych::discrete
@@ -43,7 +44,7 @@ namespace diptych::discrete
         result.friction[k] = c.friction;
         if (c.cell < 0)
           continue;
-        add(3 * c.cell, -c.image * c.nx, c.image * c.ny);
+        add(3 * c.cell, -c.image.along * c.nx, c.image.along * c.ny);
         result.inverse_mass[3 * c.cell] = problem.free_velocity[c.cell].inverse_mass;
       }
     result.h.setFromTriplets(entries.begin(), entries.end());
@@ -272,6 +273,18 @@ namespace diptych::discrete
         q.add(a.q[k].tangential, b.q[k].tangential);
       }
     return std::max(w.ratio(), q.ratio());
+  }
+
+  std::vector<RelativeVelocity> relative_velocities(const ContactProblem &problem, const std::vector<Impulse> &impulses)
+  {
+    const std::vector<BodyVelocity> v = velocities(problem, impulses);
+    std::vector<RelativeVelocity>   result;
+    for (const ContactRow &c : problem.contacts)
+      {
+        const RelativeVelocity u = relative_velocity(c, v);
+        result.push_back({u.normal + c.normal_term, u.tangential + c.tangential_term});
+      }
+    return result;
   }
 
   std::vector<RelativeVelocity> relative_velocities(const DelassusProblem &problem, const std::vector<Impulse> &impulses)

@@ -94,11 +94,9 @@ namespace diptych::discrete
           add_grain(state.grains, {x, y}, r, o.density);
         }
       if (std::holds_alternative<CellSides>(lateral))
-        {
-          state.lattice = Lattice{Eigen::Vector2d(width, height).asDiagonal()};
-          return state;
-        }
-      state.walls = box_walls(width, height);
+        state.lattice = Lattice{Eigen::Vector2d(width, height).asDiagonal()};
+      else
+        state.walls = box_walls(width, height);
       if (periodic)
         {
           state.walls.resize(2);
@@ -130,8 +128,6 @@ namespace diptych::discrete
       if (state.cell)
         state.cell->pressure.reset();
       state.time = 0;
-      if (state.lattice)
-        state.lattice->strain.setZero();
     }
 
     void roughen_platens(State &state)

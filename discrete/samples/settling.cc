@@ -18,7 +18,10 @@ namespace diptych::discrete
     if (state.cell)
       state.cell->velocity = 0;
     if (state.lattice)
-      state.lattice->rate.setZero();
+      {
+        state.lattice->rate.setZero();
+        state.lattice->strain.setZero(); // it counts from a state of rest
+      }
   }
 
   Settled settle(State &state, StepSetting setting, const SettlingOptions &options, const std::function<bool()> &go_on)
