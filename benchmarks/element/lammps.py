@@ -80,6 +80,11 @@ def run(sample, folder, path, stiffness, inertial_number, strain, friction=0.4):
     done = subprocess.run(["lmp", "-in", "in.cell", "-log", "log.lammps", "-screen", "none"], cwd=folder, capture_output=True, text=True)
     if done.returncode != 0:
         raise RuntimeError(f"{folder}: lmp failed: {(done.stderr or done.stdout)[-500:]}")
+    return history(folder, path)
+
+
+def history(folder, path):
+    """The columns of run() in a folder where LAMMPS has finished."""
     _, width, height, tilt, sxx, syy, sxy = numpy.loadtxt(os.path.join(folder, "history.txt")).T
     exx, eyy = -numpy.log(width / width[0]), -numpy.log(height / height[0])
     middle = 0.5 * (height[1:] + height[:-1])

@@ -54,7 +54,7 @@ def main(path, figure_file):
             colours = draw(axis, stage, numpy.degrees(stage["grains/rotation"][:] - before))
             axis.set_title(f"2 exy = {100 * stage.attrs['progress']:.3g} %")
         figure.colorbar(colours, ax=axes, label="rotation since the start [degrees], counter-clockwise positive", shrink=0.6)
-        figure.savefig(figure_file, dpi=90)
+        figure.savefig(figure_file, dpi=72)
 
 
 if __name__ == "__main__":

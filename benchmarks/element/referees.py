@@ -78,7 +78,11 @@ def against_lammps(run):
         for seed in run.seeds:
             rigid, soft = (run.of(seed).run(path + name, "discrete", SCENE, f"loading/path={path}", *more)
                            for name, more in (("", ()), ("_springs", springs)))
-            other = lammps.run(prepared(rigid.folder), os.path.join(run.folder(seed), path + "_lammps"), path, STIFFNESS, RATE, END)
+            folder = os.path.join(run.folder(seed), path + "_lammps")
+            if run.options.reuse and os.path.exists(os.path.join(folder, "history.txt")):
+                other = lammps.history(folder, path)
+            else:
+                other = lammps.run(prepared(rigid.folder), folder, path, STIFFNESS, RATE, END)
             for name, history in zip(found, (rigid.grains, soft.grains, other)):
                 found[name].append(strength(history))
         shown(f"{path}: LAMMPS", found["LAMMPS"], found["LAMMPS"])
