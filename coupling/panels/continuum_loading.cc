@@ -296,6 +296,8 @@ namespace diptych::coupling
   {
     if (scene.discrete.method.method == discrete::Method::imported)
       (void)load_imported(scene);
+    if (scene.loading.mode == LoadingMode::path)
+      refuse("loading/mode", "path", "a cell follows it, which `diptych element` compares with a point of the law");
     if (scene.sample.rough_platens)
       refuse("sample/rough_platens", "true", "the forces on grains that are part of a platen are not mapped");
     const WallDrives                drives  = drives_of(scene.discrete.drives);
@@ -316,8 +318,6 @@ namespace diptych::coupling
 
   continuum::Loading continuum_loading(const Scene &scene, const ContinuumSample &sample)
   {
-    if (scene.loading.mode == LoadingMode::path)
-      throw SceneError("loading/mode = path has no counterpart on a mesh: use `diptych element` or `diptych material-point`");
     const WallDrives drives = drives_of(scene.discrete.drives);
     const double rate = discrete::strain_rate(discrete_loading(scene.loading), scene.sample.mean_diameter, scene.sample.density);
     continuum::Loading loading;

@@ -313,11 +313,6 @@ namespace diptych::coupling
   {
     check_comparison(scene, file, entries, compares);
     with_places({file, entries, ""}, [&] {
-      if (compares && scene.loading.mode == LoadingMode::path)
-        throw WrongKeys(
-          {"loading/mode", "discrete/lateral"},
-          "loading/mode = path: a cell of grains has no counterpart on a mesh; `diptych element` compares it with a "
-          "point of the law, `diptych discrete` runs it alone");
       const discrete::Loading loading = discrete_loading(scene.loading);
       discrete::validate(scene.sample, loading, scene.discrete);
       discrete::check_sample_file(scene.sample, discrete::preparation_setting(loading, scene.discrete),
