@@ -13,8 +13,8 @@ import numpy
 PRELOAD = 30.
 DAMPING = 0.2  # Share of the critical damping of a pair of mean mass.
 ROW_STRAIN = 4e-5  # Strain between two rows of the history.
-# Path -> (motion of the box, component under P): eyy grows and sxx = P, or 2 exy grows and syy = P, exx = 0.
-PATHS = {"drained": ("y trate -{rate}", "x"), "simple_shear": ("xy erate -{rate}", "y")}
+# Path -> (motion of the box, component under P): the height falls and sxx = P, or 2 exy grows and syy = P, exx = 0.
+PATHS = {"drained": ("y erate -{rate}", "x"), "simple_shear": ("xy erate -{rate}", "y")}
 
 SCRIPT = """units lj
 dimension 2
@@ -64,7 +64,7 @@ def write_start(path, position, radius, vectors):
 
 
 def run(sample, folder, path, stiffness, inertial_number, strain, friction=0.4):
-    """Columns by name: progress (eyy or 2 exy), t, s [P], volumetric_strain, exx, eyy, sxx, syy, sxy. sample: (positions (n, 2),
+    """Columns by name: progress (1 - h/h0 or 2 exy), t, s [P], volumetric_strain, exx, eyy, sxx, syy, sxy. sample: (positions (n, 2),
     radii (n), lattice vectors (2, 2) as columns). Throws RuntimeError if LAMMPS fails."""
     os.makedirs(folder, exist_ok=True)
     position, radius, vectors = sample
@@ -89,5 +89,5 @@ def history(folder, path):
     exx, eyy = -numpy.log(width / width[0]), -numpy.log(height / height[0])
     middle = 0.5 * (height[1:] + height[:-1])
     shear = -numpy.concatenate([[0], numpy.cumsum(numpy.diff(tilt) / middle)])
-    return {"progress": eyy if path == "drained" else shear, "t": numpy.hypot((syy - sxx) / 2, sxy), "s": (sxx + syy) / 2,
+    return {"progress": 1 - height / height[0] if path == "drained" else shear, "t": numpy.hypot((syy - sxx) / 2, sxy), "s": (sxx + syy) / 2,
             "volumetric_strain": 1 - width * height / (width[0] * height[0]), "exx": exx, "eyy": eyy, "sxx": sxx, "syy": syy, "sxy": sxy}
