@@ -12,6 +12,8 @@ namespace diptych::discrete
     out.precision(4);
     if (loading_variable == LoadingVariable::time)
       out << "time " << progress;
+    else if (loading_variable == LoadingVariable::path)
+      out << "progress " << progress;
     else
       out << 100 * progress << (loading_variable == LoadingVariable::axial_strain ? " % axial strain" : " % shear strain");
     return out.str();

@@ -13,13 +13,15 @@ namespace diptych::discrete
   {
     axial_strain,
     shear_strain,
-    time
+    time,
+    path // progress of the path of a cell
   };
 
   constexpr auto choices(LoadingVariable)
   {
     return std::array{std::pair{LoadingVariable::axial_strain, "axial_strain"},
-                      std::pair{LoadingVariable::shear_strain, "shear_strain"}, std::pair{LoadingVariable::time, "time"}};
+                      std::pair{LoadingVariable::shear_strain, "shear_strain"}, std::pair{LoadingVariable::time, "time"},
+                      std::pair{LoadingVariable::path, "path"}};
   }
 
   // Text for messages: "2.5 % axial strain", "1 % shear strain", "time 3".

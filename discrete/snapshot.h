@@ -17,11 +17,12 @@ namespace diptych::discrete
   struct ContactForce
   {
     int             i, j;
-    Eigen::Vector2d point;      // contact point [length]
-    Eigen::Vector2d normal;     // unit, from j to i
-    Eigen::Vector2d force;      // on i = impulse / step [pressure * length, unit thickness]
-    double          shift  = 0; // x of the touching image of j minus x of j; not 0 only across the edge of a periodic cell
-    double          couple = 0; // of rolling resistance on i, counter-clockwise; the opposite acts on j [pressure * length^2]
+    Eigen::Vector2d point;       // contact point [length]
+    Eigen::Vector2d normal;      // unit, from j to i
+    Eigen::Vector2d force;       // on i = impulse / step [pressure * length, unit thickness]
+    double          shift   = 0; // x of the touching image of j minus x of j; not 0 only across the edge of a periodic cell
+    double          couple  = 0; // of rolling resistance on i, counter-clockwise; the opposite acts on j [pressure * length^2]
+    double          shift_y = 0; // y of that image minus y of j; not 0 only in a cell that is periodic in both directions
   };
 
   enum class ContactStatus : std::uint8_t
@@ -92,6 +93,10 @@ namespace diptych::discrete
 
     // Side walls: NaN without them. `cell_width`: 0 without a periodic cell.
     double left_x = std::numeric_limits<double>::quiet_NaN(), right_x = left_x, cell_width = 0;
+
+    // Cell that is periodic in both directions: its vectors (columns a1 and a2); 0 without one. Then the platens above are the
+    // ends of the parallelogram.
+    Eigen::Matrix2d cell_vectors = Eigen::Matrix2d::Zero();
 
     Outline outline;
     double  area = 0; // of the outline [length^2]

@@ -44,6 +44,8 @@ namespace diptych::discrete
     visit("force", c.force, "pressure length", "force on the first body");
     visit("image_shift", c.shift, "length",
           "x of the touching image of the second body minus x of that body; not 0 only across the edge of a periodic cell");
+    visit("image_shift_y", c.shift_y, "length",
+          "y of that image minus y of the second body; not 0 only in a cell that is periodic in both directions");
     visit("couple", c.couple, "pressure length^2", "couple of rolling resistance on the first body, counter-clockwise");
   }
   inline constexpr char contact_bodies[] =
@@ -78,8 +80,9 @@ namespace diptych::discrete
   // all attributes except those of is_always_told().
   template <class AnySnapshot, class Visit> void visit_attributes(AnySnapshot &s, Visit &&visit)
   {
-    visit("walk", s.loading_variable, "-", "which attribute progress equals: axial_strain, shear_strain or time");
-    visit("progress", s.progress, "strain or time", "loading variable: axial strain, shear strain or time");
+    visit("walk", s.loading_variable, "-",
+          "which attribute progress equals: axial_strain, shear_strain or time; path: that of its rows");
+    visit("progress", s.progress, "strain or time", "loading variable: axial strain, shear strain, time or that of the path");
     visit("axial_strain", s.axial_strain, "-", "descent of the upper platen / initial height");
     visit("shear_strain", s.shear_strain, "-", "travel of the upper platen to the right / initial height");
     visit("time", s.time, "time", "time since the start of the loading");
@@ -102,6 +105,10 @@ namespace diptych::discrete
     visit("left_x", s.left_x, "length", Meaning("x of the left wall; nan if there is none", true));
     visit("right_x", s.right_x, "length", Meaning("x of the right wall; nan if there is none", true));
     visit("cell_width", s.cell_width, "length", "width of the periodic cell; 0 if there is none");
+    visit("cell_a1_x", s.cell_vectors(0, 0), "length", "cell periodic in both directions: x of its first vector; 0 without one");
+    visit("cell_a1_y", s.cell_vectors(1, 0), "length", "y of the first vector");
+    visit("cell_a2_x", s.cell_vectors(0, 1), "length", "x of the second vector");
+    visit("cell_a2_y", s.cell_vectors(1, 1), "length", "y of the second vector");
     visit("area", s.area, "length^2", "area of the outline");
     visit("upper_platen_displacement_x", s.upper_platen_displacement.x(), "length",
           "displacement of the upper platen since the start of the loading, to the right");

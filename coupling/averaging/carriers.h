@@ -105,7 +105,8 @@ namespace diptych::coupling
       refuse_contact(contact);
     action(unsigned(contact.i), Eigen::Vector2d(contact.point - position[contact.i]), contact.force, contact.couple);
     if (contact.j < n)
-      action(unsigned(contact.j), Eigen::Vector2d(contact.point - position[contact.j] - Eigen::Vector2d(contact.shift, 0)),
+      action(unsigned(contact.j),
+             Eigen::Vector2d(contact.point - position[contact.j] - Eigen::Vector2d(contact.shift, contact.shift_y)),
              Eigen::Vector2d(-contact.force), -contact.couple);
   }
 } // namespace diptych::coupling

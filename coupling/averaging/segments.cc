@@ -99,7 +99,7 @@ namespace diptych::coupling
         if (contact.force.isZero(0))
           continue;
         const Eigen::Vector2d &start = position[contact.i];
-        const Eigen::Vector2d  image(contact.shift, 0); // of j, across the edge of a periodic cell
+        const Eigen::Vector2d  image(contact.shift, contact.shift_y); // of j, across the edge of a periodic cell
         const Eigen::Vector2d  end = joins_grains(contact, position) ? position[contact.j] + image : contact.point;
         mapped.total -= contact.force * (end - start).transpose();
         add(contact.force, start, contact.point);

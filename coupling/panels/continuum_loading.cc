@@ -98,6 +98,7 @@ namespace diptych::coupling
         case discrete::LoadingVariable::shear_strain:
           return continuum::LoadingVariable::shear_strain;
         case discrete::LoadingVariable::time:
+        case discrete::LoadingVariable::path:
           break;
         }
       return continuum::LoadingVariable::time;
@@ -120,6 +121,7 @@ namespace diptych::coupling
         case Lateral::periodic:
           return continuum::PeriodicSides{widening};
         case Lateral::none:
+        case Lateral::cell:
           return continuum::FreeSides{};
         case Lateral::end_grains:
           break;
@@ -294,6 +296,8 @@ namespace diptych::coupling
   {
     if (scene.discrete.method.method == discrete::Method::imported)
       (void)load_imported(scene);
+    if (scene.loading.mode == LoadingMode::path)
+      refuse("loading/mode", "path", "a cell follows it, which `diptych element` compares with a point of the law");
     if (scene.sample.rough_platens)
       refuse("sample/rough_platens", "true", "the forces on grains that are part of a platen are not mapped");
     const WallDrives                drives  = drives_of(scene.discrete.drives);

@@ -51,7 +51,7 @@ namespace diptych::coupling
           throw std::invalid_argument("a contact joins a grain that does not exist");
         if (contact.force.isZero(0))
           continue;
-        const Eigen::Vector2d image(contact.shift, 0);
+        const Eigen::Vector2d image(contact.shift, contact.shift_y);
         const Eigen::Vector2d to = contact.j < n ? Eigen::Vector2d(position[contact.j] + image) : contact.point;
         result.push_back({position[contact.i], to, contact.force});
         if (period > 0)

@@ -83,6 +83,7 @@ namespace diptych::coupling
       void add_scene_output_set(CLI::App *to) { add_scene(to); add_output(to); add_set(to); }
       void add_threads(CLI::App *to) { to->add_option("--threads", line.threads, "threads of the contact solver; every number gives the same bits")->check(in_range(1, 1024)); }
       void add_resume(CLI::App *to, const std::string &what) { to->add_flag("--resume", line.resume, "continue the results in the folder: " + what); }
+      void add_seeds(CLI::App *to, const char *what) { to->add_option("--seeds", ignored, what)->type_name("LIST"); }
       void add_quiet(CLI::App *to) { to->add_flag("--quiet", line.quiet, "print neither progress nor notes"); }
       // clang-format on
 
@@ -156,8 +157,7 @@ namespace diptych::coupling
                        "values of a key, such as discrete/friction=0.2,0.3,0.5; repeated: all combinations")
           ->allow_extra_args(false)
           ->type_name("KEY=VALUES");
-        study->add_option("--seeds", ignored, "with --vary: samples of each point, a list like 1-4 (default: the scene's one)")
-          ->type_name("LIST");
+        add_seeds(study, "with --vary: samples of each point, a list like 1-4 (default: the scene's one)");
         study->add_option("--panels", ignored, "with --vary: the panels that run (default: both, which bands need)")
           ->check(one_of({"both", "discrete", "continuum"}));
         add_levels(study);
@@ -173,7 +173,7 @@ namespace diptych::coupling
           ->add_option("SCENE", line.target,
                        "scene file with --seeds, which takes the standard parameters, or calibration file, .json")
           ->required();
-        calibrate->add_option("--seeds", ignored, "with a scene: samples of the fit, a list like 1-4")->type_name("LIST");
+        add_seeds(calibrate, "with a scene: samples of the fit, a list like 1-4");
         add_output(calibrate, "folder of the calibration (default: results/<name>_calibration)");
         add_many_runs(calibrate);
       }
@@ -222,6 +222,13 @@ namespace diptych::coupling
         point->add_option("--path", line.path, path_help())->check(path_or_table)->type_name("PATH");
         add_overwrite(point);
         add_quiet(point);
+
+        CLI::App *element = add(Command::element,
+                                "drive grains and the law's point along one path and draw them beside each other");
+        add_scene(element);
+        add_seeds(element, "samples of the grains, a list like 1-4 (default: the scene's one)");
+        add_output(element, "folder of the results (default: results/<scene name>_element)");
+        add_many_runs(element);
 
         CLI::App *law = add(Command::check_law, "check tangent, objectivity, dissipation, repeatability of a law of your own");
         law->add_option("SCENE", line.target, "scene file, or a shared library, .so, with its usual parameters")->required();

@@ -24,6 +24,7 @@ namespace diptych::coupling
     discrete,
     continuum,
     material_point,
+    element,
     check_law,
     solve,
     compare,
@@ -70,8 +71,8 @@ namespace diptych::coupling
     bool          draws_movie = false; // report: --movie
     SolveOptions  solve;
     ExportOptions exported;
-    bool          prints_warnings = true;      // true on the first of several processes
-    std::string   path            = "drained"; // material-point: --path
+    bool          prints_warnings = true; // true on the first of several processes
+    std::string   path;                   // material-point: --path; empty: that of the scene
   };
 
   // The parsed command line, from the words after the program's name. If they are wrong or only ask for help, the version or a

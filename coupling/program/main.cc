@@ -78,7 +78,8 @@ namespace
   bool is_campaign(const CommandLine &line)
   {
     return line.command == Command::study || line.command == Command::plan || line.command == Command::calibrate ||
-           line.command == Command::homogenise || (line.command == Command::run && !line.seeds.empty() && !line.checks_only) ||
+           line.command == Command::element || line.command == Command::homogenise ||
+           (line.command == Command::run && !line.seeds.empty() && !line.checks_only) ||
            (line.command == Command::compare && is_ensemble_folder(line.target));
   }
 #else

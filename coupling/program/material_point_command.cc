@@ -21,45 +21,21 @@ namespace diptych::coupling
   {
     using continuum::MaterialPointRow;
 
-    // A table that contains the start, refined to the steps of the scene.
+    // Refined to the steps of the scene.
     continuum::PointPath path_of_table(const std::string &file, const Scene &scene)
     {
-      const std::vector<std::string> controls = choices_of(continuum::Control());
-      discrete::CsvHeader            header{{}, controls};
-      header.optional.push_back("progress");
-      const discrete::CsvTable table = discrete::read_csv(file, header);
-      const double             P     = scene.loading.pressure;
-      continuum::PointPath     path{P, P * Eigen::Matrix2d::Identity(), P, {}, {}, {}};
-      std::vector<std::size_t> places;
-      for (std::size_t c = 0; c < table.columns.size(); ++c)
-        if (const auto control = continuum::value_of<continuum::Control>(table.columns[c]))
-          {
-            if (places.size() < 3)
-              path.controls[places.size()] = *control;
-            places.push_back(c);
-          }
-      const std::string first = file + ", header line: ";
-      if (places.size() != 3)
-        throw SceneError(first + std::to_string(places.size()) + " of the columns prescribe strain or stress; give three of " +
-                         discrete::listed(controls) + ", for example eyy, sxx, exy");
-      const auto progress = table.find("progress");
-      if (!progress && scene.continuum.material.viscosity > 0 && continuum::traits(scene.continuum.law).is_plastic)
-        throw SceneError(first +
-                         "column 'progress' is missing, which continuum/viscosity needs; give strain or time of each row");
-      for (const std::vector<double> &row : table.rows)
-        {
-          path.values.emplace_back(row[places[0]], row[places[1]], row[places[2]]);
-          path.progress.push_back(progress ? row[*progress] : double(path.progress.size()));
-        }
+      const continuum::PointPath path = read_path_table(file, scene.loading.pressure);
+      if (path.progress.empty() && scene.continuum.material.viscosity > 0 && continuum::traits(scene.continuum.law).is_plastic)
+        throw SceneError(file +
+                         ", header line: column 'progress' is missing, which continuum/viscosity needs; give strain or time of "
+                         "each row");
       try
         {
-          continuum::validate(path);
           return continuum::refined(path, scene.continuum.initial_step);
         }
       catch (const continuum::WrongPath &wrong)
         {
-          const bool is_header = wrong.row == continuum::WrongPath::header;
-          throw SceneError((is_header ? first : text_of(Place(file, table.line[wrong.row])) + ": ") + wrong.what());
+          throw SceneError(file + ", row " + std::to_string(wrong.row + 1) + ": " + wrong.what());
         }
     }
 
@@ -120,10 +96,13 @@ namespace diptych::coupling
     }
   } // namespace
 
-  int run_material_point(const CommandLine &line)
+  int run_material_point(const CommandLine &given)
   {
-    const Scene                scene = scene_of(line);
-    const continuum::PointPath path  = path_of(line, scene);
+    const Scene scene = scene_of(given);
+    CommandLine line  = given;
+    if (line.path.empty())
+      line.path = scene.loading.mode == discrete::LoadingMode::path ? scene.loading.path.text : "drained";
+    const continuum::PointPath path = path_of(line, scene);
     return writing(scene.output.directory, [&](FolderLock &lock) {
       Opening opening = opening_of(line, true);
       if (!continuum::value_of<continuum::NamedPath>(line.path))

@@ -59,8 +59,8 @@ namespace diptych::coupling
   inline std::string path_help()
   {
     return "path of the loading: " + discrete::listed(choices_of(continuum::NamedPath())) +
-           " (default: drained), or a table .csv with three of " + discrete::listed(choices_of(continuum::Control())) +
-           " (first row: the start), and progress for viscosity";
+           " (default: that of the scene's loading/path, else drained), or a table .csv with three of " +
+           discrete::listed(choices_of(continuum::Control())) + " (first row: the start), and progress for viscosity";
   }
 
   // A named path of a material point, or a table.

@@ -36,6 +36,8 @@ namespace diptych::coupling
           return "calibration";
         case Drawing::homogenised:
           return "homogenised";
+        case Drawing::element:
+          return "element";
         case Drawing::movie:
           return "movie";
         default:
@@ -88,10 +90,11 @@ namespace diptych::coupling
                             : is_calibration_folder(line.target) ? Drawing::calibration
                             : is_ensemble_folder(line.target)    ? Drawing::ensemble
                             : is_homogenised_folder(line.target) ? Drawing::homogenised
+                            : is_element_folder(line.target)     ? Drawing::element
                                                                  : Drawing::page;
     if (drawing == Drawing::page && !fs::exists(comparison_json(line.target)))
       throw SceneError(line.target + " is not a result folder (no comparison.json), nor the folder of an ensemble, a study, a "
-                                     "calibration or homogenised grains");
+                                     "calibration, an element or homogenised grains");
     if (drawing == Drawing::page)
       {
         check_files(line.target);

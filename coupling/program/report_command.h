@@ -15,6 +15,7 @@ namespace diptych::coupling
     study,       // report.html of a study
     calibration, // report.html of a calibration
     homogenised, // report.html of homogenised grains
+    element,     // report.html of grains and law on one path
     step_study,  // study_step.png
     movie        // movie.gif of a result folder
   };

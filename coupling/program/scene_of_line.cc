@@ -28,6 +28,7 @@ namespace diptych::coupling
                                                           {Command::discrete, "discrete"},
                                                           {Command::continuum, "continuum"},
                                                           {Command::material_point, "material-point"},
+                                                          {Command::element, "element"},
                                                           {Command::check_law, "check-law"},
                                                           {Command::solve, "solve"},
                                                           {Command::compare, "compare"},

@@ -112,6 +112,8 @@ namespace diptych::python
       bind_contact_member(type, "force", &discrete::ContactForce::force, "(n, 2) [pressure length]: on i");
       bind_contact_member(type, "shift", &discrete::ContactForce::shift,
                           "(n) [length]: x of the image of j that touches i minus x of j");
+      bind_contact_member(type, "shift_y", &discrete::ContactForce::shift_y,
+                          "(n) [length]: y of that image minus y of j; not 0 only in a cell periodic in both directions");
       bind_contact_member(type, "couple", &discrete::ContactForce::couple,
                           "(n) [pressure length^2]: couple on i, counter-clockwise; the opposite acts on j");
       type.def("__len__", [](const ContactList &list) { return list.entries().size(); });

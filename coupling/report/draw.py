@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# diptych: pages and pictures; usage: draw.py page|movie|ensemble|study|calibration|homogenised|step-study DIR [NEXT]
+# diptych: pages and pictures; usage: draw.py page|movie|ensemble|study|calibration|element|homogenised|step-study DIR [NEXT]
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Exit codes: 0 done, 2 wrong input (usage, missing or broken file, another format), 4 a module is missing or a file cannot be written.
 A new page replaces the old one only when it is complete."""
@@ -21,6 +21,7 @@ DRAWINGS = {
     "ensemble": ("page.ensemble_page", "ensemble.json, ensemble.h5"),
     "study": ("page.study_page", "study.json, study_cost.json, study.h5"),
     "calibration": ("page.calibration_page", "calibration.json, calibration_cost.json"),
+    "element": ("page.element_page", "element.json, element.csv"),
     "homogenised": ("page.homogenised_page", "homogenised.json, fields_*.vtu, provenance.json"),
     "step-study": ("charts.step_study", "study_step.json, study_step.csv"),
 }

@@ -169,6 +169,11 @@ namespace diptych::coupling
     const DerivedKey derived_keys[] = {
       {"loading/inertial_number", "1e-3 up to 2000 grains, 4e-4 for 4000, then lower with the square root of their number",
        [](Scene &s, const Given &) { s.loading.inertial_number = slow_enough(discrete::expected_grains(s.sample)); }},
+      {"loading/axial_strain", "0.04; mode path with a table: the last progress of the table",
+       [](Scene &s, const Given &) {
+         if (s.loading.mode == discrete::LoadingMode::path && s.loading.path.names_a_file())
+           s.loading.axial_strain = cell_path(s.loading.path, {s.loading.pressure}).progress.back();
+       }},
       {"loading/stage_strain", "about 0.005, so that the end is a stage; at most 40 stages",
        [](Scene &s, const Given &) { s.loading.stage_strain = stage_length(s.loading.axial_strain, 0.005); }},
       {"loading/stage_time", "about 1, so that the end is a stage; at most 40 stages",

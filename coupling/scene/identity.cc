@@ -68,6 +68,10 @@ namespace diptych::coupling
       {
         put(name, mesh.kind == continuum::MeshOption::Kind::file ? digest(mesh.file) : text_of(mesh));
       }
+      void operator()(const char *name, const PathOption &path, const char *, const char *) const
+      {
+        put(name, path.names_a_file() ? digest(path.text) : path.text);
+      }
       template <class Value> void operator()(const char *name, const Value &value, const char *, const char *) const
       {
         put(name, text_of(value));
@@ -115,6 +119,10 @@ namespace diptych::coupling
       void operator()(const char *name, const continuum::MeshOption &mesh, const char *, const char *) const
       {
         put(name, mesh.kind == continuum::MeshOption::Kind::file ? mesh.file : "");
+      }
+      void operator()(const char *name, const PathOption &path, const char *, const char *) const
+      {
+        put(name, path.names_a_file() ? path.text : "");
       }
 
     private:

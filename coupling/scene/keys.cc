@@ -109,4 +109,14 @@ namespace diptych::coupling
     value.file = resolved(value.file, folder);
     good       = !text.empty();
   }
+
+  void SetKey::operator()(const char *key, PathOption &value, const char *, const char *)
+  {
+    if (!is_mine(key))
+      return;
+    value = {text};
+    if (value.names_a_file())
+      value.text = resolved(text, folder);
+    good = !text.empty();
+  }
 } // namespace diptych::coupling

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "continuum/options.h"
+#include "coupling/scene/element_path.h"
 #include "discrete/panel/options.h"
 
 namespace diptych::coupling
@@ -70,6 +71,10 @@ namespace diptych::coupling
   inline std::string allowed_value(const continuum::MeshOption &)
   {
     return "outline, rectangle or a .msh or .geo file";
+  }
+  inline std::string allowed_value(const PathOption &)
+  {
+    return "drained, constant_volume, constant_mean_stress, simple_shear or the name of a CSV file";
   }
   template <class E, std::enable_if_t<std::is_enum_v<E>, int> = 0> std::string allowed_value(const E value)
   {
@@ -193,6 +198,7 @@ namespace diptych::coupling
     }
     void operator()(const char *key, discrete::DriveOption &value, const char *, const char *);
     void operator()(const char *key, continuum::MeshOption &value, const char *, const char *);
+    void operator()(const char *key, PathOption &value, const char *, const char *);
     template <class E, std::enable_if_t<std::is_enum_v<E>, int> = 0>
     void operator()(const char *key, E &value, const char *, const char *)
     {

@@ -22,8 +22,11 @@ namespace diptych::coupling
 
   discrete::Loading discrete_loading(const LoadingOptions &o)
   {
-    return {o.pressure, o.inertial_number, o.horizontal_over_vertical, stages(o), o.affine_start,
-            o.mode,     o.strain_rate,     o.normal_pressure};
+    discrete::Loading loading{o.pressure, o.inertial_number, o.horizontal_over_vertical, stages(o), o.affine_start,
+                              o.mode,     o.strain_rate,     o.normal_pressure};
+    if (o.mode == discrete::LoadingMode::path)
+      loading.path = cell_path(o.path, {o.pressure, o.axial_strain, 1e-3 * o.axial_strain});
+    return loading;
   }
 
   continuum::Units continuum_units(const Scene &scene)

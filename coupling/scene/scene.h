@@ -9,6 +9,7 @@
 #include "coupling/averaging/averaging_options.h"
 #include "coupling/bands/band_options.h"
 #include "coupling/probes/probe_options.h"
+#include "coupling/scene/element_path.h"
 #include "coupling/statistics/equivalence_margins.h"
 #include "discrete/panel/options.h"
 
@@ -29,6 +30,7 @@ namespace diptych::coupling
     double                duration        = 10;
     double                stage_time      = 1;
     std::vector<double>   stages          = {};
+    PathOption            path            = {};
   };
 
   template <class Visitor> void visit_parameters(LoadingOptions &o, Visitor &&visitor)
@@ -41,14 +43,15 @@ namespace diptych::coupling
     visitor(
       "axial_strain", o.axial_strain, "-", {1e-6, 1e4},
       "at the end: axial strain, descent of the upper platen / initial height (modes shear and plane_shear: shear strain, its "
-      "travel / initial height)");
+      "travel / initial height; mode path: the progress of the path)");
     visitor("stage_strain", o.stage_strain, "-", {1e-6, 1e4}, "strain between two stages, at which both panels are compared");
     visitor("affine_start", o.affine_start, "-",
             "grains start with the affine velocity field between the platens, not at rest (an impulsive start)");
     visitor(
       "mode", o.mode, "-",
       "descent: the upper platen descends and moves sideways; shear: it moves sideways at constant height; plane_shear: it moves "
-      "sideways under normal_pressure x width; time: the walls move as discrete/drive_* say, for `duration`");
+      "sideways under normal_pressure x width; time: the walls move as discrete/drive_* say, for `duration`; path: a cell "
+      "(discrete/lateral = cell) follows strains and stresses of `path`");
     visitor("strain_rate", o.strain_rate, "1/time", {0., 1e12},
             "strain rate of the loading; if not 0, it replaces inertial_number");
     visitor("normal_pressure", o.normal_pressure, "pressure", {0., 1e15},
@@ -58,6 +61,10 @@ namespace diptych::coupling
     visitor(
       "stages", o.stages, "strain (mode time: time)", {1e-12, 1e12},
       "list of all stages, ascending, which replaces equal stages; the last one is the end (axial_strain, mode time: duration)");
+    visitor(
+      "path", o.path, "-",
+      "mode path: drained, constant_volume, constant_mean_stress or simple_shear up to axial_strain, or a CSV file. Three of "
+      "its columns are strains or stresses, as for `diptych material-point --path`; progress is optional");
   }
 
   struct ComparisonOptions

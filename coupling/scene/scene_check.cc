@@ -233,6 +233,7 @@ namespace diptych::coupling
       const bool        time = o.mode == LoadingMode::time;
       unless(time, mode, {"duration", "stage_time"});
       unless(!time, mode, {"axial_strain", "stage_strain", "inertial_number", "strain_rate", "affine_start"});
+      unless(o.mode == LoadingMode::path, mode, {"path"});
       unless(o.mode == LoadingMode::descent, mode, {"horizontal_over_vertical"});
       unless(o.mode == LoadingMode::plane_shear, mode, {"normal_pressure"});
       const std::string stages = "loading/stages are given";

@@ -93,10 +93,15 @@ namespace diptych::coupling
     return fs::exists(directory + "/homogenised.json");
   }
 
+  bool is_element_folder(const std::string &directory)
+  {
+    return fs::exists(directory + "/element.json");
+  }
+
   bool is_result_folder(const std::string &directory)
   {
     for (const char *name : {"provenance.json", "ensemble.prm", "study_input.json", "calibration_input.json", "plan_input.prm",
-                             "plan_input.json", "import.json"})
+                             "plan_input.json", "element_input.prm", "element_input.json", "import.json"})
       if (fs::is_regular_file(fs::path(directory) / name))
         return true;
     return false;

@@ -35,6 +35,8 @@ namespace diptych::discrete
         return RigidSides{pressure ? std::nullopt : std::optional<double>(o.side_velocity), o.wall_mass};
       case Lateral::periodic:
         return PeriodicSides{pressure, o.side_velocity, o.wall_mass};
+      case Lateral::cell:
+        return CellSides{};
       case Lateral::none:
         break;
       }
@@ -76,6 +78,8 @@ namespace diptych::discrete
 
   double sample_height(const State &state)
   {
+    if (state.lattice)
+      return state.lattice->vectors(1, 1);
     if (state.walls.size() < 2)
       throw std::invalid_argument("the height of the sample needs a lower and an upper platen");
     return state.walls[1].point.y() - state.walls[0].point.y();
@@ -131,6 +135,8 @@ namespace diptych::discrete
                                       std::to_string(wall.mass));
         (void)applied_wall_force(state, w, state.time);
       }
+    if (state.lattice && !(state.lattice->area() > 0))
+      throw std::invalid_argument("the vectors of a lattice must span an area counter-clockwise");
     if (state.cell && !(state.cell->width > 0 && state.cell->mass > 0))
       throw std::invalid_argument("the periodic cell needs a positive width and mass");
   }

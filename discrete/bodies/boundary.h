@@ -29,22 +29,27 @@ namespace diptych::discrete
     double velocity   = 0;     // rate of a width that is not free [length/time]
     double mass       = 0;     // inertia of the free width; 0: sqrt(number of grains) x mean grain mass
   };
+  // The sample repeats itself in both directions: no platens, no sides.
+  struct CellSides
+  {};
   struct NoSides
   {};
-  using LateralCondition = std::variant<EndGrains, RigidSides, PeriodicSides, NoSides>;
+  using LateralCondition = std::variant<EndGrains, RigidSides, PeriodicSides, CellSides, NoSides>;
 
   enum class Lateral
   {
     end_grains,
     rigid_walls,
     periodic,
+    cell,
     none
   };
 
   constexpr auto choices(Lateral)
   {
     return std::array{std::pair{Lateral::end_grains, "end_grains"}, std::pair{Lateral::rigid_walls, "rigid_walls"},
-                      std::pair{Lateral::periodic, "periodic"}, std::pair{Lateral::none, "none"}};
+                      std::pair{Lateral::periodic, "periodic"}, std::pair{Lateral::cell, "cell"},
+                      std::pair{Lateral::none, "none"}};
   }
 
   enum class SideMotion
@@ -73,7 +78,7 @@ namespace diptych::discrete
     visitor(
       "lateral", o.lateral, "-",
       "condition at the sides: the end grains of horizontal layers carry the pressure (free sides), two rigid walls, periodic "
-      "sides, or nothing");
+      "sides, a cell that is periodic in both directions (no platens; loading/mode = path), or nothing");
     visitor(
       "band_height", o.band_height, "mean diameters", {0.5, 100.},
       "end_grains: height of a horizontal layer; 1.5 to 3 are equivalent, and from 8 on grains escape between five end grains");
@@ -106,7 +111,8 @@ namespace diptych::discrete
 
   Eigen::Vector2d prescribed_wall_velocity(const Wall &wall, double time);
 
-  // Height between the platens; width between the side walls or of the cell. Throws std::invalid_argument without these bodies.
+  // Height between the platens, or y of the second vector of a lattice; width between the side walls or of the cell. Throws
+  // std::invalid_argument without these bodies.
   double sample_height(const State &state);
   double sample_width(const State &state);
 

@@ -87,6 +87,14 @@ namespace diptych::discrete
 
   Outline make_outline(const State &state, const double mean_diameter)
   {
+    if (state.lattice)
+      {
+        const Eigen::Vector2d a1 = state.lattice->vectors.col(0), a2 = state.lattice->vectors.col(1);
+        Eigen::Vector2d       corner = -0.5 * (a1 + a2);
+        for (const Eigen::Vector2d &x : state.grains.position)
+          corner += x / double(state.grains.size());
+        return {{corner, corner + a2}, {corner + a1, corner + a1 + a2}};
+      }
     const double bottom = state.walls[0].point.y(), top = state.walls[1].point.y();
     const auto   upright = [&](const double x) { return std::vector<Eigen::Vector2d>{{x, bottom}, {x, top}}; };
     if (state.walls.size() >= 4)

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -9,6 +11,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 
 namespace diptych::discrete
 {
@@ -114,6 +117,40 @@ namespace diptych::discrete
     double inverse_mass() const { return pressure ? 1 / mass : 0.; }
   };
 
+  // Three controls of a lattice over time. A control is a linear form of the strains (exx, eyy, 2 exy) or of the stresses (sxx,
+  // syy, sxy). The controls must determine the motion: determines_motion() in contacts/lattice_motion.h.
+  struct LatticeDrive
+  {
+    Eigen::Matrix3d          form      = Eigen::Matrix3d::Identity(); // one row per control
+    std::array<bool, 3>      is_stress = {true, true, true};
+    std::array<TimeTable, 3> value     = {};
+    Eigen::Matrix3d          inertia   = Eigen::Matrix3d::Identity(); // of the strains, symmetric [pressure x length^2 x time^2]
+  };
+
+  // Periodicity in both directions. Each grain has images at whole numbers of the lattice vectors. The lattice deforms without
+  // turning: its velocity gradient is symmetric. Lattice and grains follow it; the velocity of a grain is what it moves beyond.
+  struct Lattice
+  {
+    Eigen::Matrix2d vectors;                          // columns a1 and a2, counter-clockwise [length]
+    Eigen::Vector3d strain = Eigen::Vector3d::Zero(); // (exx, eyy, 2 exy), logarithmic, positive in compression
+    Eigen::Vector3d rate   = Eigen::Vector3d::Zero(); // of the strain [1/time]
+    LatticeDrive    drive  = {};
+
+    double area() const { return vectors.determinant(); }
+  };
+
+  // The smaller height of the parallelogram of a lattice [length].
+  inline double least_height(const Lattice &lattice)
+  {
+    return lattice.area() / std::sqrt(std::max(lattice.vectors.col(0).squaredNorm(), lattice.vectors.col(1).squaredNorm()));
+  }
+
+  // Velocity gradient of a rate of strain (positive in compression) [1/time].
+  inline Eigen::Matrix2d velocity_gradient(const Eigen::Vector3d &rate)
+  {
+    return (Eigen::Matrix2d() << -rate[0], -0.5 * rate[2], -0.5 * rate[2], -rate[1]).finished();
+  }
+
   // Impulse of a pair, kept as first guess for the next step. Walls are bodies n_grains, n_grains + 1, ...
   struct PairImpulse
   {
@@ -129,13 +166,33 @@ namespace diptych::discrete
     std::vector<Wall>           walls; // lower and upper platen, then the left and right side if there are any
     std::optional<PeriodicCell> cell;
     std::vector<PairImpulse>    impulses; // of the last step, ascending in (i, j)
-    double                      time = 0;
+    double                      time    = 0;
+    std::optional<Lattice>      lattice = {}; // then there are neither walls nor a cell of the other kind
   };
 
-  // Number of cell widths to the image of j nearest to grain i, which is at x_j + image x width. Without a cell: 0.
-  inline int nearest_image(const std::optional<PeriodicCell> &cell, const double xi, const double xj)
+  // The image of grain j nearest to grain i: at x_j + shift, `along` widths or lattice vectors a1 and `upward` vectors a2 away.
+  struct Image
   {
-    return cell ? int(std::lround((xi - xj) / cell->width)) : 0;
+    int             along = 0, upward = 0;
+    Eigen::Vector2d shift = Eigen::Vector2d::Zero();
+  };
+
+  // In a lattice the result is the nearest one for distances below half the smaller height of its parallelogram.
+  inline Image nearest_image(const State &state, const Eigen::Vector2d &xi, const Eigen::Vector2d &xj)
+  {
+    if (state.cell)
+      {
+        const int along = int(std::lround((xi.x() - xj.x()) / state.cell->width));
+        return {along, 0, {along * state.cell->width, 0}};
+      }
+    if (!state.lattice)
+      return {};
+    const Eigen::Matrix2d &a     = state.lattice->vectors;
+    const Eigen::Vector2d  d     = xi - xj;
+    const double           area  = state.lattice->area();
+    const int              along = int(std::lround((d.x() * a(1, 1) - d.y() * a(0, 1)) / area)),
+              upward             = int(std::lround((a(0, 0) * d.y() - a(1, 0) * d.x()) / area));
+    return {along, upward, along * a.col(0) + upward * a.col(1)};
   }
 
   // Gives the grains of a platen the velocity of the platen.

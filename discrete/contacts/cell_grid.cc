@@ -5,11 +5,12 @@
 #include <limits>
 #include <map>
 
+#include <Eigen/LU>
+
 namespace diptych::discrete
 {
   CellGrid::CellGrid(const State &state, std::vector<int> members, const double cell_size)
-      : members_(std::move(members)),
-        cell_size_(Eigen::Vector2d::Constant(cell_size))
+      : members_(std::move(members))
   {
     const double    n   = double(members_.size());
     Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -18,21 +19,30 @@ namespace diptych::discrete
         low  = low.cwiseMin(state.grains.position[i]);
         high = high.cwiseMax(state.grains.position[i]);
       }
-    origin_ = low;
-    if (state.cell)
+    origin_              = low;
+    const auto number_of = [&](const double length) { return std::int64_t(std::clamp(length / cell_size, 1., 4 * n + 16)); };
+    const auto beyond    = [&](const double length) { return std::int64_t(bounded(std::floor(length / cell_size))) + 1; };
+    if (state.lattice)
       {
-        period_        = state.cell->width;
-        columns_       = std::int64_t(std::clamp(period_ / cell_size, 1., 4 * n + 16));
-        cell_size_.x() = period_ / double(columns_);
+        const Eigen::Matrix2d inverse = state.lattice->vectors.inverse(); // its rows are 1/height long
+        wraps_x_ = wraps_y_ = true;
+        columns_            = number_of(1 / inverse.row(0).norm());
+        rows_               = number_of(1 / inverse.row(1).norm());
+        to_cells_           = Eigen::Vector2d(double(columns_), double(rows_)).asDiagonal() * inverse;
       }
     else
-      columns_ = raw_column(high.x()) + 1;
-    rows_      = std::int64_t(bounded(std::floor((high.y() - low.y()) / cell_size))) + 1;
-    is_shared_ = double(columns_) * double(rows_) > 16 * n + 64;
-    n_bins_    = is_shared_ ? 2 * members_.size() + 1 : std::size_t(columns_ * rows_);
+      {
+        wraps_x_  = state.cell.has_value();
+        columns_  = wraps_x_ ? number_of(state.cell->width) : beyond(high.x() - low.x());
+        rows_     = beyond(high.y() - low.y());
+        to_cells_ = Eigen::Vector2d(wraps_x_ ? double(columns_) / state.cell->width : 1 / cell_size, 1 / cell_size).asDiagonal();
+      }
+    cells_per_length_ = to_cells_.rowwise().norm();
+    is_shared_        = double(columns_) * double(rows_) > 16 * n + 64;
+    n_bins_           = is_shared_ ? 2 * members_.size() + 1 : std::size_t(columns_ * rows_);
     cell_.reserve(members_.size());
     for (const int i : members_)
-      cell_.push_back({column(state.grains.position[i].x()), row(state.grains.position[i].y())});
+      cell_.push_back(cell_of(state.grains.position[i]));
     bins_.sort(n_bins_, members_.size(), [this](const unsigned int k, const auto &into) { into(bin(cell_[k][0], cell_[k][1])); });
   }
 

@@ -13,7 +13,8 @@
 
 namespace diptych::discrete
 {
-  // Some of the grains, sorted by the cell of their centre. With a period the columns wrap around. If grains are so far apart
+  // Some of the grains, sorted by the cell of their centre. With a period the columns wrap around, in a lattice
+  // the rows too; cells are then parallelograms. If grains are so far apart
   // that most cells would be empty, cells share bins. Time and memory therefore depend only on the number of grains.
   class CellGrid
   {
@@ -23,27 +24,18 @@ namespace diptych::discrete
 
     template <class Visit> void visit_around(const Eigen::Vector2d &x, const double reach, Visit &&visit) const
     {
-      std::int64_t from = raw_column(x.x() - reach), to = raw_column(x.x() + reach);
-      if (period_ > 0 && to - from >= columns_)
-        {
-          from = 0;
-          to   = columns_ - 1;
-        }
-      if (!(period_ > 0))
-        {
-          from = std::clamp<std::int64_t>(from, 0, columns_ - 1);
-          to   = std::clamp<std::int64_t>(to, 0, columns_ - 1);
-        }
-      const std::int64_t bottom = row(x.y() - reach), top = row(x.y() + reach);
-      if (is_shared_ && double(to - from + 1) * double(top - bottom + 1) > double(members_.size()))
+      const Eigen::Vector2d at = to_cells_ * (x - origin_), far = reach * cells_per_length_;
+      const Range           columns = range(at.x() - far.x(), at.x() + far.x(), columns_, wraps_x_);
+      const Range           rows    = range(at.y() - far.y(), at.y() + far.y(), rows_, wraps_y_);
+      if (is_shared_ && double(columns.to - columns.from + 1) * double(rows.to - rows.from + 1) > double(members_.size()))
         {
           for (const int grain : members_)
             visit(grain);
           return;
         }
-      for (std::int64_t b = bottom; b <= top; ++b)
-        for (std::int64_t a = from; a <= to; ++a)
-          visit_cell(period_ > 0 ? wrapped(a) : a, b, visit);
+      for (std::int64_t b = rows.from; b <= rows.to; ++b)
+        for (std::int64_t a = columns.from; a <= columns.to; ++a)
+          visit_cell(placed(a, columns_, wraps_x_), placed(b, rows_, wraps_y_), visit);
     }
 
     struct Crowds
@@ -64,28 +56,40 @@ namespace diptych::discrete
       });
     }
 
-    // Column without clamping and, with a period, without wrapping.
-    std::int64_t raw_column(double x) const { return std::int64_t(bounded(std::floor((x - origin_.x()) / cell_size_.x()))); }
-    std::int64_t column(const double x) const
+    struct Range
     {
-      return period_ > 0 ? wrapped(raw_column(x)) : std::clamp<std::int64_t>(raw_column(x), 0, columns_ - 1);
-    }
-    std::int64_t row(const double y) const
+      std::int64_t from, to;
+    };
+
+    // Numbers of the cells from `low` to `high` along one axis; beyond a period each cell counts once.
+    static Range range(const double low, const double high, const std::int64_t n, const bool wraps)
     {
-      const double raw = bounded(std::floor((y - origin_.y()) / cell_size_.y()));
-      return std::clamp<std::int64_t>(std::int64_t(raw), 0, rows_ - 1);
+      const std::int64_t from = std::int64_t(bounded(std::floor(low))), to = std::int64_t(bounded(std::floor(high)));
+      if (!wraps)
+        return {std::clamp<std::int64_t>(from, 0, n - 1), std::clamp<std::int64_t>(to, 0, n - 1)};
+      return to - from >= n ? Range{0, n - 1} : Range{from, to};
     }
-    std::int64_t  wrapped(const std::int64_t c) const { return ((c % columns_) + columns_) % columns_; }
+    static std::int64_t placed(const std::int64_t c, const std::int64_t n, const bool wraps)
+    {
+      return wraps ? ((c % n) + n) % n : std::clamp<std::int64_t>(c, 0, n - 1);
+    }
+    Cell cell_of(const Eigen::Vector2d &x) const
+    {
+      const Eigen::Vector2d at = to_cells_ * (x - origin_);
+      return {placed(std::int64_t(bounded(std::floor(at.x()))), columns_, wraps_x_),
+              placed(std::int64_t(bounded(std::floor(at.y()))), rows_, wraps_y_)};
+    }
     static double bounded(const double number) { return std::clamp(number, -1e18, 1e18); }
     std::size_t   bin(std::int64_t column, std::int64_t row) const;
 
     std::vector<int>  members_;
     std::vector<Cell> cell_; // of each member, if bins are shared
-    Eigen::Vector2d   origin_, cell_size_;
+    Eigen::Vector2d   origin_;
+    Eigen::Matrix2d   to_cells_;         // maps (position - origin) to columns and rows
+    Eigen::Vector2d   cells_per_length_; // columns and rows that a distance can span
     std::int64_t      columns_ = 1, rows_ = 1;
-    double            period_    = 0; // 0: not periodic
-    bool              is_shared_ = false;
-    std::size_t       n_bins_    = 1;
+    bool              wraps_x_ = false, wraps_y_ = false, is_shared_ = false;
+    std::size_t       n_bins_ = 1;
     CountedBins       bins_;
   };
 

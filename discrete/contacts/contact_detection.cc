@@ -53,10 +53,8 @@ namespace diptych::discrete
         const double gap  = (g.position[i] - wall.point).dot(wall.normal) - g.radius[i];
         return {i, j, gap, wall.normal, g.position[i] - (g.radius[i] + 0.5 * gap) * wall.normal};
       }
-    const int       image  = nearest_image(state.cell, g.position[i].x(), g.position[j].x());
-    Eigen::Vector2d branch = g.position[i] - g.position[j];
-    if (image != 0)
-      branch.x() -= image * state.cell->width;
+    const Image           image  = nearest_image(state, g.position[i], g.position[j]);
+    const Eigen::Vector2d branch = g.position[i] - g.position[j] - image.shift;
     return contact_of_discs({i, j, 0, {}, {}, image}, {g.position[i], g.radius[i], 0}, {g.position[j], g.radius[j], 0}, branch);
   }
 
@@ -70,10 +68,20 @@ namespace diptych::discrete
       wall_motion = std::max(wall_motion, (state.walls[w].point - wall_point_[w]).norm());
     if (state.cell)
       wall_motion = std::max(wall_motion, std::abs(state.cell->width - width_));
+    Eigen::Matrix2d map = Eigen::Matrix2d::Identity(); // of the lattice since the list was built; grains follow it
+    if (state.lattice)
+      {
+        map = state.lattice->vectors * lattice_.inverse();
+        // A pair in the list is at most two largest reaches apart; each grain takes half of what the map moves them.
+        wall_motion = (map - Eigen::Matrix2d::Identity()).norm() *
+                      (*std::max_element(g.radius.begin(), g.radius.end()) + *std::max_element(reach_.begin(), reach_.end()));
+      }
     for (std::size_t i = 0; i < g.size(); ++i)
       {
-        const double left = reach_[i] - margin[i] - wall_motion;
-        if (left < 0 || (g.position[i] - position_[i]).squaredNorm() > left * left)
+        const double          left  = reach_[i] - margin[i] - wall_motion;
+        const Eigen::Vector2d moved = state.lattice ? Eigen::Vector2d(g.position[i] - map * position_[i])
+                                                    : Eigen::Vector2d(g.position[i] - position_[i]);
+        if (left < 0 || moved.squaredNorm() > left * left)
           return false;
       }
     return true;
@@ -93,8 +101,10 @@ namespace diptych::discrete
     wall_point_.clear();
     for (const Wall &wall : state.walls)
       wall_point_.push_back(wall.point);
-    width_ = state.cell ? state.cell->width : 0;
-    if (state.cell && width_ < 4 * (largest_radius + *std::max_element(reach_.begin(), reach_.end())))
+    width_ = state.cell ? state.cell->width : state.lattice ? least_height(*state.lattice) : 0;
+    if (state.lattice)
+      lattice_ = state.lattice->vectors;
+    if (width_ > 0 && width_ < 4 * (largest_radius + *std::max_element(reach_.begin(), reach_.end())))
       throw std::invalid_argument("the periodic cell is too narrow: its width is " + std::to_string(width_) +
                                   ", too small for grains of radius " + std::to_string(largest_radius) +
                                   " at their present speed");
@@ -113,9 +123,8 @@ namespace diptych::discrete
         const auto meet = [&](const int j) {
           if (reach_[j] > reach_[i] || (reach_[j] == reach_[i] && j <= i))
             return;
-          const double    alert  = g.radius[i] + g.radius[j] + reach_[i] + reach_[j];
-          Eigen::Vector2d branch = g.position[i] - g.position[j];
-          branch.x() -= nearest_image(state.cell, g.position[i].x(), g.position[j].x()) * width_;
+          const double          alert  = g.radius[i] + g.radius[j] + reach_[i] + reach_[j];
+          const Eigen::Vector2d branch = g.position[i] - g.position[j] - nearest_image(state, g.position[i], g.position[j]).shift;
           if (branch.squaredNorm() < alert * alert && may_act(state, i, j))
             pairs_.push_back({std::min(i, j), std::max(i, j)});
         };
@@ -153,12 +162,10 @@ namespace diptych::discrete
               contacts.push_back(contact);
             continue;
           }
-        const Disc     &b      = disc[pair.j];
-        const int       image  = nearest_image(state.cell, a.position.x(), b.position.x());
-        Eigen::Vector2d branch = a.position - b.position;
-        if (image != 0)
-          branch.x() -= image * state.cell->width;
-        const double alert = a.margin + b.margin, distance = a.radius + b.radius + alert;
+        const Disc           &b      = disc[pair.j];
+        const Image           image  = nearest_image(state, a.position, b.position);
+        const Eigen::Vector2d branch = a.position - b.position - image.shift;
+        const double          alert = a.margin + b.margin, distance = a.radius + b.radius + alert;
         if (branch.squaredNorm() >= distance * distance)
           continue;
         const Contact contact = contact_of_discs({pair.i, pair.j, 0, {}, {}, image}, a, b, branch);

@@ -12,10 +12,10 @@ namespace diptych::discrete
   struct Contact
   {
     int             i, j;
-    double          gap;       // negative if the bodies interpenetrate [length]
-    Eigen::Vector2d normal;    // unit, from j to i
-    Eigen::Vector2d point;     // midway between the surfaces, next to i
-    int             image = 0; // j enters as its image this many cell widths away
+    double          gap;        // negative if the bodies interpenetrate [length]
+    Eigen::Vector2d normal;     // unit, from j to i
+    Eigen::Vector2d point;      // midway between the surfaces, next to i
+    Image           image = {}; // j enters as this image
   };
 
   // Gap, normal and point of one pair at the present positions, with the image of j nearest to i.
@@ -29,7 +29,7 @@ namespace diptych::discrete
     // grain; walls have none. Pairs of two immovable bodies are left out, and pairs of a platen grain with anything but a free
     // grain. The list is rebuilt, in O(n), if margin + motion of a grain exceed its reach. If `go_on`, called during a rebuild,
     // returns false, the result is empty. Throws std::invalid_argument if a periodic cell is narrower than four times the reach
-    // of a grain.
+    // of a grain, in a lattice if its parallelogram is.
     std::vector<Contact> find_contacts(const State                 &state,
                                        const std::vector<double>   &margin,
                                        const std::function<bool()> &go_on = {});
@@ -45,7 +45,8 @@ namespace diptych::discrete
     std::vector<Pair>            pairs_; // ascending
     std::vector<Eigen::Vector2d> position_, wall_point_;
     std::vector<double>          reach_;
-    double                       width_ = 0;
+    double                       width_   = 0;
+    Eigen::Matrix2d              lattice_ = Eigen::Matrix2d::Zero();
   };
 
   std::vector<Contact> find_contacts(const State &state, const std::vector<double> &margin);

@@ -119,7 +119,17 @@ namespace diptych::discrete
   inline RelativeVelocity relative_velocity(const ContactRow &c, const std::vector<BodyVelocity> &v)
   {
     const BodyVelocity &vi = v[c.i], &vj = v[c.j];
-    const double        dx = vi.x - vj.x - (c.cell >= 0 ? c.image * v[c.cell].x : 0.), dy = vi.y - vj.y;
+    double              dx = vi.x - vj.x, dy = vi.y - vj.y;
+    if (c.cell >= 0)
+      {
+        dx -= c.image.along * v[c.cell].x;
+        dy -= c.image.along * v[c.cell].y;
+      }
+    if (c.image.upward != 0)
+      {
+        dx -= c.image.upward * v[c.cell + 1].x;
+        dy -= c.image.upward * v[c.cell + 1].y;
+      }
     return relative_velocity(c.nx, c.ny, dx, dy, vi.surface, vj.surface);
   }
 
@@ -185,7 +195,7 @@ namespace diptych::discrete
     vj.y -= c.jy * py;
     vj.surface -= c.kj * dr.tangential;
     if (c.cell >= 0)
-      v[c.cell].x -= c.image * v[c.cell].inverse_mass * px;
+      v[c.cell].x -= c.image.along * v[c.cell].inverse_mass * px;
     if (dr.rolling != 0)
       apply_couple(c, dr.rolling, vi, vj);
   }

@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
+
+#include <Eigen/Core>
 
 namespace diptych::discrete
 {
@@ -21,25 +25,43 @@ namespace diptych::discrete
     double normal = 0, tangential = 0, rolling = 0;
   };
 
+  // Number of cell widths (lattice vectors a1) and of lattice vectors a2 to an image.
+  struct RowImage
+  {
+    RowImage(const int along = 0, const int upward = 0)
+        : along(std::int16_t(along)),
+          upward(std::int16_t(upward))
+    {}
+
+    std::int16_t along, upward;
+  };
+
   // One contact between bodies i and j: normal n from j to i, tangent t = n turned by +90 degrees, relative velocity
   //   u_n = n.(v_i - v_j),  u_t = t.(v_i - v_j) - s_i - s_j,  w = R (omega_i - omega_j) = a s_i - (1 - a) s_j,  a = R / r_i.
   struct alignas(64) ContactRow
   {
     // The velocities depend on these members. They fill one cache line, because they are read separately from the rest.
-    double nx, ny;
-    int    i = 0, j = 0;    // i is a grain
-    int    image = 0;       // j enters as its image this many cell widths away, which moves with the width
-    int    cell  = -1;      // body whose x is d width/dt, if the image moves; -1 otherwise
-    double ki, kj;          // r^2/I of each side, 2/m for a disc, 0 for a wall [1/mass]
-    double jx, jy;          // inverse mass of body j along x and y; they differ only for walls with one free component [1/mass]
-    double normal_term;     // c_n of  0 <= u_n' + c_n  _|_  r_n >= 0   [length/time]
-    double tangential_term; // c_t = e_t u_t of the friction law        [length/time]
-    double friction;        // mu
-    double inverse_wnn;     // 1 / (1/m_i + 1/m_j)                      [mass]
-    double inverse_wtt;     // 1 / (1/m_i + 1/m_j + k_i + k_j)          [mass]
+    double   nx, ny;
+    int      i = 0, j = 0; // i is a grain
+    RowImage image = {};   // j enters as this image, which moves with the cell
+    int      cell  = -1;   // body whose velocity is that of the width or of a1, if the image moves, followed by a2; -1 otherwise
+    double   ki, kj;       // r^2/I of each side, 2/m for a disc, 0 for a wall [1/mass]
+    double   jx, jy;       // inverse mass of body j along x and y; they differ only for walls with one free component [1/mass]
+    double   normal_term;  // c_n of  0 <= u_n' + c_n  _|_  r_n >= 0   [length/time]
+    double   tangential_term;    // c_t = e_t u_t of the friction law        [length/time]
+    double   friction;           // mu
+    double   inverse_wnn;        // 1 / (1/m_i + 1/m_j)                      [mass]
+    double   inverse_wtt;        // 1 / (1/m_i + 1/m_j + k_i + k_j)          [mass]
     double rolling_friction = 0; // bound of |r_m| / r_n: mu_r times length of the law / R; the next two count only if it is not 0
     double rolling_arm      = 0; // a; -a if the row is turned (step_problem.cc), so that r_m keeps its sign
     double inverse_wmm      = 0; // 1 / (k_i a^2 + k_j (1 - a)^2)       [mass]
+  };
+
+  // Deformation of a lattice as three more unknowns, its rate of strain (lattice_motion.h).
+  struct LatticeProblem
+  {
+    std::vector<Eigen::Vector2d> place;    // of each grain, then a1 and a2: their velocity contains gradient x place [length]
+    Eigen::Matrix3d              mobility; // rate of strain = free rate - mobility x moment of the impulses
   };
 
   // Unknowns are the impulses r; the velocities are v = v_free + M^-1 H r. Every contact obeys Signorini's condition, Coulomb's
@@ -48,9 +70,13 @@ namespace diptych::discrete
   // the edge of a cell with free width W_nt is small but not zero.
   struct ContactProblem
   {
-    std::vector<BodyVelocity> free_velocity; // grains first, then walls, then the cell if its width changes (x = d width/dt)
+    // Grains first, then walls, then the cell if its width changes (x = d width/dt). With a lattice: grains, a1, a2 and a record
+    // of the rate of strain (x: exx, y: eyy, surface: 2 exy).
+    std::vector<BodyVelocity> free_velocity;
     std::vector<ContactRow>   contacts;
     std::vector<int>          order; // rows in the order of the sweeps; empty: the stored order
+
+    std::optional<LatticeProblem> lattice = {};
   };
 
   // True for free grains and the cell of free width. False for walls, because their rows hold their mobility.

@@ -3,6 +3,7 @@
 #include "discrete/contacts/natural_map.h"
 
 #include "discrete/contacts/contact_law.h"
+#include "discrete/contacts/lattice_motion.h"
 
 namespace diptych::discrete
 {
@@ -29,12 +30,22 @@ namespace diptych::discrete
                                        const std::vector<Impulse> &impulses,
                                        const std::vector<int>     &acting)
   {
-    std::vector<BodyVelocity> v = problem.free_velocity;
+    return velocities_from(problem.free_velocity, problem, impulses, acting);
+  }
+
+  std::vector<BodyVelocity> velocities_from(const std::vector<BodyVelocity> &free,
+                                            const ContactProblem            &problem,
+                                            const std::vector<Impulse>      &impulses,
+                                            const std::vector<int>          &acting)
+  {
+    std::vector<BodyVelocity> v = free;
     for (std::size_t a = 0; a < acting.size(); ++a)
       {
         fetch_ahead(problem.contacts, acting, a);
         apply_impulse(problem.contacts[acting[a]], impulses[acting[a]], v);
       }
+    if (problem.lattice)
+      follow_impulses(*problem.lattice, free, crossing_sum(problem, impulses), v);
     return v;
   }
 

@@ -17,6 +17,12 @@ namespace diptych::discrete
                                        const std::vector<Impulse> &impulses,
                                        const std::vector<int>     &acting);
 
+  // The same with other velocities than v_free.
+  std::vector<BodyVelocity> velocities_from(const std::vector<BodyVelocity> &free,
+                                            const ContactProblem            &problem,
+                                            const std::vector<Impulse>      &impulses,
+                                            const std::vector<int>          &acting);
+
   // Natural map ||r - P(r)||_2 / ||r||_2: P solves every contact for itself with its own W_nn and W_tt, all others held.
   // Recomputes v from r. Returns 0 if both r and P(r) vanish and infinity if only r vanishes.
   double natural_map_residual(const ContactProblem &problem, const std::vector<Impulse> &impulses);

@@ -134,6 +134,25 @@ namespace diptych::discrete
       return walls;
     }
 
+    std::vector<double> lattice_numbers(const Lattice &lattice)
+    {
+      std::vector<double> values(lattice.vectors.data(), lattice.vectors.data() + 4);
+      values.insert(values.end(), lattice.strain.data(), lattice.strain.data() + 3);
+      values.insert(values.end(), lattice.rate.data(), lattice.rate.data() + 3);
+      return values;
+    }
+
+    Lattice lattice_of(const std::vector<double> &values, const std::string &path)
+    {
+      const bool finite = std::all_of(values.begin(), values.end(), [](const double x) { return std::isfinite(x); });
+      if (values.size() != 10 || !finite || !(values[0] * values[3] - values[1] * values[2] > 0))
+        throw std::invalid_argument(path + ": 'lattice' does not hold vectors, strain and rate of a cell");
+      return {Eigen::Matrix2d::Map(values.data()),
+              Eigen::Vector3d::Map(values.data() + 4),
+              Eigen::Vector3d::Map(values.data() + 7),
+              {}};
+    }
+
     void write_pairs(Hdf5Writer &file, const Checkpoint &p)
     {
       std::vector<int>    body, window_body;
@@ -219,9 +238,10 @@ namespace diptych::discrete
       const auto        both = [&](const auto &pair) {
         return pair.i >= 0 && std::size_t(pair.i) < n && pair.j >= 0 && std::size_t(pair.j) < n_bodies;
       };
-      const bool whole = row_is_whole && p.state.walls.size() >= 2 && g.position.size() == n && g.velocity.size() == n &&
-                         g.rotation.size() == n && g.spin.size() == n && g.mass.size() == n && g.fixed.size() == n &&
-                         p.reference.position.size() == n && (p.window.spin.empty() || p.window.spin.size() == n) &&
+      const bool whole = row_is_whole && (p.state.walls.size() >= 2 || p.state.lattice) && g.position.size() == n &&
+                         g.velocity.size() == n && g.rotation.size() == n && g.spin.size() == n && g.mass.size() == n &&
+                         g.fixed.size() == n && p.reference.position.size() == n &&
+                         (p.window.spin.empty() || p.window.spin.size() == n) &&
                          std::all_of(p.state.impulses.begin(), p.state.impulses.end(), both) &&
                          std::all_of(p.window.sums.begin(), p.window.sums.end(), both);
       if (!whole)
@@ -245,7 +265,7 @@ namespace diptych::discrete
       demand(p.steps_left >= 0 && p.report.steps >= 0, "'scalars/steps_left' or 'scalars/steps' is negative");
       demand(p.interval > 0, "'scalars/interval' is not above 0");
       demand(p.reference.height > 0 && p.reference.area > 0, "'scalars/reference_height' or 'reference_area' is not above 0");
-      demand(walls[1].point.y() > walls[0].point.y(), "'walls' has the upper platen below the lower one");
+      demand(p.state.lattice || walls[1].point.y() > walls[0].point.y(), "'walls' has the upper platen below the lower one");
     }
   } // namespace
 
@@ -255,6 +275,7 @@ namespace diptych::discrete
     Hdf5Writer file(path);
     write_grains(file, p.state.grains);
     file.write("walls", wall_numbers(p.state.walls));
+    file.write("lattice", p.state.lattice ? lattice_numbers(*p.state.lattice) : std::vector<double>{});
     file.write("cell", p.state.cell ? std::vector<double>{p.state.cell->width, p.state.cell->velocity, p.state.cell->mass}
                                     : std::vector<double>{});
     write_pairs(file, p);
@@ -281,6 +302,8 @@ namespace diptych::discrete
         p.state.cell = PeriodicCell{cell[0], cell[1], {}, cell[2]};
       else if (!cell.empty())
         throw std::invalid_argument(path + ": 'cell' does not hold width, velocity and mass");
+      if (const std::vector<double> lattice = file.read("lattice"); !lattice.empty())
+        p.state.lattice = lattice_of(lattice, path);
       read_pairs(file, p);
       p.reference.position            = file.read_vectors("reference/position");
       const std::vector<double> row   = file.read("row");

@@ -80,6 +80,37 @@ namespace diptych::discrete
       return closed > 0 ? double(sliding) / closed : 0;
     }
 
+    void describe_lattice(const Lattice &lattice, const LatticeStress &stress, HistoryRow &row)
+    {
+      row.strain       = {lattice.strain[0], lattice.strain[1], 0.5 * lattice.strain[2]};
+      row.drive_stress = stress.drive;
+      row.stress << stress.contacts[0], stress.contacts[2], stress.contacts[2], stress.contacts[1];
+    }
+
+    // Coordination and fabric. Needs row.contacts and row.rattlers.
+    void describe_contacts(const StepResult &result, const std::size_t n_grains, HistoryRow &row)
+    {
+      int             ends = 0, pairs = 0;
+      Eigen::Matrix2d fabric = Eigen::Matrix2d::Zero();
+      for (std::size_t k = 0; k < result.contacts.size(); ++k)
+        {
+          const Contact &c = result.contacts[k];
+          if (!(result.impulses[k].normal > 0))
+            continue;
+          const bool pair = std::size_t(c.j) < n_grains;
+          ends += pair ? 2 : 1;
+          pairs += pair;
+          if (pair)
+            fabric += c.normal * c.normal.transpose();
+        }
+      const int carrying = int(n_grains) - row.rattlers;
+      row.coordination   = carrying > 0 ? double(ends) / carrying : 0;
+      fabric /= std::max(pairs, 1);
+      const double d = fabric(0, 0) - fabric(1, 1), s = 2 * fabric(0, 1);
+      row.fabric_anisotropy = 2 * std::hypot(d, s);
+      row.fabric_angle      = 0.5 * std::atan2(s, d) * 180 / M_PI;
+    }
+
     double sum(const std::vector<double> &values)
     {
       double total = 0;
@@ -89,11 +120,20 @@ namespace diptych::discrete
     }
   } // namespace
 
+  Strains strains_of(const State &state, const Reference &reference)
+  {
+    if (state.lattice)
+      return {1 - std::exp(-state.lattice->strain[1]), state.lattice->strain[2]};
+    const Eigen::Vector2d travel = state.walls[1].point - reference.platen;
+    return {(0. - travel.y()) / reference.height, travel.x() / reference.height};
+  }
+
   Reference make_reference(const State &state, const double mean_diameter, const double strain_rate)
   {
     Reference reference;
-    reference.position       = state.grains.position;
-    reference.platen         = state.walls[1].point;
+    reference.position = state.grains.position;
+    if (!state.lattice)
+      reference.platen = state.walls[1].point;
     reference.height         = sample_height(state);
     reference.area           = outline_area(make_outline(state, mean_diameter));
     reference.kinetic_energy = kinetic_energy(state);
@@ -101,8 +141,10 @@ namespace diptych::discrete
       reference.grain_area += M_PI * r * r;
     const double mass               = sum(state.grains.mass);
     reference.mean_density          = mass / reference.grain_area;
-    reference.platen_kinetic_energy = 0.25 * mass * state.walls[1].velocity.squaredNorm();
-    reference.strain_rate           = strain_rate;
+    reference.platen_kinetic_energy = 0.25 * mass *
+                                      (state.lattice ? std::pow(strain_rate * reference.height, 2)
+                                                     : state.walls[1].velocity.squaredNorm());
+    reference.strain_rate = strain_rate;
     return reference;
   }
 
@@ -142,20 +184,25 @@ namespace diptych::discrete
                       const StepSetting &setting,
                       HistoryRow        &row)
   {
-    const double          area   = outline_area(make_outline(state, setting.mean_diameter));
-    const double          spin   = sum(spin_terms(state.grains));
-    const MomentSums      sums   = sum_moments(state, result, setting.step);
-    const Eigen::Vector2d travel = state.walls[1].point - reference.platen;
+    const double     area    = outline_area(make_outline(state, setting.mean_diameter));
+    const double     spin    = sum(spin_terms(state.grains));
+    const MomentSums sums    = sum_moments(state, result, setting.step);
+    const Strains    strains = strains_of(state, reference);
 
-    row.time              = state.time;
-    row.axial_strain      = (0. - travel.y()) / reference.height;
-    row.shear_strain      = travel.x() / reference.height;
-    row.stress            = (sums.total - spin * Eigen::Matrix2d::Identity()) / area;
+    row.time         = state.time;
+    row.axial_strain = strains.axial;
+    row.shear_strain = strains.shear;
+    row.stress       = (sums.total - spin * Eigen::Matrix2d::Identity()) / area;
+    if (state.lattice)
+      describe_lattice(*state.lattice, result.lattice, row);
     row.stress_ratio      = stress_ratio(row.stress);
     row.volumetric_strain = 1 - area / reference.area;
     row.solid_fraction    = reference.grain_area / area;
-    row.lower_force       = result.wall_force[0];
-    row.upper_force       = result.wall_force[1];
+    if (!state.lattice)
+      {
+        row.lower_force = result.wall_force[0];
+        row.upper_force = result.wall_force[1];
+      }
     if (result.wall_force.size() >= 4)
       {
         row.left_force  = result.wall_force[2];
@@ -179,6 +226,7 @@ namespace diptych::discrete
     row.spin_term_share                  = s > 0 ? spin / area / s : 0;
     row.unbalanced_force                 = result.unbalanced_force;
     row.platen_sliding                   = sliding_share(result, state, setting);
-    row.skew_moment                      = sums.square > 0 ? std::sqrt(sums.skew_square / sums.square) : 0;
+    describe_contacts(result, state.grains.size(), row);
+    row.skew_moment = sums.square > 0 ? std::sqrt(sums.skew_square / sums.square) : 0;
   }
 } // namespace diptych::discrete

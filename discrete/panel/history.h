@@ -36,8 +36,12 @@ namespace diptych::discrete
     double          platen_sliding    = 0; // share of the force-carrying platen contacts that are at their Coulomb bound
     double          rolling_dissipation = 0;
     double          skew_moment         = 0; // norm of the grains' skew moments / norm of the symmetric ones
-    double          progress            = 0; // of the loading variable: one of axial_strain, shear_strain and time
-    LoadingVariable loading_variable    = LoadingVariable::axial_strain;
+    double          progress            = 0; // of the loading variable: axial_strain, shear_strain, time or that of a path
+    double          coordination        = 0; // contacts per grain that carry force, without rattlers
+    double          fabric_anisotropy = 0, fabric_angle = 0; // of the contacts that carry force
+    // Of a lattice; 0 without one. Strains (exx, eyy, exy) and the mean stress that drives the cell (sxx, syy, sxy).
+    Eigen::Vector3d strain = Eigen::Vector3d::Zero(), drive_stress = Eigen::Vector3d::Zero();
+    LoadingVariable loading_variable = LoadingVariable::axial_strain;
   };
 
   // Calls visit(column, value, unit, meaning) for every number of a row in the order of discrete.csv.
@@ -89,10 +93,22 @@ namespace diptych::discrete
     visit("right_fy", r.right_force.y(), "pressure length", "force of the right wall on the sample, upwards");
     visit("platen_sliding", r.platen_sliding, "-", "share of the force-carrying platen contacts at their Coulomb bound");
     visit("skew_moment", r.skew_moment, "-", "norm of the grains' skew moments / norm of the symmetric ones");
-    visit("progress", r.progress, "strain or time", "loading variable: axial strain, shear strain or time");
+    visit("progress", r.progress, "strain or time", "loading variable: axial strain, shear strain, time or that of the path");
     visit("rolling_dissipation", r.rolling_dissipation, "pressure length^2",
           "dissipation by rolling resistance since the start of the loading");
-    visit("walk", r.loading_variable, "-", "which column progress equals: axial_strain, shear_strain or time");
+    visit("walk", r.loading_variable, "-",
+          "which column progress equals: axial_strain, shear_strain or time; path: that of its rows");
+    visit("coordination", r.coordination, "-", "contacts with force per grain; walls count, grains without force do not");
+    visit("fabric_anisotropy", r.fabric_anisotropy, "-",
+          "2 (F1 - F2), principal values of the mean of n n^T over the contacts between grains with force, n: normal");
+    visit("fabric_angle", r.fabric_angle, "degrees", "direction of F1 from the horizontal, in (-90, 90]");
+    visit("exx", r.strain[0], "-", "cell: horizontal logarithmic strain; 0 for other samples");
+    visit("eyy", r.strain[1], "-", "cell: vertical logarithmic strain; 0 for other samples");
+    visit("exy", r.strain[2], "-", "cell: shear strain, component of the tensor; 0 for other samples");
+    visit("drive_sxx", r.drive_stress[0], "pressure",
+          "cell: stress that drives it, i.e. mean contact stress + inertia of the cell, xx component; 0 for other samples");
+    visit("drive_syy", r.drive_stress[1], "pressure", "cell: stress that drives it, yy component; 0 for other samples");
+    visit("drive_sxy", r.drive_stress[2], "pressure", "cell: stress that drives it, xy component; 0 for other samples");
   }
 
   struct Reference
@@ -104,6 +120,13 @@ namespace diptych::discrete
     double strain_rate = 0, mean_density = 0;
   };
   Reference make_reference(const State &state, double mean_diameter, double strain_rate);
+
+  // Descent and travel of the upper platen / initial height. Of a lattice: 1 - exp(-eyy) and 2 exy.
+  struct Strains
+  {
+    double axial, shear;
+  };
+  Strains strains_of(const State &state, const Reference &reference);
 
   // Adds a step to the sums of the row. Call it for every step.
   void add_step(const StepResult &result, const StepSetting &setting, HistoryRow &row);

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/panel/loading.h"
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 
+#include "discrete/contacts/lattice_motion.h"
 #include "discrete/files/out_of_memory.h"
 #include "discrete/samples/placed_grains.h"
 #include "discrete/samples/sample_file.h"
@@ -46,6 +49,7 @@ namespace diptych::discrete
         case LoadingMode::plane_shear:
           return {speed, 0};
         case LoadingMode::time:
+        case LoadingMode::path:
           break;
         }
       return {0, 0};
@@ -84,6 +88,36 @@ namespace diptych::discrete
           throw std::invalid_argument(key + " = '" + text_of(option) + "': there is no such wall unless lateral = rigid_walls");
         (axis == 0 ? state.walls[w].drive_x : state.walls[w].drive_y) = read_drive(key, option);
       });
+    }
+
+    LatticeDrive lattice_drive(const State &state, const LoadingStart &start)
+    {
+      const CellPath           &path  = start.loading.path;
+      const std::vector<double> times = times_of(path, start.loading.pressure, start.rate);
+      LatticeDrive              drive{path.form, path.is_stress, {}, lattice_inertia(state.grains)};
+      for (int k = 0; k < 3; ++k)
+        for (std::size_t row = 0; row < times.size(); ++row)
+          {
+            drive.value[k].time.push_back(times[row]);
+            drive.value[k].value.push_back(path.values[row][k]);
+          }
+      return drive;
+    }
+
+    // Prescribed strains start at their rate; the others as if the grains were elastic.
+    void start_lattice(State &state, const LoadingStart &start)
+    {
+      Grains  &g       = state.grains;
+      Lattice &lattice = *state.lattice;
+      state.time       = 0;
+      std::fill(g.velocity.begin(), g.velocity.end(), Eigen::Vector2d::Zero());
+      for (std::vector<double> *values : {&g.spin, &g.rotation})
+        std::fill(values->begin(), values->end(), 0.);
+      lattice.strain.setZero();
+      lattice.rate.setZero();
+      set_drives(state, start);
+      if (start.loading.affine_start)
+        lattice.rate = start_rate(lattice.drive);
     }
   } // namespace
 
@@ -143,6 +177,11 @@ namespace diptych::discrete
 
   void set_drives(State &state, const LoadingStart &start)
   {
+    if (state.lattice)
+      {
+        state.lattice->drive = lattice_drive(state, start);
+        return;
+      }
     for (Wall &wall : state.walls)
       wall.drive_x = wall.drive_y = KeptVelocity{};
     if (state.cell)
@@ -156,6 +195,8 @@ namespace diptych::discrete
 
   void start_loading(State &state, const LoadingStart &start)
   {
+    if (state.lattice)
+      return start_lattice(state, start);
     const Loading         &loading = start.loading;
     const double           bottom = state.walls[0].point.y(), height = sample_height(state);
     const Eigen::Vector2d  velocity = platen_velocity(loading, start.rate * height);
@@ -185,13 +226,43 @@ namespace diptych::discrete
   }
 
   double loading_progress(const State           &state,
-                          const LoadingMode      mode,
+                          const Loading         &loading,
                           const Eigen::Vector2d &initial_platen,
                           const double           initial_height)
   {
-    const Eigen::Vector2d travel = state.walls[1].point - initial_platen;
-    if (mode == LoadingMode::time)
+    if (loading.mode == LoadingMode::time)
       return state.time;
-    return (mode == LoadingMode::descent ? -travel.y() : travel.x()) / initial_height;
+    if (loading.mode == LoadingMode::path)
+      return progress_at(loading.path, state.lattice->drive.value[0].time, state.time);
+    const Eigen::Vector2d travel = state.walls[1].point - initial_platen;
+    return (loading.mode == LoadingMode::descent ? -travel.y() : travel.x()) / initial_height;
+  }
+
+  double duration_between(const State &state, const Loading &loading, const double rate, const double from, const double to)
+  {
+    if (loading.mode != LoadingMode::path)
+      return (to - from) / rate;
+    const std::vector<double> &times = state.lattice->drive.value[0].time;
+    return time_at(loading.path, times, to) - time_at(loading.path, times, from);
+  }
+
+  std::string cell_obstacle(const State &state, const Loading &loading, const double mean_diameter, const double density)
+  {
+    if (!state.lattice)
+      return "";
+    constexpr double           fast    = 0.1; // inertial number at which grains collide rather than press
+    const Lattice             &lattice = *state.lattice;
+    const double               unit    = mean_diameter * std::sqrt(density / loading.pressure); // of time
+    const double               number = unit * lattice.rate.norm(), height = least_height(lattice);
+    const std::vector<double> &radius = state.grains.radius;
+    std::ostringstream         text;
+    if (number > fast + 10 * unit * strain_rate(loading, mean_diameter, density))
+      text << "the grains do not carry the stress that loading/path prescribes: the cell deforms at an inertial number of "
+           << number << "; strains reached: exx " << lattice.strain[0] << ", eyy " << lattice.strain[1] << ", exy "
+           << 0.5 * lattice.strain[2];
+    else if (height < 4 * (*std::max_element(radius.begin(), radius.end()) + 0.5 * mean_diameter))
+      text << "the cell has become too narrow: its smaller height is " << height
+           << "; a larger sample/grains follows the path further";
+    return text.str();
   }
 } // namespace diptych::discrete

@@ -8,6 +8,7 @@
 #include "discrete/bodies/boundary.h"
 #include "discrete/choices.h"
 #include "discrete/loading_variable.h"
+#include "discrete/panel/cell_path.h"
 
 namespace diptych::discrete
 {
@@ -16,19 +17,22 @@ namespace diptych::discrete
     descent,     // the upper platen moves down and sideways at constant speed
     shear,       // the upper platen moves sideways at constant height
     plane_shear, // the upper platen moves sideways under normal_pressure x width, free to rise and sink
-    time         // walls move as their keys specify; stages are times
+    time,        // walls move as their keys specify; stages are times
+    path         // a cell follows prescribed strains and stresses; stages are values of the path's progress
   };
 
   constexpr auto choices(LoadingMode)
   {
     return std::array{std::pair{LoadingMode::descent, "descent"}, std::pair{LoadingMode::shear, "shear"},
-                      std::pair{LoadingMode::plane_shear, "plane_shear"}, std::pair{LoadingMode::time, "time"}};
+                      std::pair{LoadingMode::plane_shear, "plane_shear"}, std::pair{LoadingMode::time, "time"},
+                      std::pair{LoadingMode::path, "path"}};
   }
 
   constexpr LoadingVariable loading_variable_of(const LoadingMode mode)
   {
     return mode == LoadingMode::descent ? LoadingVariable::axial_strain
            : mode == LoadingMode::time  ? LoadingVariable::time
+           : mode == LoadingMode::path  ? LoadingVariable::path
                                         : LoadingVariable::shear_strain;
   }
 
@@ -40,8 +44,9 @@ namespace diptych::discrete
     std::vector<double> stages;                 // strains (mode time: times) of the snapshots, ascending; the last one is the end
     bool                affine_start    = true; // grains start with the velocities of the affine field between the platens
     LoadingMode         mode            = LoadingMode::descent;
-    double              strain_rate     = 0; // if not 0, replaces the rate that follows from inertial_number [1/time]
-    double              normal_pressure = 1; // plane_shear, on the upper platen
+    double              strain_rate     = 0;  // if not 0, replaces the rate that follows from inertial_number [1/time]
+    double              normal_pressure = 1;  // plane_shear, on the upper platen
+    CellPath            path            = {}; // mode path
   };
 
   // Motion of one component of a wall, as written in a scene. "auto" follows from the loading and the lateral condition.
@@ -122,5 +127,15 @@ namespace diptych::discrete
   void set_drives(State &state, const LoadingStart &start);
 
   // Value of the loading variable: descent or travel of the upper platen / initial height, or the time.
-  double loading_progress(const State &state, LoadingMode mode, const Eigen::Vector2d &initial_platen, double initial_height);
+  double loading_progress(const State           &state,
+                          const Loading         &loading,
+                          const Eigen::Vector2d &initial_platen,
+                          double                 initial_height);
+
+  // Time between two values of the loading variable. `rate`: from strain_rate().
+  double duration_between(const State &state, const Loading &loading, double rate, double from, double to);
+
+  // Reason why a cell cannot follow its path any further; empty if it can or there is none. The prescribed stress accelerates a
+  // cell whose grains do not carry it, and a large shear narrows every cell until a grain would meet two images of another one.
+  std::string cell_obstacle(const State &state, const Loading &loading, double mean_diameter, double density);
 } // namespace diptych::discrete

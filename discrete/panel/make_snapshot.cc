@@ -23,10 +23,10 @@ namespace diptych::discrete
       for (std::size_t k = 0; k < result.contacts.size(); ++k)
         {
           const Contact c      = make_contact(state, result.contacts[k].i, result.contacts[k].j);
-          const double  shift  = state.cell ? c.image * state.cell->width : 0.;
           const double  couple = result.impulses[k].rolling * effective_radius(state.grains, c.i, c.j) / setting.step;
-          s.contacts.push_back(
-            {c.i, c.j, c.point, c.normal, impulse_vector(result.contacts[k], result.impulses[k]) / setting.step, shift, couple});
+          s.contacts.push_back({c.i, c.j, c.point, c.normal,
+                                impulse_vector(result.contacts[k], result.impulses[k]) / setting.step, c.image.shift.x(), couple,
+                                c.image.shift.y()});
           s.gap.push_back(c.gap);
           s.status.push_back(contact_status(friction_of(state, setting, c.j).sliding, result.impulses[k]));
         }
@@ -34,6 +34,17 @@ namespace diptych::discrete
 
     void add_boundary(const State &state, const StepResult &result, const Reference &reference, Snapshot &s)
     {
+      s.outline = make_outline(state, s.mean_diameter);
+      s.area    = outline_area(s.outline);
+      if (state.lattice)
+        {
+          s.cell_vectors = state.lattice->vectors;
+          s.lower_y      = s.outline.left.front().y();
+          s.upper_y      = s.outline.right.back().y();
+          for (std::size_t i = 0; i < s.velocity.size(); ++i)
+            s.velocity[i] += velocity_gradient(state.lattice->rate) * s.position[i];
+          return;
+        }
       s.lower_y                   = state.walls[0].point.y();
       s.upper_y                   = state.walls[1].point.y();
       s.upper_platen_displacement = state.walls[1].point - reference.platen;
@@ -45,8 +56,6 @@ namespace diptych::discrete
           s.right_x = state.walls[3].point.x();
         }
       s.cell_width = state.cell ? state.cell->width : 0;
-      s.outline    = make_outline(state, s.mean_diameter);
-      s.area       = outline_area(s.outline);
     }
   } // namespace
 
@@ -58,19 +67,20 @@ namespace diptych::discrete
   {
     const Grains &g = state.grains;
     Snapshot      s;
-    s.axial_strain  = (reference.platen.y() - state.walls[1].point.y()) / reference.height;
-    s.shear_strain  = (state.walls[1].point.x() - reference.platen.x()) / reference.height;
-    s.time          = state.time;
-    s.step          = setting.step;
-    s.residual      = result.solve.residual;
-    s.mean_diameter = setting.mean_diameter;
-    s.position      = g.position;
-    s.velocity      = g.velocity;
-    s.rotation      = g.rotation;
-    s.spin          = g.spin;
-    s.radius        = g.radius;
-    s.mass          = g.mass;
-    s.fixed         = g.fixed;
+    const Strains strains = strains_of(state, reference);
+    s.axial_strain        = strains.axial;
+    s.shear_strain        = strains.shear;
+    s.time                = state.time;
+    s.step                = setting.step;
+    s.residual            = result.solve.residual;
+    s.mean_diameter       = setting.mean_diameter;
+    s.position            = g.position;
+    s.velocity            = g.velocity;
+    s.rotation            = g.rotation;
+    s.spin                = g.spin;
+    s.radius              = g.radius;
+    s.mass                = g.mass;
+    s.fixed               = g.fixed;
     for (std::size_t i = 0; i < g.size(); ++i)
       s.displacement.push_back(g.position[i] - reference.position[i]);
     add_contacts(state, result, setting, s);

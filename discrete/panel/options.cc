@@ -65,6 +65,7 @@ namespace diptych::discrete
                     {"accuracy"});
       unused.unless(o.lateral.lateral == Lateral::end_grains, lateral, {"band_height", "end_grains"});
       unused.unless(o.lateral.lateral == Lateral::rigid_walls, lateral, {"wall_friction", "wall_rolling_friction"});
+      unused.unless(o.lateral.lateral != Lateral::cell, lateral, {"platen_friction", "platen_rolling_friction"});
       unused.unless(moves, lateral, {"wall_mass"});
       unused.unless(o.solver.solver == ContactSolver::psor, "discrete/solver = " + name_of(o.solver.solver),
                     {"omega_sticking", "omega_slipping"});
@@ -73,6 +74,34 @@ namespace diptych::discrete
                     "discrete/side_motion = " + name_of(o.lateral.side_motion), {"side_velocity"});
       unused.unless(penalty || o.sampling.snapshot_max_sweeps > 0, "discrete/snapshot_max_sweeps = 0",
                     {"snapshot_accuracy", "reference_sweeps"});
+    }
+
+    void validate_cell(const SampleOptions &sample, const Loading &loading, const Options &options)
+    {
+      const bool cell = options.lateral.lateral == Lateral::cell, path = loading.mode == LoadingMode::path;
+      if (cell != path)
+        throw WrongKeys({"discrete/lateral", "loading/mode"}, "discrete/lateral = " + name_of(options.lateral.lateral) +
+                                                                " does not go with loading/mode = " + name_of(loading.mode) +
+                                                                ": a cell needs loading/mode = path, and a path a cell");
+      if (!cell)
+        return;
+      validate(loading.path);
+      if (const double end = loading.path.progress.back(); std::abs(loading.stages.back() - end) > 1e-9 * std::abs(end))
+        throw WrongKeys({"loading/axial_strain", "loading/stages", "loading/path"},
+                        "the last stage is at " + exact_text(loading.stages.back()) +
+                          ", but the progress of loading/path ends at " + exact_text(end));
+      if (!sample.file.empty())
+        throw WrongKeys({"sample/file", "discrete/lateral"}, "sample/file: a cell cannot be read from a file");
+      if (sample.rough_platens)
+        throw WrongKeys({"sample/rough_platens", "discrete/lateral"}, "sample/rough_platens = true: a cell has no platens");
+      if (options.method.store_problems)
+        throw WrongKeys({"discrete/store_problems", "discrete/lateral"},
+                        "discrete/store_problems = true: the files of contact problems cannot hold a cell");
+      for_each_drive(options.drives, [](const int, int, const std::string &key, const DriveOption &drive) {
+        if (!drive.is_auto())
+          throw WrongKeys({"discrete/" + key, "discrete/lateral"},
+                          "discrete/" + key + " = '" + text_of(drive) + "': a cell has neither platens nor walls");
+      });
     }
   } // namespace
 
@@ -117,7 +146,10 @@ namespace diptych::discrete
   double expected_steps(const SampleOptions &sample, const Loading &loading, const Options &options)
   {
     const double step = expected_step(sample, loading, options);
-    return step > 0 ? loading.stages.back() / strain_rate(loading, sample.mean_diameter, sample.density) / step : 0;
+    const double rate = strain_rate(loading, sample.mean_diameter, sample.density);
+    const double time = loading.mode == LoadingMode::path ? times_of(loading.path, loading.pressure, rate).back()
+                                                          : loading.stages.back() / rate;
+    return step > 0 ? time / step : 0;
   }
 
   double expected_rows(const SampleOptions &sample, const Loading &loading, const Options &options)
@@ -147,6 +179,7 @@ namespace diptych::discrete
                       "loading/mode = plane_shear: the normal force is normal_pressure x width, so discrete/lateral "
                       "must be periodic or rigid_walls, not " +
                         name_of(options.lateral.lateral));
+    validate_cell(sample, loading, options);
     const bool penalty = options.method.method == Method::penalty;
     if (penalty && (options.law.normal_restitution != 0 || options.law.tangential_restitution != 0))
       throw WrongKeys({"discrete/method", "discrete/normal_restitution", "discrete/tangential_restitution"},

@@ -61,7 +61,7 @@ namespace diptych::discrete
       };
       PreparedSample prepared = prepare_sample(sample_, preparation_setting(loading_, options_), go_on,
                                                grains_ ? &*grains_ : nullptr);
-      if (prepared.state.walls.empty())
+      if (prepared.state.grains.size() == 0)
         return fail(""); // stopped while the file was read
       now.state                = std::move(prepared.state);
       report.preparation       = prepared.report;
@@ -172,7 +172,7 @@ namespace diptych::discrete
       prepared_.reset();
       now.window.reset();
       const double from     = now.stage == 0 ? 0. : loading_.stages[now.stage - 1];
-      const double duration = (loading_.stages[now.stage] - from) / rate_;
+      const double duration = duration_between(now.state, loading_, rate_, from, loading_.stages[now.stage]);
       const double wanted   = wanted_step();
       if (duration / wanted > most_steps)
         return fail(endless_text(now.stage + 1, duration / wanted, {wanted, now.report.step_bound}));
@@ -301,11 +301,12 @@ namespace diptych::discrete
       const double  begin         = cpu_seconds();
       const bool    done          = advance_by(now.step, penalty() ? 0 : most_halvings);
       now.report.loading_cpu_s += cpu_seconds() - begin;
-      const Eigen::Vector2d travel = now.state.walls[1].point - now.reference.platen;
-      now.report.axial_strain      = (0. - travel.y()) / now.reference.height;
-      now.report.shear_strain      = travel.x() / now.reference.height;
-      now.report.progress          = loading_progress(now.state, loading_.mode, now.reference.platen, now.reference.height);
-      if (!done)
+      const Strains strains      = strains_of(now.state, now.reference);
+      now.report.axial_strain    = strains.axial;
+      now.report.shear_strain    = strains.shear;
+      now.report.progress        = loading_progress(now.state, loading_, now.reference.platen, now.reference.height);
+      const std::string obstacle = done ? cell_obstacle(now.state, loading_, sample_.mean_diameter, sample_.density) : "";
+      if (!done || (!obstacle.empty() && !fail(obstacle)))
         return;
       ++now.report.steps;
       --now.steps_left;

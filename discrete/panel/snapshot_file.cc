@@ -137,7 +137,7 @@ namespace diptych::discrete
         }
       set_columns(contacts, contact_fields, [&](const std::string &name, auto &values) {
         using Value = typename std::decay_t<decltype(values)>::value_type;
-        if (name == "couple" && !file.has(group + "/" + name)) // files of earlier versions
+        if ((name == "couple" || name == "image_shift_y") && !file.has(group + "/" + name)) // files of earlier versions
           return values.resize(contacts.size());
         values = read_field<Value>(file, group + "/" + name);
         check.size(list + name, values.size(), contacts.size());
@@ -176,6 +176,8 @@ namespace diptych::discrete
       const bool of_another_code = !file.has(group + "/contacts/impulse"); // imported frames have no step
       visit_attributes(s, [&](const char *name, auto &value, const char *, const Meaning &meaning) {
         using Value = std::decay_t<decltype(value)>;
+        if (std::string(name).rfind("cell_a", 0) == 0 && !file.has_attribute(group, name)) // files of earlier versions
+          return;
         if constexpr (std::is_same_v<Value, double>)
           {
             value = file.attribute(group, name);
@@ -209,7 +211,7 @@ namespace diptych::discrete
             low.x()  = std::min(low.x(), wall);
             high.x() = std::max(high.x(), wall);
           }
-      const double margin = (high - low).maxCoeff() + s.cell_width;
+      const double margin = (high - low).maxCoeff() + s.cell_width + s.cell_vectors.norm();
       visit_outline(s, [&](const std::string &name, const std::vector<Eigen::Vector2d> &points, const char *, const char *) {
         for (const Eigen::Vector2d &x : points)
           if ((x.array() < low - margin).any() || (x.array() > high + margin).any())

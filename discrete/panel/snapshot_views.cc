@@ -55,7 +55,7 @@ namespace diptych::discrete
           continue;
         const bool is_wall = std::size_t(c.j) >= s.position.size();
         ends.push_back(s.position[std::size_t(c.i)]);
-        ends.push_back(is_wall ? c.point : s.position[std::size_t(c.j)] + c.shift * Eigen::Vector2d::UnitX());
+        ends.push_back(is_wall ? c.point : s.position[std::size_t(c.j)] + Eigen::Vector2d(c.shift, c.shift_y));
         normal.insert(normal.end(), 2, c.force.dot(c.normal));
         tangential.insert(tangential.end(), 2, c.force.dot(Eigen::Vector2d(-c.normal.y(), c.normal.x())));
         gap.insert(gap.end(), 2, s.gap[k]);

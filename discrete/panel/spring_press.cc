@@ -18,7 +18,8 @@ namespace diptych::discrete
 
     stop(state);
     state.impulses.clear();
-    set_drives(state, {press.start.loading, press.start.lateral, {}, press.start.rate});
+    if (!state.lattice) // a lattice keeps the isotropic pressure of the preparation
+      set_drives(state, {press.start.loading, press.start.lateral, {}, press.start.rate});
     PenaltyState  springs;
     PressedSample pressed{{}, press.setting.step};
     for (long k = 0; k < n; ++k)

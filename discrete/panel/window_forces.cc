@@ -54,8 +54,8 @@ namespace diptych::discrete
     for (const PairSum &s : sums)
       {
         const Contact c = make_contact(state, s.i, s.j);
-        forces.push_back({s.i, s.j, c.point, c.normal, s.impulse / time, state.cell ? c.image * state.cell->width : 0.,
-                          s.rolling / time * effective_radius(state.grains, s.i, s.j)});
+        forces.push_back({s.i, s.j, c.point, c.normal, s.impulse / time, c.image.shift.x(),
+                          s.rolling / time * effective_radius(state.grains, s.i, s.j), c.image.shift.y()});
       }
     return forces;
   }

@@ -44,7 +44,7 @@ namespace diptych::discrete
         result.friction[k] = c.friction;
         if (c.cell < 0)
           continue;
-        add(3 * c.cell, -c.image * c.nx, c.image * c.ny);
+        add(3 * c.cell, -c.image.along * c.nx, c.image.along * c.ny);
         result.inverse_mass[3 * c.cell] = problem.free_velocity[c.cell].inverse_mass;
       }
     result.h.setFromTriplets(entries.begin(), entries.end());

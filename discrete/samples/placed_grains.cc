@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "discrete/contacts/lattice_motion.h"
+
 namespace diptych::discrete
 {
   namespace
@@ -71,7 +73,7 @@ namespace diptych::discrete
     return std::accumulate(grains.mass.begin(), grains.mass.end(), 0.) / std::sqrt(double(grains.size()));
   }
 
-  // Sides during the preparation: a free side is free under the pressure.
+  // Sides during the preparation: a free side is free under the pressure, and a lattice in all components.
   void set_sides(State &state, const PreparationSetting &setting)
   {
     const double mass = default_wall_mass(state.grains);
@@ -90,6 +92,14 @@ namespace diptych::discrete
             state.walls[1].drive_y = AppliedPressure{setting.pressure};
             state.walls[1].mass    = state.cell->mass;
           }
+      }
+    else if (std::holds_alternative<CellSides>(setting.lateral))
+      {
+        const auto constant  = [](const double value) { return TimeTable{{0.}, {value}}; };
+        state.lattice->drive = {Eigen::Matrix3d::Identity(),
+                                {true, true, true},
+                                {constant(setting.pressure), constant(setting.pressure), constant(0)},
+                                lattice_inertia(state.grains)};
       }
     else
       state.walls.resize(2);

@@ -75,7 +75,7 @@ namespace diptych::discrete
     }
 
     // Random centres in a box with the height of the sample and the width that gives box_solid_fraction. With a cell of fixed
-    // width, the height follows instead. Periodic sides have a cell instead of side walls.
+    // width, the height follows instead. Periodic sides have a cell instead of side walls, and a lattice has no walls.
     State random_box(const SampleOptions &o, const LateralCondition &lateral)
     {
       std::mt19937_64           random(o.seed);
@@ -93,7 +93,10 @@ namespace diptych::discrete
           const double x = r + uniform(random) * (width - 2 * r), y = r + uniform(random) * (height - 2 * r);
           add_grain(state.grains, {x, y}, r, o.density);
         }
-      state.walls = box_walls(width, height);
+      if (std::holds_alternative<CellSides>(lateral))
+        state.lattice = Lattice{Eigen::Vector2d(width, height).asDiagonal()};
+      else
+        state.walls = box_walls(width, height);
       if (periodic)
         {
           state.walls.resize(2);

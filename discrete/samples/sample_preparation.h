@@ -31,7 +31,7 @@ namespace diptych::discrete
 
   struct PreparedSample
   {
-    State             state;     // at rest (from a file: with its velocities); walls[0] and walls[1] are the platens
+    State state; // at rest (from a file: with its velocities); walls[0] and walls[1] are the platens, unless there is a lattice
     StepResult        last_step; // contacts and impulses of the sample
     double            step = 0;  // length of that step
     PreparationReport report;
@@ -41,7 +41,7 @@ namespace diptych::discrete
   // - The size follows from the number of grains, or the number from the size.
   // - Soft discs relax in a box (or a cell) at box_solid_fraction.
   // - Compaction steps with fixed platens and the lateral condition. With periodic sides of fixed width the upper platen is free
-  //   under the pressure instead.
+  //   under the pressure instead. A lattice is free in all components under the isotropic pressure.
   // Grains are numbered upward. A sample from a file, or from `grains`, gets platens and sides that touch it. With rough_platens
   // the grains near a platen become part of it at the end. `progress` is called with (step, expected steps), also between
   // iterations of the soft discs and between sweeps. If it returns false, the preparation stops: the report is not quiet and the

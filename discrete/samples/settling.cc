@@ -17,6 +17,11 @@ namespace diptych::discrete
       wall.velocity.setZero();
     if (state.cell)
       state.cell->velocity = 0;
+    if (state.lattice)
+      {
+        state.lattice->rate.setZero();
+        state.lattice->strain.setZero(); // it counts from a state of rest
+      }
   }
 
   Settled settle(State &state, StepSetting setting, const SettlingOptions &options, const std::function<bool()> &go_on)

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "discrete/contacts/contact_law.h"
+#include "discrete/contacts/lattice_motion.h"
 
 namespace diptych::discrete
 {
@@ -121,6 +122,21 @@ namespace diptych::discrete
     for_each_part([&](Part &part) { add_impulses(part.batches.data(), couples_of(part), part.batches.size(), v_.data()); });
     for (std::size_t k = 0; k < rest_.size(); ++k)
       apply_impulse(problem_.contacts[rest_[k]], rest_impulses_[k], v_);
+    follow_lattice();
+  }
+
+  // Rows across the edge of a lattice are among those taken one by one.
+  void BatchedContacts::follow_lattice()
+  {
+    if (!problem_.lattice)
+      return;
+    Eigen::Matrix2d crossing = Eigen::Matrix2d::Zero();
+    for (std::size_t k = 0; k < rest_.size(); ++k)
+      {
+        const ContactRow &c = problem_.contacts[rest_[k]];
+        crossing += vector_of(c, rest_impulses_[k]) * shift_of(c, *problem_.lattice).transpose();
+      }
+    follow_impulses(*problem_.lattice, problem_.free_velocity, crossing, v_);
   }
 
   void BatchedContacts::sweep_part(Part &part, const double omega_sticking, const double omega_slipping, const bool with_idle)
@@ -184,11 +200,14 @@ namespace diptych::discrete
               sweep_part(between_[b], omega_sticking, omega_slipping, with_idle);
               between[b].advance_to(k + 1);
             }
-          if (n_swept_rest_ == 0)
+          if (n_swept_rest_ == 0 && !problem_.lattice)
             continue;
           team.barrier();
           if (rank == 0)
-            sweep_rest(omega_sticking, omega_slipping);
+            {
+              sweep_rest(omega_sticking, omega_slipping);
+              follow_lattice();
+            }
           team.barrier();
         }
     });

@@ -70,6 +70,7 @@ namespace diptych::discrete
     void                           sweep_part(Part &part, double omega_sticking, double omega_slipping, bool with_idle);
     static void                    wake(Part &part);
     void                           sweep_rest(double omega_sticking, double omega_slipping);
+    void                           follow_lattice();
     template <class Function> void for_each_part(Function &&function);
 
     const ContactProblem &problem_;

@@ -3,6 +3,7 @@
 #include "discrete/solvers/sweeps.h"
 
 #include "discrete/contacts/contact_law.h"
+#include "discrete/contacts/lattice_motion.h"
 
 namespace diptych::discrete
 {
@@ -13,6 +14,8 @@ namespace diptych::discrete
         update(problem.contacts[k], exact, v, impulses[k]);
     for (const int k : problem.order)
       update(problem.contacts[k], exact, v, impulses[k]);
+    if (problem.lattice)
+      follow_impulses(*problem.lattice, problem.free_velocity, crossing_sum(problem, impulses), v);
   }
 
   void sweep_psor(const ContactProblem      &problem,

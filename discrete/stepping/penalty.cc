@@ -38,6 +38,8 @@ namespace diptych::discrete
       for (const Wall &wall : state.walls)
         if (!wall.velocity.allFinite() || !wall.point.allFinite())
           return true;
+      if (state.lattice && !state.lattice->rate.allFinite())
+        return true;
       return state.cell && !(std::isfinite(state.cell->width) && state.cell->width > 0);
     }
 
@@ -108,6 +110,7 @@ namespace diptych::discrete
       result.wall_force        = std::move(ledger.wall_force);
       result.momentum_residual = ledger.momentum_residual;
       result.unbalanced_force  = ledger.unbalanced_force;
+      result.lattice           = ledger.lattice;
     }
   } // namespace
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "discrete/contacts/contact_law.h"
+#include "discrete/contacts/lattice_motion.h"
 #include "discrete/solvers/batched_sweep.h"
 
 namespace diptych::discrete
@@ -30,6 +31,7 @@ namespace diptych::discrete
     {
       Displacements d;
       d.problem.free_velocity = s.problem.free_velocity;
+      d.problem.lattice       = s.problem.lattice;
       for (std::size_t b = 0; b < s.v_new.size(); ++b)
         {
           BodyVelocity &w = d.problem.free_velocity[b];
@@ -66,6 +68,12 @@ namespace diptych::discrete
         state.walls[k].point += step * Eigen::Vector2d(w[n + k].x, w[n + k].y);
       if (state.cell && state.cell->moves())
         state.cell->width += step * w[n + state.walls.size()].x;
+      if (state.lattice)
+        {
+          const Eigen::Vector3d strain = step * rate_of(w[n + 2]);
+          state.lattice->vectors += (velocity_gradient(strain) * state.lattice->vectors).eval();
+          state.lattice->strain += strain;
+        }
     }
   } // namespace
 

@@ -7,6 +7,7 @@
 
 #include "discrete/bodies/boundary.h"
 #include "discrete/contacts/contact_law.h"
+#include "discrete/contacts/lattice_motion.h"
 
 namespace diptych::discrete
 {
@@ -39,11 +40,6 @@ namespace diptych::discrete
       e.kinetic        = energy;
       e.kinetic_change = change;
       e.external_work  = work;
-    }
-
-    Eigen::Vector2d vector_of(const ContactRow &c, const Impulse &r)
-    {
-      return {c.nx * r.normal - c.ny * r.tangential, c.ny * r.normal + c.nx * r.tangential};
     }
 
     struct ContactSums
@@ -149,41 +145,79 @@ namespace diptych::discrete
         }
       for (std::size_t k = 0; k < s.contacts.size(); ++k)
         if (const ContactRow &c = s.problem.contacts[k]; c.cell >= 0)
-          e.external_work += c.image * vector_of(c, s.impulses[k]).x() * mean;
+          e.external_work += c.image.along * vector_of(c, s.impulses[k]).x() * mean;
+    }
+    // The drive balances contacts and inertia, and works with the rate of strain.
+    void add_lattice(const SolvedStep &s, StepLedger &ledger)
+    {
+      const Lattice        &lattice = *s.state.lattice;
+      const Eigen::Vector3d was = rate_of(s.v.back()), is = rate_of(s.v_new.back());
+      Eigen::Matrix2d       sum = Eigen::Matrix2d::Zero();
+      for (const int k : s.acting)
+        {
+          const Contact        &c      = s.contacts[k];
+          const Eigen::Vector2d branch = (s.state.grains.radius[c.i] + s.state.grains.radius[c.j] + c.gap) * c.normal;
+          sum += vector_of(s.problem.contacts[k], s.impulses[k]) * branch.transpose();
+        }
+      const Eigen::Vector3d moment(sum(0, 0), sum(1, 1), 0.5 * (sum(0, 1) + sum(1, 0)));
+      const Eigen::Vector3d momentum = lattice.drive.inertia * (is - was), drive = moment + momentum;
+      ledger.lattice = {moment / (s.step * lattice.area()), drive / (s.step * lattice.area())};
+      ledger.energies.external_work += 0.5 * drive.dot(was + is);
+      ledger.energies.kinetic += 0.5 * is.dot(lattice.drive.inertia * is);
+      ledger.energies.kinetic_change += 0.5 * momentum.dot(was + is);
+    }
+
+    // Velocities of the grains beyond the mean strain of the lattice.
+    std::vector<BodyVelocity> without_strain(const State &state, std::vector<BodyVelocity> v)
+    {
+      add_gradient(state.grains.position, -velocity_gradient(rate_of(v.back())), v);
+      return v;
+    }
+
+    // `own`: the same step with the velocities of the grains that count as their motion.
+    StepLedger ledger_of(const SolvedStep &s, const SolvedStep &own, const bool corrects_by_velocity)
+    {
+      const Grains     &g = s.state.grains;
+      const std::size_t n = g.size();
+      StepLedger        ledger;
+      ledger.wall_force.assign(s.state.walls.size(), Eigen::Vector2d::Zero());
+      ledger.contact_dissipation.assign(s.contacts.size(), 0.);
+      ledger.contact_impact.assign(s.contacts.size(), 0.);
+      const ContactSums contacts           = sum_contacts(s, corrects_by_velocity, ledger);
+      ledger.energies.impact_dissipation   = 0 - contacts.impact;
+      ledger.energies.friction_dissipation = 0 - contacts.friction;
+      ledger.energies.rolling_dissipation  = 0 - contacts.rolling;
+      ledger.energies.correction_work      = 0 - contacts.correction;
+      add_grains(own, ledger.energies);
+      add_walls(s, ledger.wall_force, ledger.energies);
+      add_cell(s, ledger.energies);
+
+      double          unbalanced = 0, momentum_sum = 0;
+      Eigen::Vector2d balance = -add_held_grains(s, ledger.energies);
+      for (std::size_t i = 0; i < n; ++i)
+        if (!g.fixed[i])
+          {
+            const Eigen::Vector2d change = g.mass[i] * Eigen::Vector2d(own.v_new[i].x - own.v[i].x, own.v_new[i].y - own.v[i].y);
+            unbalanced += change.norm();
+            momentum_sum += g.mass[i] * (std::abs(own.v_new[i].x) + std::abs(own.v_new[i].y));
+            balance += change - s.step * s.applied_force[i];
+          }
+      for (const Eigen::Vector2d &f : ledger.wall_force)
+        balance -= s.step * f;
+      ledger.unbalanced_force  = s.acting.empty() ? 0 : (unbalanced / double(n)) / (contacts.normal / double(s.acting.size()));
+      ledger.momentum_residual = contacts.impulse > 0 ? balance.norm() / (contacts.impulse + momentum_sum) : 0;
+      return ledger;
     }
   } // namespace
 
   StepLedger step_ledger(const SolvedStep &s, const bool corrects_by_velocity)
   {
-    const Grains     &g = s.state.grains;
-    const std::size_t n = g.size();
-    StepLedger        ledger;
-    ledger.wall_force.assign(s.state.walls.size(), Eigen::Vector2d::Zero());
-    ledger.contact_dissipation.assign(s.contacts.size(), 0.);
-    ledger.contact_impact.assign(s.contacts.size(), 0.);
-    const ContactSums contacts           = sum_contacts(s, corrects_by_velocity, ledger);
-    ledger.energies.impact_dissipation   = 0 - contacts.impact;
-    ledger.energies.friction_dissipation = 0 - contacts.friction;
-    ledger.energies.rolling_dissipation  = 0 - contacts.rolling;
-    ledger.energies.correction_work      = 0 - contacts.correction;
-    add_grains(s, ledger.energies);
-    add_walls(s, ledger.wall_force, ledger.energies);
-    add_cell(s, ledger.energies);
-
-    double          unbalanced = 0, momentum_sum = 0;
-    Eigen::Vector2d balance = -add_held_grains(s, ledger.energies);
-    for (std::size_t i = 0; i < n; ++i)
-      if (!g.fixed[i])
-        {
-          const Eigen::Vector2d change = g.mass[i] * Eigen::Vector2d(s.v_new[i].x - s.v[i].x, s.v_new[i].y - s.v[i].y);
-          unbalanced += change.norm();
-          momentum_sum += g.mass[i] * (std::abs(s.v_new[i].x) + std::abs(s.v_new[i].y));
-          balance += change - s.step * s.applied_force[i];
-        }
-    for (const Eigen::Vector2d &f : ledger.wall_force)
-      balance -= s.step * f;
-    ledger.unbalanced_force  = s.acting.empty() ? 0 : (unbalanced / double(n)) / (contacts.normal / double(s.acting.size()));
-    ledger.momentum_residual = contacts.impulse > 0 ? balance.norm() / (contacts.impulse + momentum_sum) : 0;
+    if (!s.state.lattice)
+      return ledger_of(s, s, corrects_by_velocity);
+    const std::vector<BodyVelocity> v = without_strain(s.state, s.v), v_new = without_strain(s.state, s.v_new);
+    const SolvedStep                own{s.state, s.problem, s.contacts, s.impulses, s.acting, s.applied_force, v, v_new, s.step};
+    StepLedger                      ledger = ledger_of(s, own, corrects_by_velocity);
+    add_lattice(s, ledger);
     return ledger;
   }
 } // namespace diptych::discrete

@@ -10,8 +10,9 @@
 namespace diptych::discrete
 {
   // Work of one step. kinetic_change = external_work - friction_dissipation - rolling_dissipation - impact_dissipation to
-  // round-off. Momentum is balanced over the step, so sum r.(u + u')/2 is the work of the impulses. Free walls and a free cell
-  // width are bodies with kinetic energy like grains. Prescribed walls and fixed grains do external work. [energy]
+  // round-off. Momentum is balanced over the step, so sum r.(u + u')/2 is the work of the impulses. Free walls, a free cell width
+  // and a lattice are bodies with kinetic energy like grains. Prescribed walls, fixed grains and the drive of a lattice do
+  // external work. In a lattice the kinetic energy of a grain is that of its motion beyond the mean strain. [energy]
   struct StepEnergies
   {
     double kinetic = 0, kinetic_change = 0, external_work = 0, friction_dissipation = 0, impact_dissipation = 0;
@@ -19,12 +20,20 @@ namespace diptych::discrete
     double correction_work     = 0; // share of -impact_dissipation that comes from a velocity correction of penetrations
   };
 
+  // Stresses of a lattice during a step, at mid-step: (sxx, syy, sxy), positive in compression.
+  struct LatticeStress
+  {
+    Eigen::Vector3d contacts = Eigen::Vector3d::Zero(); // sum of contact force x branch / area
+    Eigen::Vector3d drive    = Eigen::Vector3d::Zero(); // that drives the cell: the same + inertia of the lattice / area
+  };
+
   struct StepLedger
   {
     StepEnergies                 energies;
-    std::vector<Eigen::Vector2d> wall_force;           // of each wall on the sample = impulse / step
-    std::vector<double>          contact_impact;       // of each contact; the sum is energies.impact_dissipation [energy]
-    std::vector<double>          contact_dissipation;  // of each contact; the sum is friction_dissipation + rolling_dissipation
+    std::vector<Eigen::Vector2d> wall_force;          // of each wall on the sample = impulse / step
+    std::vector<double>          contact_impact;      // of each contact; the sum is energies.impact_dissipation [energy]
+    std::vector<double>          contact_dissipation; // of each contact; the sum is friction_dissipation + rolling_dissipation
+    LatticeStress                lattice;
     double                       unbalanced_force = 0; // mean over grains of |m dv/h| / mean normal contact force
     double momentum_residual = 0; // |sum m dv - h F - impulses of walls and fixed grains| / (sum |r| + sum m |v|)
   };

@@ -7,6 +7,7 @@
 #include "discrete/bodies/boundary.h"
 #include "discrete/contacts/contact_law.h"
 #include "discrete/contacts/contact_order.h"
+#include "discrete/contacts/lattice_motion.h"
 #include "discrete/stepping/step_setting.h"
 
 namespace diptych::discrete
@@ -64,13 +65,19 @@ namespace diptych::discrete
           row.jy                   = wj.y();
           row.kj                   = 0;
         }
-      double wnn = wi + row.jx * row.nx * row.nx + row.jy * row.ny * row.ny;
-      double wtt = wi + row.jx * row.ny * row.ny + row.jy * row.nx * row.nx + row.ki + row.kj;
-      if (c.image != 0 && state.cell && state.cell->moves())
+      double     wnn      = wi + row.jx * row.nx * row.nx + row.jy * row.ny * row.ny;
+      double     wtt      = wi + row.jx * row.ny * row.ny + row.jy * row.nx * row.nx + row.ki + row.kj;
+      const bool is_image = c.image.along != 0 || c.image.upward != 0;
+      if (is_image && state.lattice)
         {
-          row.image      = int(normal) * c.image;
+          row.image = {c.image.along, c.image.upward};
+          row.cell  = n;
+        }
+      else if (is_image && state.cell->moves())
+        {
+          row.image      = int(normal) * c.image.along;
           row.cell       = n + int(state.walls.size());
-          const double w = state.cell->inverse_mass() * c.image * c.image;
+          const double w = state.cell->inverse_mass() * c.image.along * c.image.along;
           wnn += w * row.nx * row.nx;
           wtt += w * row.ny * row.ny;
         }
@@ -93,14 +100,27 @@ namespace diptych::discrete
   {
     const Grains             &g = state.grains;
     std::vector<BodyVelocity> v;
-    v.reserve(g.size() + state.walls.size() + 1);
+    v.reserve(g.size() + state.walls.size() + 3);
     for (std::size_t i = 0; i < g.size(); ++i)
       v.push_back({g.velocity[i].x(), g.velocity[i].y(), g.radius[i] * g.spin[i], g.inverse_mass(i)});
     for (const Wall &wall : state.walls)
       v.push_back({wall.velocity.x(), wall.velocity.y(), 0, 0});
     if (state.cell && state.cell->moves())
       v.push_back({state.cell->velocity, 0, 0, state.cell->inverse_mass()});
+    if (state.lattice)
+      {
+        v.insert(v.end(), {{0, 0, 0, 0}, {0, 0, 0, 0}, record_of(state.lattice->rate)});
+        add_gradient(places(state), velocity_gradient(state.lattice->rate), v);
+      }
     return v;
+  }
+
+  std::vector<Eigen::Vector2d> places(const State &state)
+  {
+    std::vector<Eigen::Vector2d> place = state.grains.position;
+    for (const int k : {0, 1})
+      place.push_back(state.lattice->vectors.col(k));
+    return place;
   }
 
   std::vector<BodyVelocity> free_velocities(const State                        &state,
@@ -122,6 +142,12 @@ namespace diptych::discrete
         const Eigen::Vector2d push = applied_wall_force(state, w, state.time + 0.5 * h), mobility = state.walls[w].inverse_mass();
         free[n + w].x = velocity.x() + h * push.x() * mobility.x();
         free[n + w].y = velocity.y() + h * push.y() * mobility.y();
+      }
+    if (state.lattice)
+      {
+        const Eigen::Vector3d rate = lattice_motion(state, h).free_rate;
+        add_gradient(places(state), velocity_gradient(rate - state.lattice->rate), free);
+        free.back() = record_of(rate);
       }
     if (state.cell && state.cell->pressure)
       free.back().x -= h * *state.cell->pressure * sample_height(state) * state.cell->inverse_mass();
@@ -159,6 +185,9 @@ namespace diptych::discrete
   {
     problem.order = sweep_order(contacts, setting.mean_diameter);
     problem.contacts.resize(contacts.size());
+    problem.lattice.reset();
+    if (state.lattice)
+      problem.lattice = LatticeProblem{places(state), lattice_motion(state, setting.step).mobility};
     const double share = corrected_share(setting.time);
     for (std::size_t k = 0; k < contacts.size(); ++k)
       {

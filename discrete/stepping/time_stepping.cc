@@ -22,7 +22,9 @@ namespace diptych::discrete
     {
       const double        h = setting.step;
       std::vector<double> margin(state.grains.size());
-      double              wall_speed = state.cell ? std::abs(state.cell->velocity) : 0;
+      double              wall_speed = state.cell      ? std::abs(state.cell->velocity)
+                                       : state.lattice ? state.lattice->rate.norm() * 2 * setting.mean_diameter
+                                                       : 0;
       for (std::size_t w = 0; w < state.walls.size(); ++w)
         {
           const Wall &wall = state.walls[w];
@@ -34,8 +36,9 @@ namespace diptych::discrete
         }
       for (std::size_t i = 0; i < margin.size(); ++i)
         {
-          const double speed = std::max(std::sqrt(v[i].x * v[i].x + v[i].y * v[i].y), wall_speed);
-          margin[i]          = 0.04 * setting.mean_diameter + 1.2 * h * (speed + h * force[i].norm() * v[i].inverse_mass);
+          const Eigen::Vector2d &own   = state.grains.velocity[i];
+          const double           speed = std::max(std::sqrt(own.x() * own.x() + own.y() * own.y()), wall_speed);
+          margin[i] = 0.04 * setting.mean_diameter + 1.2 * h * (speed + h * force[i].norm() * v[i].inverse_mass);
         }
       return margin;
     }
@@ -64,7 +67,7 @@ namespace diptych::discrete
   StepResult advance(State &state, const StepSetting &setting, StepCache &cache, const SampleRequest *sample)
   {
     const double h = setting.step;
-    State        trial{state.grains, state.walls, state.cell, {}, state.time}; // without the impulses of the last step
+    State trial{state.grains, state.walls, state.cell, {}, state.time, state.lattice}; // without the impulses of the last step
     drift(trial, 0.5 * h);
 
     StepResult result;
@@ -99,6 +102,7 @@ namespace diptych::discrete
     result.contact_impact      = std::move(ledger.contact_impact);
     result.momentum_residual   = ledger.momentum_residual;
     result.unbalanced_force    = ledger.unbalanced_force;
+    result.lattice             = ledger.lattice;
 
     take_velocities(v_new, trial);
     drift(trial, 0.5 * h);
@@ -135,6 +139,8 @@ namespace diptych::discrete
           energy += 0.5 * wall.mass * wall.velocity[axis] * wall.velocity[axis];
     if (state.cell && state.cell->pressure)
       energy += 0.5 * state.cell->mass * state.cell->velocity * state.cell->velocity;
+    if (state.lattice)
+      energy += 0.5 * state.lattice->rate.dot(state.lattice->drive.inertia * state.lattice->rate);
     return energy;
   }
 } // namespace diptych::discrete

@@ -34,6 +34,7 @@ namespace diptych::discrete
     double                         largest_penetration = 0; // at mid-step [length]
     double                         momentum_residual   = 0; // see StepLedger
     double                         unbalanced_force    = 0; // mean over grains of |m dv/h| / mean normal contact force
+    LatticeStress                  lattice;                 // 0 without a lattice
     std::optional<SampledAccuracy> accuracy;                // if the step was sampled
   };
 

@@ -47,10 +47,8 @@ namespace diptych::discrete
     if (changed.empty())
       return;
     const std::vector<BodyVelocity> v = velocities(problem, impulses);
-    std::vector<BodyVelocity>       w = at_rest(problem.free_velocity); // velocities due to the changes
-    for (const int k : changed)
-      apply_impulse(problem.contacts[k], changes[k], w);
-    double work = 0, change_of_work = 0;
+    const std::vector<BodyVelocity> w = velocities_from(at_rest(problem.free_velocity), problem, changes, changed); // due to them
+    double                          work = 0, change_of_work = 0;
     for (const int k : changed)
       {
         const ContactRow      &c = problem.contacts[k];

@@ -76,6 +76,25 @@ namespace
     EXPECT_NO_THROW(read_scene(file.path, {}, false));
   }
 
+  // The table's progress is the end of the loading, and its controls must be independent.
+  TEST(Scene, ACellFollowsATable)
+  {
+    const SceneFile   file("subsection discrete\n  set lateral = cell\nend\nsubsection loading\n  set mode = path\nend\n");
+    const std::string table             = file.folder / "path.csv";
+    const std::vector<std::string> path = {"loading/path=" + table};
+    diptych::discrete::write_text(table, "progress,eyy,sxx,exy\n0,0,1,0\n2,0.02,1,0\n3,0.01,2,0\n");
+    const Scene scene = read_scene(file.path, path, false);
+    EXPECT_EQ(scene.loading.axial_strain, 3);
+    EXPECT_EQ(stages(scene.loading).back(), 3);
+    const auto cell = discrete_loading(scene.loading).path;
+    EXPECT_NEAR(times_of(cell, 1, 1e-3).back(), 30, 1e-9) << "0.02 of eyy, then as much as 0.01 for the stress";
+    const auto refused = [&] { return refusal([&] { read_scene(file.path, path, false); }); };
+    diptych::discrete::write_text(table, "exx,eyy,volume\n0,0,0\n0,0.1,0.1\n");
+    expect_words(refused(), {table, "header line", "exx, eyy, volume", "one follows from the others"});
+    diptych::discrete::write_text(table, "eyy,sxx,exy\n0,1,0\n0.1,one,0\n");
+    expect_words(refused(), {table, "line 3", "sxx", "one"});
+  }
+
   TEST(Scene, AnUnknownKeyIsNamedWithFileLineAndNearestKey)
   {
     expect_words(error_of("subsection sample\n\n  set grians = 500\nend\n"),

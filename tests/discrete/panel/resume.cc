@@ -114,6 +114,20 @@ namespace
     expect_same_from(small_sample(150), {1, 1e-3, 1, {0.004, 0.01}}, options, {0, 3, 5, 8});
   }
 
+  TEST(Resume, CellUnderShearAndBack)
+  {
+    Options options         = sampled_options();
+    options.lateral.lateral = Lateral::cell;
+    Loading loading         = two_stages();
+    loading.mode            = LoadingMode::path;
+    loading.path.form << 0, 0, 1, 0, 1, 0, 1, 0, 0; // 2 exy, syy, exx
+    loading.path.is_stress = {false, true, false};
+    loading.path.values    = {{0, 1, 0}, {1e-3, 1, 0}, {0, 1, 0}};
+    loading.path.progress  = {0, 1, 2};
+    loading.stages         = {1, 2};
+    expect_same_from(small_sample(150), loading, options, everywhere);
+  }
+
   TEST(Resume, WallsThatFollowATable)
   {
     Options options         = sampled_options();

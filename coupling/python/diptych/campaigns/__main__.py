@@ -16,7 +16,7 @@ from .engine import NOT_CONVERGED, SYSTEM_FAILURE, WRONG_INPUT, Options, complai
 
 COMMANDS = {"run": ("ensemble", "run_ensemble"), "compare": ("ensemble", "compare_again"), "study": ("study", "run_study"),
             "plan": ("plan", "main_plan"), "calibrate": ("calibration", "run_calibration"),
-            "homogenise": ("homogenise", "run_homogenise")}
+            "element": ("element", "run_element"), "homogenise": ("homogenise", "run_homogenise")}
 
 
 def parsed(words: Sequence[str]) -> argparse.Namespace:

@@ -1,0 +1,30 @@
+// diptych: path of an element test, for the law's point and for a cell of grains
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <string>
+
+#include "continuum/laws/point_path.h"
+#include "discrete/panel/cell_path.h"
+
+namespace diptych::coupling
+{
+  // A name of continuum::NamedPath, or a table.
+  struct PathOption
+  {
+    std::string text = "drained";
+
+    bool names_a_file() const;
+  };
+  inline std::string text_of(const PathOption &option)
+  {
+    return option.text;
+  }
+
+  // Path of a CSV file from the isotropic `pressure`. Three columns are named like controls; a column `progress` is optional.
+  // Throws SceneError with file, line, column and range.
+  continuum::PointPath read_path_table(const std::string &file, double pressure);
+
+  // The same path for the grains. The size holds the pressure; a name also takes its strain and step.
+  discrete::CellPath cell_path(const PathOption &option, const continuum::PathSize &size);
+} // namespace diptych::coupling

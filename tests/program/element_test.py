@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+# diptych: grains and the law's point on one path
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Usage: element_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
+
+import glob
+import os
+import signal
+import time
+
+import numpy
+
+from running import SOURCE, Folder, content, diptych, finished, history, main, read_json, setting, start, write
+
+SCENE = os.path.join(SOURCE, "benchmarks", "element", "scene.prm")
+SMALL = setting(sample_grains=100, loading_axial_strain=0.01, discrete_step=0.1, discrete_tolerance=1e-3)
+
+
+class Element(Folder):
+    def histories(self, name):
+        return [history(os.path.dirname(path), name) for path in sorted(glob.glob(self.path("runs", "*", name)))]
+
+    def test_curves_are_means_of_the_runs_and_numbers_are_those_of_the_curves(self):
+        printed = finished("element", SCENE, *SMALL, "--seeds", "1-2", "--output", self.folder).stdout
+        curves, record = history(self.folder, "element.csv"), read_json(self.folder, "element.json")
+        samples, [law] = self.histories("discrete.csv"), self.histories("material_point.csv")
+        self.assertEqual((record["done"], record["failed"], len(samples)), ([1, 2], [], 2))
+        # The parts of the path are equal, so that the mean of their means is the mean over the path. The grains begin with a step.
+        means = [(one["syy"][0] * one["progress"][0] + numpy.trapz(one["syy"], one["progress"])) / 0.01 for one in [*samples, law]]
+        self.assertAlmostEqual(curves["grains_syy"].mean(), numpy.mean(means[:2]), places=8)
+        self.assertAlmostEqual(curves["law_syy"].mean(), means[2], places=8)
+        numpy.testing.assert_allclose(curves["law_sxx"], 1, rtol=1e-9)  # both carry the lateral pressure, the grains on average
+        self.assertAlmostEqual(curves["grains_sxx"].mean(), 1, delta=0.02)
+        rms = {one["quantity"]: one["value"] for one in record["rms"]}
+        difference = curves["law_stress_ratio"] - curves["grains_stress_ratio"]
+        self.assertAlmostEqual(rms["stress_ratio"], numpy.sqrt((difference**2).mean()), places=8)
+        last = next(one for one in record["quantities"] if one["quantity"] == "last stress_ratio")
+        self.assertAlmostEqual(last["grains"]["value"], curves["grains_stress_ratio"][-10:].mean(), places=8)
+        self.assertIn(f"{last['law']:.4g}", printed)
+        self.assertTrue(os.path.exists(self.path("report.html")))
+        os.remove(self.path("report.html"))
+        finished("report", self.folder)
+        self.assertTrue(os.path.exists(self.path("report.html")))
+
+    def test_wrong_paths_are_refused_and_a_stress_beyond_the_strength_keeps_what_was_reached(self):
+        table = os.path.join(self.work, "path.csv")
+        words = ("element", SCENE, *SMALL, *setting(loading_path=table), "--output", self.folder)
+        for text, message in (("volume,mean_stress,exy\n0,1,0\n0.1,1,0\n", "one follows from the others"),
+                              ("eyy,sxx,exy\n0,2,0\n0.1,2,0\n", "not the stress of the start")):
+            write(table, text)
+            result = diptych(*words)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn(table, result.stderr)
+            self.assertIn(message, result.stderr)
+            self.assertFalse(os.path.exists(self.folder))
+        write(table, "progress,syy,sxx,exy\n0,1,1,0\n0.01,9,1,0\n")  # t/s = 0.8
+        result = diptych(*words)
+        self.assertEqual(result.returncode, 3, result.stderr)
+        curves, record = history(self.folder, "element.csv"), read_json(self.folder, "element.json")
+        self.assertGreater(curves["law_stress_ratio"][numpy.isfinite(curves["law_stress_ratio"])].max(), 0.2)
+        self.assertIn("sxx = 1, syy", record["law"]["failure"])
+        self.assertIn("the law ended before the end of the path", result.stderr)
+        self.assertTrue(os.path.exists(self.path("report.html")))
+
+    def test_after_a_stop_the_finished_samples_are_kept(self):
+        words = ("element", SCENE, *SMALL, "--seeds", "1-3", "--jobs", "1", "--output", self.folder)
+        run = start(*words)
+        while not any(b"exit_code" in content(path) for path in glob.glob(self.path("runs", "*.json"))) and run.poll() is None:
+            time.sleep(0.02)
+        run.send_signal(signal.SIGINT)
+        _, errors = run.communicate()
+        self.assertEqual(run.returncode, 3, errors)
+        self.assertIn("to go on: diptych element", errors)
+        self.assertIn("of 3 runs are finished", finished(*words, "--resume").stdout)
+        self.assertEqual(read_json(self.folder, "element.json")["done"], [1, 2, 3])
+
+
+if __name__ == "__main__":
+    main()
