@@ -94,7 +94,8 @@ namespace diptych::discrete
   inline Impulse local_solution(const ContactRow &c, const RelativeVelocity &u, const Impulse &r, const double omega)
   {
     const LawTerms<double> terms{c.normal_term, c.tangential_term, c.friction, c.inverse_wnn, c.inverse_wtt};
-    const Parts<double>    solution = signorini_coulomb(terms, u, {r.normal, r.tangential}, omega);
+    const Parts<double>    give{u.normal + c.normal_compliance * r.normal, u.tangential + c.tangential_compliance * r.tangential};
+    const Parts<double>    solution = signorini_coulomb(terms, give, {r.normal, r.tangential}, omega);
     return {solution.normal, solution.tangential};
   }
 

@@ -34,8 +34,10 @@ namespace diptych::discrete
     double normal_term;     // c_n of  0 <= u_n' + c_n  _|_  r_n >= 0   [length/time]
     double tangential_term; // c_t = e_t u_t of the friction law        [length/time]
     double friction;        // mu
-    double inverse_wnn;     // 1 / (1/m_i + 1/m_j)                      [mass]
-    double inverse_wtt;     // 1 / (1/m_i + 1/m_j + k_i + k_j)          [mass]
+    double inverse_wnn;     // 1 / (1/m_i + 1/m_j + C_n)                [mass]
+    double inverse_wtt;     // 1 / (1/m_i + 1/m_j + k_i + k_j + C_t)    [mass]
+    double normal_compliance     = 0; // C_n: springs give way by C r within the step, so that u + C r takes the place of u; 0 if
+    double tangential_compliance = 0; // C_t: the contact is rigid      [1/mass]
   };
 
   // Unknowns are the impulses r; the velocities are v = v_free + M^-1 H r. Every contact obeys Signorini's condition and

@@ -50,14 +50,14 @@ namespace diptych::discrete
     void add_unused(const Options &o, std::vector<UnusedKey> &keys)
     {
       const Unused      unused{"discrete", keys};
-      const bool        penalty = o.method.method == Method::penalty;
+      const bool penalty = o.method.method == Method::penalty, springs = penalty || o.method.method == Method::compliant;
       const std::string method  = "discrete/method = " + name_of(o.method.method),
                         lateral = "discrete/lateral = " + name_of(o.lateral.lateral);
       const bool moves          = o.lateral.lateral == Lateral::rigid_walls || o.lateral.lateral == Lateral::periodic;
-      unused.unless(
-        penalty, method,
-        {"penalty_stiffness", "penalty_step_fraction", "penalty_damping", "penalty_preload", "penalty_preload_friction"});
-      unused.unless(!penalty || o.penalty.preload > 0, "discrete/penalty_preload = 0", {"penalty_preload_friction"});
+      unused.unless(penalty, method, {"penalty_step_fraction"});
+      unused.unless(springs, method,
+                    {"penalty_stiffness", "penalty_damping", "penalty_preload", "penalty_preload_friction"});
+      unused.unless(!springs || o.penalty.preload > 0, "discrete/penalty_preload = 0", {"penalty_preload_friction"});
       unused.unless(!penalty, method,
                     {"step", "penetration_correction", "accuracy", "tolerance", "max_sweeps", "snapshot_accuracy",
                      "snapshot_max_sweeps", "reference_sweeps"});
@@ -96,7 +96,7 @@ namespace diptych::discrete
 
   double expected_step(const SampleOptions &sample, const Loading &loading, const Options &options)
   {
-    if (options.method.method == Method::nscd && options.time.step)
+    if (options.method.method != Method::penalty && options.time.step)
       return *options.time.step;
     if (options.method.method == Method::imported || !(loading.pressure > 0))
       return 0;

@@ -12,15 +12,16 @@ namespace diptych::discrete
 {
   enum class Method
   {
-    nscd,    // Non-Smooth Contact Dynamics
-    penalty, // explicit springs, dashpots and Coulomb friction (Cundall & Strack 1979)
-    imported // no computation: frames of another code
+    nscd,      // Non-Smooth Contact Dynamics
+    compliant, // the springs and dashpots of penalty, implicit over long steps
+    penalty,   // explicit springs, dashpots and Coulomb friction (Cundall & Strack 1979)
+    imported   // no computation: frames of another code
   };
 
   constexpr auto choices(Method)
   {
-    return std::array{std::pair{Method::nscd, "nscd"}, std::pair{Method::penalty, "penalty"},
-                      std::pair{Method::imported, "imported"}};
+    return std::array{std::pair{Method::nscd, "nscd"}, std::pair{Method::compliant, "compliant"},
+                      std::pair{Method::penalty, "penalty"}, std::pair{Method::imported, "imported"}};
   }
 
   struct MethodOptions
@@ -36,7 +37,7 @@ namespace diptych::discrete
   {
     visitor(
       "method", o.method, "-",
-      "nscd: Non-Smooth Contact Dynamics; penalty: explicit springs, dashpots and Coulomb friction (Cundall & Strack 1979); "
+      "nscd: Non-Smooth Contact Dynamics; compliant: the springs of `penalty`, implicit over long steps; penalty: explicit springs, dashpots and Coulomb friction (Cundall & Strack 1979); "
       "imported: no computation; the frames of another code are taken from `file`");
     visitor("file", FileName{o.file}, "-",
             "imported: discrete.h5 of `diptych import`, with discrete.csv in the same folder; {seed} in the path stands for "

@@ -37,17 +37,20 @@ namespace diptych::discrete
     }
 
     DIPTYCH_INLINE Parts<Four> local_solution(const ContactBatch &c,
-                                              const double       *tangential_term,
+                                              const BatchExtras  *extras,
                                               const Bodies       &bi,
                                               const Bodies       &bj,
                                               const double        sticking,
                                               const double        slipping)
     {
       const Four           zero{}, inverse_wnn = read(c.inverse_wnn);
-      const LawTerms<Four> terms{read(c.normal_term), tangential_term ? read(tangential_term) : zero, read(c.friction),
-                                 inverse_wnn, inverse_wnn * disc_wnn_over_wtt};
+      const LawTerms<Four> terms{read(c.normal_term), extras ? read(extras->tangential_term) : zero, read(c.friction),
+                                 inverse_wnn, extras ? read(extras->inverse_wtt) : inverse_wnn * disc_wnn_over_wtt};
       const Parts<Four>    r = impulses_of(c);
-      const Parts<Four>    u = relative_velocity(read(c.nx), read(c.ny), bi.x - bj.x, bi.y - bj.y, bi.surface, bj.surface);
+      Parts<Four>          u = relative_velocity(read(c.nx), read(c.ny), bi.x - bj.x, bi.y - bj.y, bi.surface, bj.surface);
+      if (extras)
+        u = {u.normal + read(extras->normal_compliance) * r.normal,
+             u.tangential + read(extras->tangential_compliance) * r.tangential};
       return signorini_coulomb(terms, u, r, relaxation(terms.friction, r, zero + sticking, zero + slipping));
     }
 
@@ -62,10 +65,10 @@ namespace diptych::discrete
       bj.surface -= 2 * bj.inverse_mass * dr.tangential;
     }
 
-    DIPTYCH_INLINE void update(ContactBatch &c, const double *term, const double sticking, const double slipping, BodyVelocity *v)
+    DIPTYCH_INLINE void update(ContactBatch &c, const BatchExtras *extras, const double sticking, const double slipping, BodyVelocity *v)
     {
       Bodies            bi = gather(v, c.i), bj = gather(v, c.j);
-      const Parts<Four> r = local_solution(c, term, bi, bj, sticking, slipping);
+      const Parts<Four> r = local_solution(c, extras, bi, bj, sticking, slipping);
       apply(c, {r.normal - read(c.normal), r.tangential - read(c.tangential)}, bi, bj);
       scatter(bi, v, c.i);
       scatter(bj, v, c.j);
@@ -75,15 +78,15 @@ namespace diptych::discrete
   } // namespace
 
   DIPTYCH_FOR_EACH_MACHINE void sweep_batches(ContactBatch                *batches,
-                                              const std::array<double, 4> *terms,
+                                              const BatchExtras *extras,
                                               const std::size_t            n,
                                               const double                 sticking,
                                               const double                 slipping,
                                               BodyVelocity                *v)
   {
-    if (terms)
+    if (extras)
       for (std::size_t b = 0; b < n; ++b)
-        update(batches[b], terms[b].data(), sticking, slipping, v);
+        update(batches[b], extras + b, sticking, slipping, v);
     else
       for (std::size_t b = 0; b < n; ++b)
         update(batches[b], nullptr, sticking, slipping, v);
@@ -102,7 +105,7 @@ namespace diptych::discrete
   }
 
   DIPTYCH_FOR_EACH_MACHINE void add_squares(const ContactBatch          *batches,
-                                            const std::array<double, 4> *terms,
+                                            const BatchExtras *extras,
                                             const std::size_t            n,
                                             const BodyVelocity          *v,
                                             double                      *difference,
@@ -113,7 +116,7 @@ namespace diptych::discrete
       {
         const ContactBatch &c  = batches[b];
         const Bodies        bi = gather(v, c.i), bj = gather(v, c.j);
-        const Parts<Four>   p  = local_solution(c, terms ? terms[b].data() : nullptr, bi, bj, 1., 1.);
+        const Parts<Four>   p  = local_solution(c, extras ? extras + b : nullptr, bi, bj, 1., 1.);
         const Four          rn = read(c.normal), rt = read(c.tangential);
         d += (rn - p.normal) * (rn - p.normal) + (rt - p.tangential) * (rt - p.tangential);
         s += rn * rn + rt * rt;

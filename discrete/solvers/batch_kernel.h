@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <array>
 #include <cstddef>
 
 #include "discrete/contacts/contact_problem.h"
@@ -19,11 +18,17 @@ namespace diptych::discrete
     int    i[lanes], j[lanes];
   };
 
-  // The three functions take n batches, the tangential terms of their lanes (null: all zero) and the velocities of all bodies.
+  // Further columns of a batch, for contacts that have a tangential term or are compliant.
+  struct alignas(64) BatchExtras
+  {
+    double tangential_term[lanes], inverse_wtt[lanes], normal_compliance[lanes], tangential_compliance[lanes];
+  };
+
+  // The three functions take n batches, their extras (null: none has any) and the velocities of all bodies.
 
   // One over-relaxed pass. Contacts at their Coulomb bound (by their old impulse) take `slipping`.
   void sweep_batches(ContactBatch                    *batches,
-                     const std::array<double, lanes> *terms,
+                     const BatchExtras  *extras,
                      std::size_t                      n,
                      double                           sticking,
                      double                           slipping,
@@ -34,7 +39,7 @@ namespace diptych::discrete
 
   // Adds the squares of |r - P(r)| and of |r| to `difference` and `norm`.
   void add_squares(const ContactBatch              *batches,
-                   const std::array<double, lanes> *terms,
+                   const BatchExtras  *extras,
                    std::size_t                      n,
                    const BodyVelocity              *v,
                    double                          *difference,

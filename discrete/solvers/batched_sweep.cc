@@ -57,7 +57,7 @@ namespace diptych::discrete
       return std::abs(a - b) <= 1e-14 * std::abs(b);
     }; // files round these numbers
     return c.cell < 0 && same(c.jx, wj) && same(c.jy, wj) && same(c.ki, 2 * wi) && same(c.kj, 2 * wj) &&
-           same(c.inverse_wtt, c.inverse_wnn * disc_wnn_over_wtt);
+           (c.normal_compliance > 0 || same(c.inverse_wtt, c.inverse_wnn * disc_wnn_over_wtt));
   }
 
   BatchedContacts::BatchedContacts(const ContactProblem &problem, const std::vector<int> &held, const std::vector<Impulse> &guess)
@@ -145,15 +145,17 @@ namespace diptych::discrete
     v_.push_back({0, 0, 0, 0});
     part.batches.reserve(rows.size() / 3 + 2);
     part.rows.reserve(rows.size() / 3 + 2);
-    part.tangential_term.reserve(rows.size() / 3 + 2);
+    part.extras.reserve(rows.size() / 3 + 2);
     std::vector<int> awake, idle;
     for (const int row : rows)
       (is_idle_[row] ? idle : awake).push_back(row);
     pack(awake, part, own);
     part.n_awake = part.batches.size();
     pack(idle, part, own);
-    if (std::all_of(rows.begin(), rows.end(), [&](const int row) { return problem_.contacts[row].tangential_term == 0; }))
-      part.tangential_term.clear();
+    if (std::all_of(rows.begin(), rows.end(), [&](const int row) {
+          return problem_.contacts[row].tangential_term == 0 && problem_.contacts[row].normal_compliance == 0;
+        }))
+      part.extras.clear();
     return part;
   }
 
@@ -183,7 +185,7 @@ namespace diptych::discrete
         waiting = entered - taken_rows;
         part.batches.push_back(empty);
         part.rows.push_back({-1, -1, -1, -1});
-        part.tangential_term.push_back({});
+        part.extras.push_back({});
         int filled = 0;
         for (const int distance : {1, 0})
           for (int before = 0; after[before] < entered && filled < lanes;)
@@ -219,7 +221,11 @@ namespace diptych::discrete
     data.normal_term[lane]            = c.normal_term;
     data.friction[lane]               = c.friction;
     data.inverse_wnn[lane]            = c.inverse_wnn;
-    part.tangential_term.back()[lane] = c.tangential_term;
+    BatchExtras &extras               = part.extras.back();
+    extras.tangential_term[lane]      = c.tangential_term;
+    extras.inverse_wtt[lane]          = c.inverse_wtt;
+    extras.normal_compliance[lane]    = c.normal_compliance;
+    extras.tangential_compliance[lane] = c.tangential_compliance;
     part.rows.back()[lane]            = row;
   }
 
@@ -271,7 +277,7 @@ namespace diptych::discrete
 
   void BatchedContacts::sweep_part(Part &part, const double omega_sticking, const double omega_slipping, const bool with_idle)
   {
-    sweep_batches(part.batches.data(), part.tangential_term.empty() ? nullptr : part.tangential_term.data(),
+    sweep_batches(part.batches.data(), part.extras.empty() ? nullptr : part.extras.data(),
                   with_idle ? part.batches.size() : part.n_awake, omega_sticking, omega_slipping, v_.data());
     if (with_idle)
       wake(part);
@@ -288,8 +294,8 @@ namespace diptych::discrete
           continue;
         std::swap(part.batches[b], part.batches[part.n_awake]);
         std::swap(part.rows[b], part.rows[part.n_awake]);
-        if (!part.tangential_term.empty())
-          std::swap(part.tangential_term[b], part.tangential_term[part.n_awake]);
+        if (!part.extras.empty())
+          std::swap(part.extras[b], part.extras[part.n_awake]);
         ++part.n_awake;
       }
   }
@@ -346,7 +352,7 @@ namespace diptych::discrete
   NaturalMapSquares BatchedContacts::residual_squares(const Part &part) const
   {
     NaturalMapSquares squares;
-    add_squares(part.batches.data(), part.tangential_term.empty() ? nullptr : part.tangential_term.data(), part.batches.size(),
+    add_squares(part.batches.data(), part.extras.empty() ? nullptr : part.extras.data(), part.batches.size(),
                 v_.data(), &squares.difference, &squares.norm);
     return squares;
   }

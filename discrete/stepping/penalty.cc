@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 
 #include "discrete/contacts/natural_map.h"
@@ -18,8 +17,6 @@ namespace diptych::discrete
 {
   namespace
   {
-    constexpr double tangential_over_normal_stiffness = 0.5;
-
     void validate(const StepSetting &setting, const PenaltyOptions &options)
     {
       if (!(options.stiffness * setting.pressure > 0))
@@ -73,22 +70,6 @@ namespace diptych::discrete
       return ft * (spring - ft) / law.kt;
     }
 
-    // The ledger of a step counts all tangential work as friction. Here only sliding is friction. The rest is elastic and counts
-    // with the work along the normal.
-    void take_ledger(StepLedger ledger, StepResult &result)
-    {
-      const std::vector<double> &each    = result.contact_dissipation;
-      const double               sliding = std::accumulate(each.begin(), each.end(), 0.);
-      result.energies                    = ledger.energies;
-      result.energies.impact_dissipation += result.energies.friction_dissipation - sliding;
-      result.energies.friction_dissipation = sliding;
-      result.contact_impact                = std::move(ledger.contact_impact);
-      for (std::size_t k = 0; k < each.size(); ++k)
-        result.contact_impact[k] += ledger.contact_dissipation[k] - each[k];
-      result.wall_force        = std::move(ledger.wall_force);
-      result.momentum_residual = ledger.momentum_residual;
-      result.unbalanced_force  = ledger.unbalanced_force;
-    }
   } // namespace
 
   double penalty_step(const Grains &grains, const double stiffness, const double fraction)
@@ -121,18 +102,21 @@ namespace diptych::discrete
                                                            {free_velocities(trial, v, result.applied_force, setting), {}, {}});
     const SpringLaw                 law{kn, tangential_over_normal_stiffness * kn, options.damping,
                         penalty.impulse_step > 0 ? penalty.impulse_step : h};
+    std::vector<double>             sliding;
     for (std::size_t k = 0; k < result.contacts.size(); ++k)
       {
         const ContactRow &c   = problem.contacts[k];
         const double      gap = result.contacts[k].gap;
-        result.contact_dissipation.push_back(apply_law(law, c, gap, relative_velocity(c, v), h, result.impulses[k]));
+        sliding.push_back(apply_law(law, c, gap, relative_velocity(c, v), h, result.impulses[k]));
         result.largest_penetration = std::max(result.largest_penetration, -gap);
       }
 
     const std::vector<int>          acting = acting_contacts(result.impulses);
     const std::vector<BodyVelocity> v_new  = velocities(problem, result.impulses, acting);
-    take_ledger(step_ledger({trial, problem, result.contacts, result.impulses, acting, result.applied_force, v, v_new, h}, false),
-                result);
+    StepLedger ledger = step_ledger({trial, problem, result.contacts, result.impulses, acting, result.applied_force, v, v_new, h},
+                                    false);
+    count_springs(std::move(sliding), ledger);
+    take_ledger(std::move(ledger), result);
     take_velocities(v_new, trial);
     drift(trial, 0.5 * h);
     if (has_blown_up(trial, h))

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "discrete/bodies/boundary.h"
 #include "discrete/contacts/contact_law.h"
@@ -175,5 +176,15 @@ namespace diptych::discrete
     ledger.unbalanced_force  = s.acting.empty() ? 0 : (unbalanced / double(n)) / (contacts.normal / double(s.acting.size()));
     ledger.momentum_residual = contacts.impulse > 0 ? balance.norm() / (contacts.impulse + momentum_sum) : 0;
     return ledger;
+  }
+
+  void count_springs(std::vector<double> sliding, StepLedger &ledger)
+  {
+    const double all = std::accumulate(sliding.begin(), sliding.end(), 0.);
+    ledger.energies.impact_dissipation += ledger.energies.friction_dissipation - all;
+    ledger.energies.friction_dissipation = all;
+    for (std::size_t k = 0; k < sliding.size(); ++k)
+      ledger.contact_impact[k] += ledger.contact_dissipation[k] - sliding[k];
+    ledger.contact_dissipation = std::move(sliding);
   }
 } // namespace diptych::discrete

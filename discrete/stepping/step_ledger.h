@@ -42,4 +42,8 @@ namespace diptych::discrete
   };
 
   StepLedger step_ledger(const SolvedStep &solved, bool corrects_by_velocity);
+
+  // step_ledger() counts all tangential work as friction. With springs only the work of `sliding`, one entry per contact, is
+  // friction. The rest is elastic and joins the work along the normal.
+  void count_springs(std::vector<double> sliding, StepLedger &ledger);
 } // namespace diptych::discrete

@@ -3,6 +3,7 @@
 #include "discrete/stepping/step_problem.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "discrete/bodies/boundary.h"
 #include "discrete/contacts/contact_law.h"
@@ -153,5 +154,27 @@ namespace diptych::discrete
         row.tangential_term      = setting.law.tangential_restitution * u.tangential;
       }
     return problem;
+  }
+
+  void make_compliant(const StepSetting               &setting,
+                      const std::vector<Contact>      &contacts,
+                      const std::vector<BodyVelocity> &v,
+                      const std::vector<Impulse>      &springs,
+                      ContactProblem                  &problem)
+  {
+    const Compliance &c  = setting.compliance;
+    const double      h  = setting.step, theta = c.theta, kn = c.stiffness, kt = tangential_over_normal_stiffness * kn;
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+      {
+        ContactRow            &row     = problem.contacts[k];
+        const RelativeVelocity u       = relative_velocity(row, v);
+        const double           dashpot = std::isfinite(row.inverse_wnn) ? 2 * c.damping * std::sqrt(row.inverse_wnn / kn) : 0;
+        row.normal_compliance     = 1 / (h * kn * (theta * h + dashpot));
+        row.tangential_compliance = 1 / (h * kt * theta * h);
+        row.normal_term           = contacts[k].gap / (theta * h + dashpot);
+        row.tangential_term       = (1 - theta) / theta * u.tangential - springs[k].tangential * row.tangential_compliance;
+        row.inverse_wnn           = 1 / (1 / row.inverse_wnn + row.normal_compliance);
+        row.inverse_wtt           = 1 / (1 / row.inverse_wtt + row.tangential_compliance);
+      }
   }
 } // namespace diptych::discrete

@@ -28,6 +28,14 @@ namespace diptych::discrete
                               const std::vector<BodyVelocity> &v,
                               ContactProblem                   problem);
 
+  // Gives the rows the springs of setting.compliance. `v` is the velocity at the beginning of the step, `springs` holds the
+  // impulses of the last step, of the same length.
+  void make_compliant(const StepSetting               &setting,
+                      const std::vector<Contact>      &contacts,
+                      const std::vector<BodyVelocity> &v,
+                      const std::vector<Impulse>      &springs,
+                      ContactProblem                  &problem);
+
   inline Eigen::Vector2d impulse_vector(const Contact &c, const Impulse &r)
   {
     return {c.normal.x() * r.normal - c.normal.y() * r.tangential, c.normal.y() * r.normal + c.normal.x() * r.tangential};

@@ -47,6 +47,21 @@ namespace diptych::discrete
         largest = std::max(largest, -c.gap);
       return largest;
     }
+    // Work of each contact while it slides: force x sliding distance, which is the give that its tangential spring does not take.
+    std::vector<double> sliding_work(const ContactProblem            &problem,
+                                     const std::vector<BodyVelocity> &v,
+                                     const std::vector<Impulse>      &impulses,
+                                     const double                     share)
+    {
+      std::vector<double> work(impulses.size());
+      for (std::size_t k = 0; k < impulses.size(); ++k)
+        {
+          const ContactRow &c = problem.contacts[k];
+          const double      r = impulses[k].tangential;
+          work[k] = 0 - share * r * (relative_velocity(c, v).tangential + c.tangential_term + c.tangential_compliance * r);
+        }
+      return work;
+    }
   } // namespace
 
   std::vector<Eigen::Vector2d> applied_forces(const State &state, const StepSetting &setting)
@@ -76,7 +91,10 @@ namespace diptych::discrete
     cache.problem                  = make_problem(trial, setting, result.contacts, v, std::move(cache.problem));
     const ContactProblem &problem  = cache.problem;
     const FirstGuess      previous = first_guess(state.impulses, result.contacts);
-    result.impulses                = previous.impulses;
+    const bool compliant           = setting.compliance.stiffness > 0;
+    if (compliant)
+      make_compliant(setting, result.contacts, v, previous.impulses, cache.problem);
+    result.impulses = previous.impulses;
     extrapolate(problem, previous.changes, result.impulses);
     if (sample && sample->options.snapshot_max_sweeps > 0)
       result.solve = solve_sampled({problem, trial.grains.radius, result.contacts}, setting.solver, *sample, *cache.team,
@@ -93,21 +111,28 @@ namespace diptych::discrete
     const std::vector<BodyVelocity> v_new  = velocities(problem, result.impulses, acting);
     StepLedger ledger = step_ledger({trial, problem, result.contacts, result.impulses, acting, result.applied_force, v, v_new, h},
                                     setting.law.normal_restitution == 0 && corrected_share(setting.time) > 0);
-    result.energies   = ledger.energies;
-    result.wall_force = std::move(ledger.wall_force);
-    result.contact_dissipation = std::move(ledger.contact_dissipation);
-    result.contact_impact      = std::move(ledger.contact_impact);
-    result.momentum_residual   = ledger.momentum_residual;
-    result.unbalanced_force    = ledger.unbalanced_force;
+    if (compliant)
+      count_springs(sliding_work(problem, v_new, result.impulses, setting.compliance.theta), ledger);
+    take_ledger(std::move(ledger), result);
 
     take_velocities(v_new, trial);
     drift(trial, 0.5 * h);
-    if (setting.time.penetration_correction == PenetrationCorrection::projection)
+    if (!compliant && setting.time.penetration_correction == PenetrationCorrection::projection)
       correct_positions(trial, {problem, result.contacts, result.impulses, v_new, h}, 1e-4 * setting.mean_diameter, *cache.team);
     keep_impulses(result.contacts, result.impulses, previous.impulses, acting, trial);
     trial.time += h;
     state = std::move(trial);
     return result;
+  }
+
+  void take_ledger(StepLedger ledger, StepResult &result)
+  {
+    result.energies            = ledger.energies;
+    result.wall_force          = std::move(ledger.wall_force);
+    result.contact_dissipation = std::move(ledger.contact_dissipation);
+    result.contact_impact      = std::move(ledger.contact_impact);
+    result.momentum_residual   = ledger.momentum_residual;
+    result.unbalanced_force    = ledger.unbalanced_force;
   }
 
   StepResult advance(State &state, const StepSetting &setting)

@@ -55,12 +55,13 @@ namespace diptych::discrete
       {
         const ContactRow      &c = problem.contacts[k];
         const RelativeVelocity u = relative_velocity(c, v), du = relative_velocity(c, w);
-        const double           violation = u.tangential + c.tangential_term;
+        const double           violation = u.tangential + c.tangential_term + c.tangential_compliance * impulses[k].tangential;
         const bool             slides    = is_slipping(c.friction, impulses[k]) &&
                             impulses[k].tangential * violation < 0; // in the right direction
         const double tangential = slides ? 0 : changes[k].tangential;
-        work += changes[k].normal * (u.normal + c.normal_term) + tangential * violation;
-        change_of_work += changes[k].normal * du.normal + tangential * du.tangential;
+        work += changes[k].normal * (u.normal + c.normal_term + c.normal_compliance * impulses[k].normal) + tangential * violation;
+        change_of_work += changes[k].normal * (du.normal + c.normal_compliance * changes[k].normal) +
+                          tangential * (du.tangential + c.tangential_compliance * changes[k].tangential);
       }
     if (!(change_of_work > 0))
       return;
