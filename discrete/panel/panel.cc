@@ -47,7 +47,6 @@ namespace diptych::discrete
       setting_.mean_diameter = sample.mean_diameter;
       if (options.method.method == Method::compliant)
         setting_.compliance = {options.penalty.stiffness * loading.pressure, options.penalty.damping};
-      if (const char *t = getenv("X_THETA")) setting_.compliance.theta = atof(t);
       cache_.team            = std::make_shared<ThreadTeam>(options.threads);
     }
 
@@ -139,9 +138,7 @@ namespace diptych::discrete
     bool penalty() const { return options_.method.method == Method::penalty; }
     bool stop_requested() const { return hooks_.stop_requested && hooks_.stop_requested(); }
 
-    bool springs() const { return penalty() || options_.method.method == Method::compliant; }
-
-    bool presses() const { return springs() && loading_.mode != LoadingMode::time && options_.penalty.preload > 0; }
+    bool presses() const { return penalty() && loading_.mode != LoadingMode::time && options_.penalty.preload > 0; }
 
     // Compresses the springs of the penalty method. Returns false if it was stopped or the springs blew up.
     bool press(PreparedSample &prepared)
@@ -263,7 +260,7 @@ namespace diptych::discrete
     bool interpenetrate(const double penetration)
     {
       constexpr double limit = 0.3; // mean diameters
-      if (penetration <= limit || springs())
+      if (penetration <= limit || options_.method.method != Method::nscd)
         return false;
       now.report.status  = Status::not_converged;
       now.report.message = interpenetration_text(now.row.step, penetration);

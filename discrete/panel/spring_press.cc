@@ -12,8 +12,7 @@ namespace diptych::discrete
   {
     const double friction = press.penalty.preload_friction, pressure = press.setting.pressure;
     press.setting.law     = {friction, friction, 0, 0, friction};
-    const bool explicit_ = press.setting.compliance.stiffness == 0;
-    press.setting.step    = !explicit_ ? (getenv("X_PRESS") ? atof(getenv("X_PRESS")) : 0.1) * press.setting.mean_diameter * std::sqrt(press.density / pressure) : penalty_step(state.grains, press.penalty.stiffness * pressure, press.penalty.step_fraction);
+    press.setting.step    = penalty_step(state.grains, press.penalty.stiffness * pressure, press.penalty.step_fraction);
     const double duration = press.penalty.preload * press.setting.mean_diameter * std::sqrt(press.density / pressure);
     const long   n        = std::lround(std::ceil(duration / press.setting.step));
 
@@ -21,14 +20,12 @@ namespace diptych::discrete
     state.impulses.clear();
     set_drives(state, {press.start.loading, press.start.lateral, {}, press.start.rate});
     PenaltyState  springs;
-    StepCache cache;
     PressedSample pressed{{}, press.setting.step};
     for (long k = 0; k < n; ++k)
       {
         if (!go_on(double(k) / double(n)))
           return {};
-        pressed.last_step = explicit_ ? advance_penalty(state, springs, press.setting, press.penalty)
-                                     : advance(state, press.setting, cache);
+        pressed.last_step = advance_penalty(state, springs, press.setting, press.penalty);
         if (pressed.last_step.solve.status != SolveStatus::converged)
           break;
       }

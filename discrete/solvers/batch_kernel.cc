@@ -37,21 +37,19 @@ namespace diptych::discrete
     }
 
     DIPTYCH_INLINE Parts<Four> local_solution(const ContactBatch &c,
-                                              const BatchExtras  *extras,
+                                              const TermBatch    *more,
                                               const Bodies       &bi,
                                               const Bodies       &bj,
-                                              const double        sticking,
-                                              const double        slipping)
+                                              const Relaxation    omega)
     {
       const Four           zero{}, inverse_wnn = read(c.inverse_wnn);
-      const LawTerms<Four> terms{read(c.normal_term), extras ? read(extras->tangential_term) : zero, read(c.friction),
-                                 inverse_wnn, extras ? read(extras->inverse_wtt) : inverse_wnn * disc_wnn_over_wtt};
+      const LawTerms<Four> terms{read(c.normal_term), more ? read(more->tangential_term) : zero, read(c.friction), inverse_wnn,
+                                 more ? read(more->inverse_wtt) : inverse_wnn * disc_wnn_over_wtt};
       const Parts<Four>    r = impulses_of(c);
       Parts<Four>          u = relative_velocity(read(c.nx), read(c.ny), bi.x - bj.x, bi.y - bj.y, bi.surface, bj.surface);
-      if (extras)
-        u = {u.normal + read(extras->normal_compliance) * r.normal,
-             u.tangential + read(extras->tangential_compliance) * r.tangential};
-      return signorini_coulomb(terms, u, r, relaxation(terms.friction, r, zero + sticking, zero + slipping));
+      if (more)
+        u = with_give(u, {read(more->normal_compliance), read(more->tangential_compliance)}, r);
+      return signorini_coulomb(terms, u, r, relaxation(terms.friction, r.normal, r.tangential, omega));
     }
 
     DIPTYCH_INLINE void apply(const ContactBatch &c, const Parts<Four> &dr, Bodies &bi, Bodies &bj)
@@ -65,11 +63,42 @@ namespace diptych::discrete
       bj.surface -= 2 * bj.inverse_mass * dr.tangential;
     }
 
-    DIPTYCH_INLINE void update(ContactBatch &c, const BatchExtras *extras, const double sticking, const double slipping, BodyVelocity *v)
+    // Of the spins after the tangential impulse changed, with the give of the springs.
+    DIPTYCH_INLINE Four
+    rolling_velocity_of(const RollingBatch &m, const TermBatch *more, const Bodies &bi, const Bodies &bj)
+    {
+      const Four w = rolling_velocity(read(m.arm), bi.surface, bj.surface);
+      return more ? w + (read(more->rolling_term) + read(more->tangential_compliance) * read(m.rolling)) : w;
+    }
+
+    DIPTYCH_INLINE Four
+    local_couple(const RollingBatch &m, const Four w, const Four old_normal, const Four normal, const Relaxation omega)
+    {
+      const Four               r = read(m.rolling);
+      const RollingTerms<Four> terms{read(m.friction), read(m.arm), read(m.inverse_wmm)};
+      return rolling_resistance(terms, w, r, normal, relaxation(terms.friction, old_normal, r, omega));
+    }
+
+    DIPTYCH_INLINE void apply_couple(const RollingBatch &m, const Four dr, Bodies &bi, Bodies &bj)
+    {
+      const Four arm = read(m.arm);
+      bi.surface += 2 * bi.inverse_mass * arm * dr;
+      bj.surface -= 2 * bj.inverse_mass * (1 - arm) * dr;
+    }
+
+    DIPTYCH_INLINE void
+    update(ContactBatch &c, RollingBatch *m, const TermBatch *more, const Relaxation omega, BodyVelocity *v)
     {
       Bodies            bi = gather(v, c.i), bj = gather(v, c.j);
-      const Parts<Four> r = local_solution(c, extras, bi, bj, sticking, slipping);
-      apply(c, {r.normal - read(c.normal), r.tangential - read(c.tangential)}, bi, bj);
+      const Four        old_normal = read(c.normal);
+      const Parts<Four> r          = local_solution(c, more, bi, bj, omega);
+      apply(c, {r.normal - old_normal, r.tangential - read(c.tangential)}, bi, bj);
+      if (m)
+        {
+          const Four couple = local_couple(*m, rolling_velocity_of(*m, more, bi, bj), old_normal, r.normal, omega);
+          apply_couple(*m, couple - read(m->rolling), bi, bj);
+          write(m->rolling, couple);
+        }
       scatter(bi, v, c.i);
       scatter(bj, v, c.j);
       write(c.normal, r.normal);
@@ -78,34 +107,44 @@ namespace diptych::discrete
   } // namespace
 
   DIPTYCH_FOR_EACH_MACHINE void sweep_batches(ContactBatch                *batches,
-                                              const BatchExtras *extras,
+                                              RollingBatch                *rolling,
+                                              const TermBatch             *terms,
                                               const std::size_t            n,
                                               const double                 sticking,
                                               const double                 slipping,
                                               BodyVelocity                *v)
   {
-    if (extras)
+    if (rolling)
       for (std::size_t b = 0; b < n; ++b)
-        update(batches[b], extras + b, sticking, slipping, v);
+        update(batches[b], rolling + b, terms ? terms + b : nullptr, {sticking, slipping}, v);
+    else if (terms)
+      for (std::size_t b = 0; b < n; ++b)
+        update(batches[b], nullptr, terms + b, {sticking, slipping}, v);
     else
       for (std::size_t b = 0; b < n; ++b)
-        update(batches[b], nullptr, sticking, slipping, v);
+        update(batches[b], nullptr, nullptr, {sticking, slipping}, v);
   }
 
-  DIPTYCH_FOR_EACH_MACHINE void add_impulses(const ContactBatch *batches, const std::size_t n, BodyVelocity *v)
+  DIPTYCH_FOR_EACH_MACHINE void add_impulses(const ContactBatch *batches,
+                                             const RollingBatch *rolling,
+                                             const std::size_t   n,
+                                             BodyVelocity       *v)
   {
     for (std::size_t b = 0; b < n; ++b)
       {
         const ContactBatch &c  = batches[b];
         Bodies              bi = gather(v, c.i), bj = gather(v, c.j);
         apply(c, impulses_of(c), bi, bj);
+        if (rolling)
+          apply_couple(rolling[b], read(rolling[b].rolling), bi, bj);
         scatter(bi, v, c.i);
         scatter(bj, v, c.j);
       }
   }
 
   DIPTYCH_FOR_EACH_MACHINE void add_squares(const ContactBatch          *batches,
-                                            const BatchExtras *extras,
+                                            const RollingBatch          *rolling,
+                                            const TermBatch             *terms,
                                             const std::size_t            n,
                                             const BodyVelocity          *v,
                                             double                      *difference,
@@ -115,11 +154,19 @@ namespace diptych::discrete
     for (std::size_t b = 0; b < n; ++b)
       {
         const ContactBatch &c  = batches[b];
-        const Bodies        bi = gather(v, c.i), bj = gather(v, c.j);
-        const Parts<Four>   p  = local_solution(c, extras ? extras + b : nullptr, bi, bj, 1., 1.);
+        const TermBatch    *more = terms ? terms + b : nullptr;
+        Bodies              bi = gather(v, c.i), bj = gather(v, c.j);
+        const Parts<Four>   p  = local_solution(c, more, bi, bj, exact);
         const Four          rn = read(c.normal), rt = read(c.tangential);
         d += (rn - p.normal) * (rn - p.normal) + (rt - p.tangential) * (rt - p.tangential);
         s += rn * rn + rt * rt;
+        if (!rolling)
+          continue;
+        apply(c, {Four{}, p.tangential - rt}, bi, bj); // only the spins count below
+        const Four rm = read(rolling[b].rolling),
+                   pm = local_couple(rolling[b], rolling_velocity_of(rolling[b], more, bi, bj), rn, p.normal, exact);
+        d += (rm - pm) * (rm - pm);
+        s += rm * rm;
       }
     for (int lane = 0; lane < lanes; ++lane)
       {

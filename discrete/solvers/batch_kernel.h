@@ -18,28 +18,37 @@ namespace diptych::discrete
     int    i[lanes], j[lanes];
   };
 
-  // Further columns of a batch, for contacts that have a tangential term or are compliant.
-  struct alignas(64) BatchExtras
+  // Their couples, apart because few samples have them. Members as in ContactRow and Impulse.
+  struct alignas(64) RollingBatch
   {
-    double tangential_term[lanes], inverse_wtt[lanes], normal_compliance[lanes], tangential_compliance[lanes];
+    double friction[lanes], arm[lanes], inverse_wmm[lanes], rolling[lanes];
   };
 
-  // The three functions take n batches, their extras (null: none has any) and the velocities of all bodies.
+  // Terms that few rows have: tangential restitution and springs. Members as in ContactRow.
+  struct alignas(64) TermBatch
+  {
+    double tangential_term[lanes], inverse_wtt[lanes], normal_compliance[lanes], tangential_compliance[lanes], rolling_term[lanes];
+  };
 
-  // One over-relaxed pass. Contacts at their Coulomb bound (by their old impulse) take `slipping`.
+  // The three functions take n batches, their couples (null: none), their further terms (null: all zero) and the velocities of all
+  // bodies.
+
+  // One over-relaxed pass. Impulses at their bound (before the pass) take `slipping`.
   void sweep_batches(ContactBatch                    *batches,
-                     const BatchExtras  *extras,
+                     RollingBatch                    *rolling,
+                     const TermBatch *terms,
                      std::size_t                      n,
                      double                           sticking,
                      double                           slipping,
                      BodyVelocity                    *v);
 
   // v += M^-1 H r.
-  void add_impulses(const ContactBatch *batches, std::size_t n, BodyVelocity *v);
+  void add_impulses(const ContactBatch *batches, const RollingBatch *rolling, std::size_t n, BodyVelocity *v);
 
   // Adds the squares of |r - P(r)| and of |r| to `difference` and `norm`.
   void add_squares(const ContactBatch              *batches,
-                   const BatchExtras  *extras,
+                   const RollingBatch              *rolling,
+                   const TermBatch *terms,
                    std::size_t                      n,
                    const BodyVelocity              *v,
                    double                          *difference,

@@ -17,6 +17,8 @@ namespace diptych::discrete
 {
   namespace
   {
+    constexpr double tangential_over_normal_stiffness = 0.5; // also of the rolling spring
+
     void validate(const StepSetting &setting, const PenaltyOptions &options)
     {
       if (!(options.stiffness * setting.pressure > 0))
@@ -53,23 +55,36 @@ namespace diptych::discrete
       double previous_step; // length of the step whose impulse holds the spring
     };
 
-    // Updates one contact. `r` holds its impulse of the last step and receives that of this step. Returns the work of sliding
-    // since the preceding q_m.
-    double apply_law(const SpringLaw        &law,
-                     const ContactRow       &c,
-                     const double            gap,
-                     const RelativeVelocity &u,
-                     const double            h,
-                     Impulse                &r)
+    // A spring with a bound: its force, and the work that the bound took since the preceding q_m.
+    struct Slider
     {
-      const double dashpot = std::isfinite(c.inverse_wnn) ? 2 * law.damping * std::sqrt(law.kn * c.inverse_wnn) : 0.;
-      const double fn      = std::max(0., -law.kn * gap - dashpot * u.normal);
-      const double spring  = r.tangential / law.previous_step - law.kt * h * u.tangential;
-      const double ft      = std::clamp(spring, -c.friction * fn, c.friction * fn);
-      r                    = {h * fn, h * ft};
-      return ft * (spring - ft) / law.kt;
+      double force, work;
+    };
+
+    Slider slide(const double spring, const double bound, const double stiffness)
+    {
+      const double force = std::clamp(spring, -bound, bound);
+      return {force, force * (spring - force) / stiffness};
     }
 
+    // Updates one contact. `r` holds its impulse of the last step and receives that of this step.
+    BoundWork apply_law(const SpringLaw                 &law,
+                     const ContactRow                &c,
+                     const double                     gap,
+                     const std::vector<BodyVelocity> &v,
+                     const double                     h,
+                     Impulse                         &r)
+    {
+      const RelativeVelocity u       = relative_velocity(c, v);
+      const double           dashpot = std::isfinite(c.inverse_wnn) ? 2 * law.damping * std::sqrt(law.kn * c.inverse_wnn) : 0.;
+      const double           fn      = std::max(0., -law.kn * gap - dashpot * u.normal);
+      const Slider           t = slide(r.tangential / law.previous_step - law.kt * h * u.tangential, c.friction * fn, law.kt);
+      const Slider           m = c.rolling_friction == 0 ? Slider{0, 0}
+                                                         : slide(r.rolling / law.previous_step - law.kt * h * rolling_velocity(c, v),
+                                                                 c.rolling_friction * fn, law.kt);
+      r                        = {h * fn, h * t.force, h * m.force};
+      return {t.work, m.work};
+    }
   } // namespace
 
   double penalty_step(const Grains &grains, const double stiffness, const double fraction)
@@ -102,12 +117,11 @@ namespace diptych::discrete
                                                            {free_velocities(trial, v, result.applied_force, setting), {}, {}});
     const SpringLaw                 law{kn, tangential_over_normal_stiffness * kn, options.damping,
                         penalty.impulse_step > 0 ? penalty.impulse_step : h};
-    std::vector<double>             sliding;
+    std::vector<BoundWork>          lost;
     for (std::size_t k = 0; k < result.contacts.size(); ++k)
       {
-        const ContactRow &c   = problem.contacts[k];
-        const double      gap = result.contacts[k].gap;
-        sliding.push_back(apply_law(law, c, gap, relative_velocity(c, v), h, result.impulses[k]));
+        const double gap = result.contacts[k].gap;
+        lost.push_back(apply_law(law, problem.contacts[k], gap, v, h, result.impulses[k]));
         result.largest_penetration = std::max(result.largest_penetration, -gap);
       }
 
@@ -115,7 +129,7 @@ namespace diptych::discrete
     const std::vector<BodyVelocity> v_new  = velocities(problem, result.impulses, acting);
     StepLedger ledger = step_ledger({trial, problem, result.contacts, result.impulses, acting, result.applied_force, v, v_new, h},
                                     false);
-    count_springs(std::move(sliding), ledger);
+    count_springs(lost, ledger);
     take_ledger(std::move(ledger), result);
     take_velocities(v_new, trial);
     drift(trial, 0.5 * h);

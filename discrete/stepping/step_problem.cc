@@ -78,6 +78,16 @@ namespace diptych::discrete
       row.inverse_wnn = 1 / wnn;
       row.inverse_wtt = row.cell < 0 && row.jx == row.jy && row.kj == 2 * row.jx ? row.inverse_wnn * disc_wnn_over_wtt : 1 / wtt;
     }
+
+    // The length of the law is 2R between discs and R at a wall (contact_law.h).
+    void add_rolling(const Grains &grains, const Contact &c, const double coefficient, ContactRow &row)
+    {
+      row.rolling_friction = 0;
+      if (coefficient == 0)
+        return;
+      const double arm = effective_radius(grains, c.i, c.j) / grains.radius[row.i];
+      set_rolling((std::size_t(c.j) < grains.size() ? 2 : 1) * coefficient, row.i == c.i ? arm : -arm, row);
+    }
   } // namespace
 
   std::vector<BodyVelocity> body_velocities(const State &state)
@@ -126,12 +136,20 @@ namespace diptych::discrete
     return time.penetration_correction == PenetrationCorrection::soft_velocity ? 0.2 : 0.;
   }
 
-  double friction_of(const State &state, const StepSetting &setting, const int body_j)
+  Friction friction_of(const State &state, const StepSetting &setting, const int body_j)
   {
-    const int n = int(state.grains.size());
+    const ContactLawOptions &law = setting.law;
+    const int                n   = int(state.grains.size());
     if (body_j < n)
-      return setting.law.friction;
-    return state.walls[body_j - n].kind == WallKind::platen ? setting.law.platen_friction : setting.law.wall_friction;
+      return {law.friction, law.rolling_friction};
+    return state.walls[body_j - n].kind == WallKind::platen ? Friction{law.platen_friction, law.platen_rolling_friction}
+                                                            : Friction{law.wall_friction, law.wall_rolling_friction};
+  }
+
+  double effective_radius(const Grains &grains, const int i, const int j)
+  {
+    const double ri = grains.radius[i];
+    return std::size_t(j) < grains.size() ? ri * grains.radius[j] / (ri + grains.radius[j]) : ri;
   }
 
   ContactProblem make_problem(const State                     &state,
@@ -149,32 +167,51 @@ namespace diptych::discrete
         ContactRow    &row = problem.contacts[k];
         set_kinematics(state, c, v, row);
         const RelativeVelocity u = relative_velocity(row, v);
-        row.friction             = friction_of(state, setting, c.j);
+        const Friction         f = friction_of(state, setting, c.j);
+        row.friction             = f.sliding;
         row.normal_term          = normal_term(c, u.normal, setting.law.normal_restitution, share, setting.step);
         row.tangential_term      = setting.law.tangential_restitution * u.tangential;
+        add_rolling(state.grains, c, f.rolling, row);
       }
     return problem;
   }
 
-  void make_compliant(const StepSetting               &setting,
-                      const std::vector<Contact>      &contacts,
-                      const std::vector<BodyVelocity> &v,
-                      const std::vector<Impulse>      &springs,
-                      ContactProblem                  &problem)
+  void add_springs(const StepSetting          &setting,
+                   const std::vector<Contact> &contacts,
+                   const std::vector<Impulse> &last,
+                   ContactProblem             &problem)
   {
-    const Compliance &c  = setting.compliance;
-    const double      h  = setting.step, theta = c.theta, kn = c.stiffness, kt = tangential_over_normal_stiffness * kn;
+    const double h = setting.step, kn = setting.compliance.stiffness, kt = tangential_over_normal_stiffness * kn;
+    const auto   with = [](const double compliance, const double inverse) { return 1 / (1 / inverse + compliance); };
     for (std::size_t k = 0; k < contacts.size(); ++k)
       {
-        ContactRow            &row     = problem.contacts[k];
-        const RelativeVelocity u       = relative_velocity(row, v);
-        const double           dashpot = std::isfinite(row.inverse_wnn) ? 2 * c.damping * std::sqrt(row.inverse_wnn / kn) : 0;
-        row.normal_compliance     = 1 / (h * kn * (theta * h + dashpot));
-        row.tangential_compliance = 1 / (h * kt * theta * h);
-        row.normal_term           = contacts[k].gap / (theta * h + dashpot);
-        row.tangential_term       = (1 - theta) / theta * u.tangential - springs[k].tangential * row.tangential_compliance;
-        row.inverse_wnn           = 1 / (1 / row.inverse_wnn + row.normal_compliance);
-        row.inverse_wtt           = 1 / (1 / row.inverse_wtt + row.tangential_compliance);
+        ContactRow  &row      = problem.contacts[k];
+        const double duration = h + (std::isfinite(row.inverse_wnn) ? 2 * setting.compliance.damping * std::sqrt(row.inverse_wnn / kn)
+                                                                    : 0);
+        row.normal_compliance     = 1 / (h * kn * duration);
+        row.tangential_compliance = 1 / (h * kt * h);
+        row.normal_term           = contacts[k].gap / duration;
+        row.tangential_term       = -row.tangential_compliance * last[k].tangential;
+        row.rolling_term          = -row.tangential_compliance * last[k].rolling;
+        row.inverse_wnn           = with(row.normal_compliance, row.inverse_wnn);
+        row.inverse_wtt           = with(row.tangential_compliance, row.inverse_wtt);
+        row.inverse_wmm           = with(row.tangential_compliance, row.inverse_wmm);
       }
+  }
+
+  std::vector<BoundWork> work_at_bounds(const ContactProblem            &problem,
+                                        const std::vector<BodyVelocity> &v,
+                                        const std::vector<Impulse>      &impulses)
+  {
+    std::vector<BoundWork> work(impulses.size());
+    for (std::size_t k = 0; k < impulses.size(); ++k)
+      {
+        const ContactRow &c = problem.contacts[k];
+        const Impulse    &r = impulses[k];
+        work[k].sliding     = 0 - r.tangential * (velocity_with_give(c, v, r).tangential + c.tangential_term);
+        if (c.rolling_friction != 0)
+          work[k].rolling = 0 - r.rolling * (rolling_velocity(c, v) + c.rolling_term + c.tangential_compliance * r.rolling);
+      }
+    return work;
   }
 } // namespace diptych::discrete

@@ -4,6 +4,7 @@
 
 #include "discrete/contacts/contact_detection.h"
 #include "discrete/contacts/contact_problem.h"
+#include "discrete/stepping/step_ledger.h"
 
 namespace diptych::discrete
 {
@@ -28,13 +29,20 @@ namespace diptych::discrete
                               const std::vector<BodyVelocity> &v,
                               ContactProblem                   problem);
 
-  // Gives the rows the springs of setting.compliance. `v` is the velocity at the beginning of the step, `springs` holds the
-  // impulses of the last step, of the same length.
-  void make_compliant(const StepSetting               &setting,
-                      const std::vector<Contact>      &contacts,
-                      const std::vector<BodyVelocity> &v,
-                      const std::vector<Impulse>      &springs,
-                      ContactProblem                  &problem);
+  // Springs of setting.compliance for the rows of make_problem(), `last` holds the impulses of the last step of the same length.
+  // With stiffness kn, overlap -g' at the end of the drift that follows, g' = g + h u_n', and dashpot c:
+  //   r_n = h max(0, -kn g' - c u_n'),   r_t = r_t of the last step - h^2 kt u_t'  clamped to +-mu r_n,
+  // and couples like r_t. This is the law of rigid contacts with a compliance: u_n' + g/T + r_n/(h kn T) with T = h + c/kn takes
+  // the place of u_n' + c_n, and u_t' + (r_t - r_t of the last step)/(h^2 kt) that of u_t'.
+  void add_springs(const StepSetting          &setting,
+                   const std::vector<Contact> &contacts,
+                   const std::vector<Impulse> &last,
+                   ContactProblem             &problem);
+
+  // Work of the contacts with springs at their bounds: force x the displacement that the springs do not take. `v`: end of step.
+  std::vector<BoundWork> work_at_bounds(const ContactProblem            &problem,
+                                        const std::vector<BodyVelocity> &v,
+                                        const std::vector<Impulse>      &impulses);
 
   inline Eigen::Vector2d impulse_vector(const Contact &c, const Impulse &r)
   {
@@ -44,5 +52,13 @@ namespace diptych::discrete
   // Share of its penetration that a closed contact removes within the step through its normal term.
   double corrected_share(const StepOptions &time);
 
-  double friction_of(const State &state, const StepSetting &setting, int body_j);
+  // Coefficients of a contact with body j.
+  struct Friction
+  {
+    double sliding, rolling;
+  };
+  Friction friction_of(const State &state, const StepSetting &setting, int body_j);
+
+  // R of a contact: 1/R = 1/r_i + 1/r_j, or the radius of a grain on a wall. [length]
+  double effective_radius(const Grains &grains, int i, int j);
 } // namespace diptych::discrete

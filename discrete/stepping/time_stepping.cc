@@ -47,21 +47,6 @@ namespace diptych::discrete
         largest = std::max(largest, -c.gap);
       return largest;
     }
-    // Work of each contact while it slides: force x sliding distance, which is the give that its tangential spring does not take.
-    std::vector<double> sliding_work(const ContactProblem            &problem,
-                                     const std::vector<BodyVelocity> &v,
-                                     const std::vector<Impulse>      &impulses,
-                                     const double                     share)
-    {
-      std::vector<double> work(impulses.size());
-      for (std::size_t k = 0; k < impulses.size(); ++k)
-        {
-          const ContactRow &c = problem.contacts[k];
-          const double      r = impulses[k].tangential;
-          work[k] = 0 - share * r * (relative_velocity(c, v).tangential + c.tangential_term + c.tangential_compliance * r);
-        }
-      return work;
-    }
   } // namespace
 
   std::vector<Eigen::Vector2d> applied_forces(const State &state, const StepSetting &setting)
@@ -93,7 +78,7 @@ namespace diptych::discrete
     const FirstGuess      previous = first_guess(state.impulses, result.contacts);
     const bool compliant           = setting.compliance.stiffness > 0;
     if (compliant)
-      make_compliant(setting, result.contacts, v, previous.impulses, cache.problem);
+      add_springs(setting, result.contacts, previous.impulses, cache.problem);
     result.impulses = previous.impulses;
     extrapolate(problem, previous.changes, result.impulses);
     if (sample && sample->options.snapshot_max_sweeps > 0)
@@ -112,7 +97,7 @@ namespace diptych::discrete
     StepLedger ledger = step_ledger({trial, problem, result.contacts, result.impulses, acting, result.applied_force, v, v_new, h},
                                     setting.law.normal_restitution == 0 && corrected_share(setting.time) > 0);
     if (compliant)
-      count_springs(sliding_work(problem, v_new, result.impulses, setting.compliance.theta), ledger);
+      count_springs(work_at_bounds(problem, v_new, result.impulses), ledger);
     take_ledger(std::move(ledger), result);
 
     take_velocities(v_new, trial);

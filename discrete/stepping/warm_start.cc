@@ -34,8 +34,8 @@ namespace diptych::discrete
         const PairImpulse  none{c.i, c.j, 0, 0};
         const bool         known = pair->i == c.i && pair->j == c.j;
         const PairImpulse &r     = *(known ? &*pair : &none);
-        result.impulses[k]       = {r.normal, r.tangential};
-        result.changes[k]        = {r.normal_change, r.tangential_change};
+        result.impulses[k]       = {r.normal, r.tangential, r.rolling};
+        result.changes[k]        = {r.normal_change, r.tangential_change, r.rolling_change};
         pair += known;
       }
     return result;
@@ -54,14 +54,21 @@ namespace diptych::discrete
     for (const int k : changed)
       {
         const ContactRow      &c = problem.contacts[k];
-        const RelativeVelocity u = relative_velocity(c, v), du = relative_velocity(c, w);
-        const double           violation = u.tangential + c.tangential_term + c.tangential_compliance * impulses[k].tangential;
+        const RelativeVelocity u = velocity_with_give(c, v, impulses[k]), du = velocity_with_give(c, w, changes[k]);
+        const double           violation = u.tangential + c.tangential_term;
         const bool             slides    = is_slipping(c.friction, impulses[k]) &&
                             impulses[k].tangential * violation < 0; // in the right direction
         const double tangential = slides ? 0 : changes[k].tangential;
-        work += changes[k].normal * (u.normal + c.normal_term + c.normal_compliance * impulses[k].normal) + tangential * violation;
-        change_of_work += changes[k].normal * (du.normal + c.normal_compliance * changes[k].normal) +
-                          tangential * (du.tangential + c.tangential_compliance * changes[k].tangential);
+        work += changes[k].normal * (u.normal + c.normal_term) + tangential * violation;
+        change_of_work += changes[k].normal * du.normal + tangential * du.tangential;
+        if (c.rolling_friction == 0)
+          continue;
+        const double give    = c.tangential_compliance;
+        const double turning = rolling_velocity(c, v) + c.rolling_term + give * impulses[k].rolling, bound = coulomb_margin * c.rolling_friction * impulses[k].normal;
+        const bool   rolls   = std::abs(impulses[k].rolling) > bound && impulses[k].rolling * turning < 0;
+        const double rolling = rolls ? 0 : changes[k].rolling;
+        work += rolling * turning;
+        change_of_work += rolling * (rolling_velocity(c, w) + give * changes[k].rolling);
       }
     if (!(change_of_work > 0))
       return;
@@ -72,6 +79,8 @@ namespace diptych::discrete
         r.normal           = std::max(0., r.normal + share * changes[k].normal);
         const double bound = problem.contacts[k].friction * r.normal;
         r.tangential       = std::clamp(r.tangential + share * changes[k].tangential, -bound, bound);
+        const double most  = problem.contacts[k].rolling_friction * r.normal;
+        r.rolling          = std::clamp(r.rolling + share * changes[k].rolling, -most, most);
       }
   }
 } // namespace diptych::discrete
