@@ -44,7 +44,7 @@ namespace diptych::benchmarks
   {
     std::printf("11 steps after 11 that load the springs, warm start, CPU time of the whole step; sweeps and seconds: least, "
                 "median, most\n discs state  kn/P tolerance  converged   residual   sweeps                 seconds\n");
-    for (const int grains : {4000})
+    for (const int grains : {4000, 16000})
       for (const LoadCase &load : {state_a, state_b})
         {
           const Sheared sheared = sheared_state(states, grains, load);

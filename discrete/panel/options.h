@@ -35,10 +35,10 @@ namespace diptych::discrete
 
   template <class Visitor> void visit_parameters(MethodOptions &o, Visitor &&visitor)
   {
-    visitor(
-      "method", o.method, "-",
-      "nscd: Non-Smooth Contact Dynamics; compliant: the springs of `penalty`, implicit over long steps; penalty: explicit springs, dashpots and Coulomb friction (Cundall & Strack 1979); "
-      "imported: no computation; the frames of another code are taken from `file`");
+    visitor("method", o.method, "-",
+            "nscd: Non-Smooth Contact Dynamics; compliant: the springs of `penalty`, implicit over long steps; penalty: explicit "
+            "springs, dashpots and Coulomb friction (Cundall & Strack 1979); "
+            "imported: no computation; the frames of another code are taken from `file`");
     visitor("file", FileName{o.file}, "-",
             "imported: discrete.h5 of `diptych import`, with discrete.csv in the same folder; {seed} in the path stands for "
             "sample/seed, so "
@@ -97,5 +97,6 @@ namespace diptych::discrete
   double expected_steps(const SampleOptions &sample, const Loading &loading, const Options &options);
   double expected_rows(const SampleOptions &sample, const Loading &loading, const Options &options);
 
+  Compliance         compliance(const Loading &loading, const Options &options); // stiffness 0: method is not compliant
   PreparationSetting preparation_setting(const Loading &loading, const Options &options);
 } // namespace diptych::discrete

@@ -45,8 +45,7 @@ namespace diptych::discrete
       setting_.lateral       = lateral_condition(options.lateral);
       setting_.pressure      = loading.pressure;
       setting_.mean_diameter = sample.mean_diameter;
-      if (options.method.method == Method::compliant)
-        setting_.compliance = {options.penalty.stiffness * loading.pressure, options.penalty.damping};
+      setting_.compliance    = compliance(loading, options);
       cache_.team            = std::make_shared<ThreadTeam>(options.threads);
     }
 

@@ -64,8 +64,7 @@ namespace diptych::discrete
     }
 
     // Of the spins after the tangential impulse changed, with the give of the springs.
-    DIPTYCH_INLINE Four
-    rolling_velocity_of(const RollingBatch &m, const TermBatch *more, const Bodies &bi, const Bodies &bj)
+    DIPTYCH_INLINE Four rolling_velocity_of(const RollingBatch &m, const TermBatch *more, const Bodies &bi, const Bodies &bj)
     {
       const Four w = rolling_velocity(read(m.arm), bi.surface, bj.surface);
       return more ? w + (read(more->rolling_term) + read(more->tangential_compliance) * read(m.rolling)) : w;
@@ -86,8 +85,7 @@ namespace diptych::discrete
       bj.surface -= 2 * bj.inverse_mass * (1 - arm) * dr;
     }
 
-    DIPTYCH_INLINE void
-    update(ContactBatch &c, RollingBatch *m, const TermBatch *more, const Relaxation omega, BodyVelocity *v)
+    DIPTYCH_INLINE void update(ContactBatch &c, RollingBatch *m, const TermBatch *more, const Relaxation omega, BodyVelocity *v)
     {
       Bodies            bi = gather(v, c.i), bj = gather(v, c.j);
       const Four        old_normal = read(c.normal);
@@ -106,13 +104,13 @@ namespace diptych::discrete
     }
   } // namespace
 
-  DIPTYCH_FOR_EACH_MACHINE void sweep_batches(ContactBatch                *batches,
-                                              RollingBatch                *rolling,
-                                              const TermBatch             *terms,
-                                              const std::size_t            n,
-                                              const double                 sticking,
-                                              const double                 slipping,
-                                              BodyVelocity                *v)
+  DIPTYCH_FOR_EACH_MACHINE void sweep_batches(ContactBatch     *batches,
+                                              RollingBatch     *rolling,
+                                              const TermBatch  *terms,
+                                              const std::size_t n,
+                                              const double      sticking,
+                                              const double      slipping,
+                                              BodyVelocity     *v)
   {
     if (rolling)
       for (std::size_t b = 0; b < n; ++b)
@@ -142,18 +140,18 @@ namespace diptych::discrete
       }
   }
 
-  DIPTYCH_FOR_EACH_MACHINE void add_squares(const ContactBatch          *batches,
-                                            const RollingBatch          *rolling,
-                                            const TermBatch             *terms,
-                                            const std::size_t            n,
-                                            const BodyVelocity          *v,
-                                            double                      *difference,
-                                            double                      *norm)
+  DIPTYCH_FOR_EACH_MACHINE void add_squares(const ContactBatch *batches,
+                                            const RollingBatch *rolling,
+                                            const TermBatch    *terms,
+                                            const std::size_t   n,
+                                            const BodyVelocity *v,
+                                            double             *difference,
+                                            double             *norm)
   {
     Four d{}, s{};
     for (std::size_t b = 0; b < n; ++b)
       {
-        const ContactBatch &c  = batches[b];
+        const ContactBatch &c    = batches[b];
         const TermBatch    *more = terms ? terms + b : nullptr;
         Bodies              bi = gather(v, c.i), bj = gather(v, c.j);
         const Parts<Four>   p  = local_solution(c, more, bi, bj, exact);

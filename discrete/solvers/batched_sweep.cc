@@ -130,8 +130,8 @@ namespace diptych::discrete
 
   void BatchedContacts::sweep_part(Part &part, const double omega_sticking, const double omega_slipping, const bool with_idle)
   {
-    sweep_batches(part.batches.data(), couples_of(part), terms_of(part),
-                  with_idle ? part.batches.size() : part.n_awake, omega_sticking, omega_slipping, v_.data());
+    sweep_batches(part.batches.data(), couples_of(part), terms_of(part), with_idle ? part.batches.size() : part.n_awake,
+                  omega_sticking, omega_slipping, v_.data());
     if (with_idle)
       wake(part);
   }
@@ -202,8 +202,8 @@ namespace diptych::discrete
   NaturalMapSquares BatchedContacts::residual_squares(const Part &part) const
   {
     NaturalMapSquares squares;
-    add_squares(part.batches.data(), couples_of(part), terms_of(part),
-                part.batches.size(), v_.data(), &squares.difference, &squares.norm);
+    add_squares(part.batches.data(), couples_of(part), terms_of(part), part.batches.size(), v_.data(), &squares.difference,
+                &squares.norm);
     return squares;
   }
 

@@ -17,8 +17,6 @@ namespace diptych::discrete
 {
   namespace
   {
-    constexpr double tangential_over_normal_stiffness = 0.5; // also of the rolling spring
-
     void validate(const StepSetting &setting, const PenaltyOptions &options)
     {
       if (!(options.stiffness * setting.pressure > 0))
@@ -69,11 +67,11 @@ namespace diptych::discrete
 
     // Updates one contact. `r` holds its impulse of the last step and receives that of this step.
     BoundWork apply_law(const SpringLaw                 &law,
-                     const ContactRow                &c,
-                     const double                     gap,
-                     const std::vector<BodyVelocity> &v,
-                     const double                     h,
-                     Impulse                         &r)
+                        const ContactRow                &c,
+                        const double                     gap,
+                        const std::vector<BodyVelocity> &v,
+                        const double                     h,
+                        Impulse                         &r)
     {
       const RelativeVelocity u       = relative_velocity(c, v);
       const double           dashpot = std::isfinite(c.inverse_wnn) ? 2 * law.damping * std::sqrt(law.kn * c.inverse_wnn) : 0.;

@@ -185,12 +185,13 @@ namespace diptych::discrete
     const auto   with = [](const double compliance, const double inverse) { return 1 / (1 / inverse + compliance); };
     for (std::size_t k = 0; k < contacts.size(); ++k)
       {
-        ContactRow  &row      = problem.contacts[k];
-        const double duration = h + (std::isfinite(row.inverse_wnn) ? 2 * setting.compliance.damping * std::sqrt(row.inverse_wnn / kn)
-                                                                    : 0);
+        ContactRow  &row          = problem.contacts[k];
+        const double gap          = contacts[k].gap;
+        const bool   damps        = gap < 0 && std::isfinite(row.inverse_wnn);
+        const double duration     = h + (damps ? 2 * setting.compliance.damping * std::sqrt(row.inverse_wnn / kn) : 0);
         row.normal_compliance     = 1 / (h * kn * duration);
         row.tangential_compliance = 1 / (h * kt * h);
-        row.normal_term           = contacts[k].gap / duration;
+        row.normal_term           = gap / duration;
         row.tangential_term       = -row.tangential_compliance * last[k].tangential;
         row.rolling_term          = -row.tangential_compliance * last[k].rolling;
         row.inverse_wnn           = with(row.normal_compliance, row.inverse_wnn);

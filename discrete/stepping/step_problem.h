@@ -30,7 +30,7 @@ namespace diptych::discrete
                               ContactProblem                   problem);
 
   // Springs of setting.compliance for the rows of make_problem(), `last` holds the impulses of the last step of the same length.
-  // With stiffness kn, overlap -g' at the end of the drift that follows, g' = g + h u_n', and dashpot c:
+  // With stiffness kn, overlap -g' at the next q_m, g' = g + h u_n', and dashpot c (0 if the contact is still open, g >= 0):
   //   r_n = h max(0, -kn g' - c u_n'),   r_t = r_t of the last step - h^2 kt u_t'  clamped to +-mu r_n,
   // and couples like r_t. This is the law of rigid contacts with a compliance: u_n' + g/T + r_n/(h kn T) with T = h + c/kn takes
   // the place of u_n' + c_n, and u_t' + (r_t - r_t of the last step)/(h^2 kt) that of u_t'.

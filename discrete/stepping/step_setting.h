@@ -83,7 +83,7 @@ namespace diptych::discrete
     double damping   = 0; // of the normal dashpot, as a fraction of the critical damping of the two bodies
   };
 
-  // kt / kn of springs.
+  // kt / kn of springs; the springs of couples have kt, too.
   constexpr double tangential_over_normal_stiffness = 0.5;
 
   struct StepSetting

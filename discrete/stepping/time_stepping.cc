@@ -71,12 +71,12 @@ namespace diptych::discrete
     result.applied_force              = applied_forces(trial, setting);
     const std::vector<BodyVelocity> v = body_velocities(trial);
     result.contacts = cache.neighbours.find_contacts(trial, detection_margins(trial, setting, v, result.applied_force));
-    result.largest_penetration     = largest_penetration(result.contacts);
-    cache.problem.free_velocity    = free_velocities(trial, v, result.applied_force, setting);
-    cache.problem                  = make_problem(trial, setting, result.contacts, v, std::move(cache.problem));
-    const ContactProblem &problem  = cache.problem;
-    const FirstGuess      previous = first_guess(state.impulses, result.contacts);
-    const bool compliant           = setting.compliance.stiffness > 0;
+    result.largest_penetration      = largest_penetration(result.contacts);
+    cache.problem.free_velocity     = free_velocities(trial, v, result.applied_force, setting);
+    cache.problem                   = make_problem(trial, setting, result.contacts, v, std::move(cache.problem));
+    const ContactProblem &problem   = cache.problem;
+    const FirstGuess      previous  = first_guess(state.impulses, result.contacts);
+    const bool            compliant = setting.compliance.stiffness > 0;
     if (compliant)
       add_springs(setting, result.contacts, previous.impulses, cache.problem);
     result.impulses = previous.impulses;

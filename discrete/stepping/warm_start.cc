@@ -64,7 +64,8 @@ namespace diptych::discrete
         if (c.rolling_friction == 0)
           continue;
         const double give    = c.tangential_compliance;
-        const double turning = rolling_velocity(c, v) + c.rolling_term + give * impulses[k].rolling, bound = coulomb_margin * c.rolling_friction * impulses[k].normal;
+        const double turning = rolling_velocity(c, v) + c.rolling_term + give * impulses[k].rolling,
+                     bound   = coulomb_margin * c.rolling_friction * impulses[k].normal;
         const bool   rolls   = std::abs(impulses[k].rolling) > bound && impulses[k].rolling * turning < 0;
         const double rolling = rolls ? 0 : changes[k].rolling;
         work += rolling * turning;
