@@ -192,7 +192,9 @@ namespace diptych::discrete
     BoundWork all;
     for (std::size_t k = 0; k < lost.size(); ++k)
       {
-        const double here = lost[k].sliding + lost[k].rolling;
+        double here = lost[k].sliding;
+        if (lost[k].rolling != 0) // adding 0 would change the sign of a zero
+          here += lost[k].rolling;
         all.sliding += lost[k].sliding;
         all.rolling += lost[k].rolling;
         ledger.contact_impact[k] += ledger.contact_dissipation[k] - here;
