@@ -141,7 +141,10 @@ namespace diptych::discrete
 
   inline RelativeVelocity velocity_with_give(const ContactRow &c, const std::vector<BodyVelocity> &v, const Impulse &r)
   {
-    return with_give(relative_velocity(c, v), {c.normal_compliance, c.tangential_compliance}, {r.normal, r.tangential});
+    const RelativeVelocity u = relative_velocity(c, v);
+    if (c.normal_compliance == 0)
+      return u;
+    return with_give(u, {c.normal_compliance, c.tangential_compliance}, {r.normal, r.tangential});
   }
 
   inline double rolling_velocity(const ContactRow &c, const std::vector<BodyVelocity> &v)
@@ -167,7 +170,7 @@ namespace diptych::discrete
                                    const double      normal,
                                    const Relaxation  omega)
   {
-    const double give = c.rolling_term + c.tangential_compliance * r.rolling;
+    const double give = c.normal_compliance == 0 ? 0 : c.rolling_term + c.tangential_compliance * r.rolling;
     return rolling_resistance({c.rolling_friction, c.rolling_arm, c.inverse_wmm}, w + give, r.rolling, normal,
                               relaxation(c.rolling_friction, r.normal, r.rolling, omega));
   }
