@@ -71,9 +71,9 @@ namespace diptych::benchmarks
     if (!folder.empty())
       {
         std::filesystem::create_directories(folder);
-        StoredCheckpoint checkpoint; // A checkpoint needs one reference position per grain.
-        checkpoint.panel.state              = sheared.state;
-        checkpoint.panel.reference.position = sheared.state.grains.position;
+        StoredCheckpoint checkpoint;
+        checkpoint.panel.state     = sheared.state;
+        checkpoint.panel.reference = make_reference(sheared.state, sheared.setting.mean_diameter, 0.);
         write_checkpoint(path, checkpoint);
       }
     return sheared;

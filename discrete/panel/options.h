@@ -12,15 +12,16 @@ namespace diptych::discrete
 {
   enum class Method
   {
-    nscd,    // Non-Smooth Contact Dynamics
-    penalty, // explicit springs, dashpots and Coulomb friction (Cundall & Strack 1979)
-    imported // no computation: frames of another code
+    nscd,      // Non-Smooth Contact Dynamics
+    compliant, // the springs and dashpots of penalty, implicit over long steps
+    penalty,   // explicit springs, dashpots and Coulomb friction (Cundall & Strack 1979)
+    imported   // no computation: frames of another code
   };
 
   constexpr auto choices(Method)
   {
-    return std::array{std::pair{Method::nscd, "nscd"}, std::pair{Method::penalty, "penalty"},
-                      std::pair{Method::imported, "imported"}};
+    return std::array{std::pair{Method::nscd, "nscd"}, std::pair{Method::compliant, "compliant"},
+                      std::pair{Method::penalty, "penalty"}, std::pair{Method::imported, "imported"}};
   }
 
   struct MethodOptions
@@ -34,10 +35,10 @@ namespace diptych::discrete
 
   template <class Visitor> void visit_parameters(MethodOptions &o, Visitor &&visitor)
   {
-    visitor(
-      "method", o.method, "-",
-      "nscd: Non-Smooth Contact Dynamics; penalty: explicit springs, dashpots and Coulomb friction (Cundall & Strack 1979); "
-      "imported: no computation; the frames of another code are taken from `file`");
+    visitor("method", o.method, "-",
+            "nscd: Non-Smooth Contact Dynamics; compliant: the springs of `penalty`, implicit over long steps; penalty: explicit "
+            "springs, dashpots and Coulomb friction (Cundall & Strack 1979); "
+            "imported: no computation; the frames of another code are taken from `file`");
     visitor("file", FileName{o.file}, "-",
             "imported: discrete.h5 of `diptych import`, with discrete.csv in the same folder; {seed} in the path stands for "
             "sample/seed, so "
@@ -96,5 +97,6 @@ namespace diptych::discrete
   double expected_steps(const SampleOptions &sample, const Loading &loading, const Options &options);
   double expected_rows(const SampleOptions &sample, const Loading &loading, const Options &options);
 
+  Compliance         compliance(const Loading &loading, const Options &options); // stiffness 0: method is not compliant
   PreparationSetting preparation_setting(const Loading &loading, const Options &options);
 } // namespace diptych::discrete

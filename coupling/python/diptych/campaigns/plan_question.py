@@ -238,9 +238,9 @@ def read_question(scene_file: str, accuracy: str, wanted: str, overrides: Sequen
     keys = scene.dict()
     if keys["loading"]["mode"] == "time":
         raise SceneError(f"{scene_file}: loading/mode = time; plans support loadings along a strain only")
-    if question.quantities["discrete"] and keys["discrete"]["method"] != "nscd":
-        raise SceneError(f"{scene_file}: discrete/method = {keys['discrete']['method']}; plans support nscd only (cost of "
-                         "springs: benchmarks/penalty, benchmarks/rigid_limit)")
+    if question.quantities["discrete"] and keys["discrete"]["method"] not in ("nscd", "compliant"):
+        raise SceneError(f"{scene_file}: discrete/method = {keys['discrete']['method']}; plans support nscd and compliant only "
+                         "(cost of springs: benchmarks/penalty, benchmarks/rigid_limit)")
     if question.needs_comparison and keys["continuum"]["mesh"] != "outline":
         raise SceneError(f"{scene_file}: continuum/mesh = {keys['continuum']['mesh']}; --for asks for a number of the "
                          "comparison, which needs both panels on one sample (mesh = outline)")
