@@ -12,15 +12,16 @@ namespace diptych::discrete
 {
   enum class Method
   {
-    nscd,    // Non-Smooth Contact Dynamics
-    penalty, // explicit springs, dashpots and Coulomb friction (Cundall & Strack 1979)
-    imported // no computation: frames of another code
+    nscd,     // Non-Smooth Contact Dynamics
+    penalty,  // explicit springs, dashpots and Coulomb friction (Cundall & Strack 1979)
+    imported, // no computation: frames of another code
+    automatic // nscd or penalty; coupling/scene/derived_keys.h replaces it before a run
   };
 
   constexpr auto choices(Method)
   {
     return std::array{std::pair{Method::nscd, "nscd"}, std::pair{Method::penalty, "penalty"},
-                      std::pair{Method::imported, "imported"}};
+                      std::pair{Method::imported, "imported"}, std::pair{Method::automatic, "auto"}};
   }
 
   struct MethodOptions
@@ -37,7 +38,9 @@ namespace diptych::discrete
     visitor(
       "method", o.method, "-",
       "nscd: Non-Smooth Contact Dynamics; penalty: explicit springs, dashpots and Coulomb friction (Cundall & Strack 1979); "
-      "imported: no computation; the frames of another code are taken from `file`");
+      "imported: no computation; the frames of another code are taken from `file`; auto: penalty (with penalty_stiffness 1e4 and "
+      "penalty_step_fraction 0.5 unless given) if it is expected to be cheaper than nscd at this size, speed and accuracy; the "
+      "resolved scene states the choice and the reason");
     visitor("file", FileName{o.file}, "-",
             "imported: discrete.h5 of `diptych import`, with discrete.csv in the same folder; {seed} in the path stands for "
             "sample/seed, so "
