@@ -170,10 +170,9 @@ namespace diptych::discrete
                            const std::function<bool(int, int)> &progress)
     {
       // Forces have further to go in a large sample.
-      const double   longer = options.preparation_step ? 1 : std::sqrt(std::max(1., double(start.grains.size()) / 10000));
-      const int      steps  = std::max(1, int(std::lround(options.preparation_steps / longer)));
-      PreparedSample sample;
-      sample.state = std::move(start), sample.step = setting.step;
+      const double       longer = options.preparation_step ? 1 : std::sqrt(std::max(1., double(start.grains.size()) / 10000));
+      const int          steps  = std::max(1, int(std::lround(options.preparation_steps / longer)));
+      PreparedSample     sample{std::move(start), {}, setting.step, {}};
       PreparationReport &report     = sample.report;
       report.friction               = setting.law.friction;
       setting.solver.stop_requested = [&] { return !progress(report.steps, std::max(report.steps, steps)); };
