@@ -27,7 +27,8 @@ namespace
                                   {"accuracy", "grain-stress error against residual", accuracy},
                                   {"warm_start", "with and without the impulses of the preceding step", warm_start},
                                   {"wandering", "a step on which the sweeps do not converge", wandering},
-                                  {"stalls", "sweeps that stall on a few contacts", stalls}};
+                                  {"stalls", "sweeps that stall on a few contacts", stalls},
+                                  {"compliant", "steps with implicit compliant contacts", compliant}};
 
   int usage()
   {

@@ -18,4 +18,5 @@ namespace diptych::benchmarks
   void warm_start(const std::string &states);      // with and without the impulses of the preceding step
   void wandering(const std::string &states);       // sweeps that do not converge
   void stalls(const std::string &states);          // sweeps that stall on a few contacts
+  void compliant(const std::string &states);       // implicit compliant contacts
 } // namespace diptych::benchmarks

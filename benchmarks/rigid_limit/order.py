@@ -26,6 +26,7 @@ STEPS = (0.4, 0.1, 0.025)
 ACCURACIES = tuple(f"accuracy={a:g}" for a in (0.05, 0.02, 0.01, 0.005))
 SPRINGS = {"penalty=1e4": "penalty, kn/P = 1e4", "penalty=1e5": "penalty, 1e5", "lammps=1e4": "LAMMPS, 1e4", "lammps=1e5": "LAMMPS, 1e5"}
 RESTITUTION = ("e_n=0.5", "e_n=0.8")
+COMPLIANT = tuple(f"compliant={h:g}" for h in (0.4, 0.2, 0.1, 0.05, 0.025))  # implicit springs of kn/P = 1e4, over the step
 DENSE = (rigid_limit.SCENE, "loading/axial_strain=0.04")
 OBLIQUE = (os.path.join(HERE, "../moreau_quick/scene.prm"), "loading/axial_strain=0.03")
 
@@ -39,14 +40,14 @@ class Case:
         self.end = float(scene[1].split("=")[1])
 
 
-CASES = {"dense": Case(1.13e-3, range(11, 51), DENSE, 0.008, (*STEPS, 0.00625, 0.0015625), (*SPRINGS, *RESTITUTION)),
+CASES = {"dense": Case(1.13e-3, range(11, 51), DENSE, 0.008, (*STEPS, 0.00625, 0.0015625), (*SPRINGS, *RESTITUTION, *COMPLIANT)),
          "slow": Case(1.13e-4, range(11, 51), DENSE, 0.02),
          "oblique": Case(1e-3, range(1, 41), OBLIQUE, 0.008)}
 
 
 def seeds_of(case, point):
-    """Restitution is measured on the first twelve samples."""
-    return case.seeds[:12] if point in RESTITUTION else case.seeds
+    """Restitution and implicit springs are measured on the first twelve samples."""
+    return case.seeds[:12] if point in (*RESTITUTION, *COMPLIANT) else case.seeds
 
 
 def settings(case, point):
@@ -54,6 +55,7 @@ def settings(case, point):
     fixed = [f"discrete/accuracy={case.tight:g}"]  # tolerance x step / I = 0.02, or 0.05 in slow flow
     return {"h": [f"discrete/step={value}", *fixed], "accuracy": [f"discrete/accuracy={value}"],
             "e_n": ["discrete/step=0.025", *fixed, f"discrete/normal_restitution={value}"],
+            "compliant": ["discrete/method=compliant", "discrete/penalty_stiffness=1e4", f"discrete/step={value}", *fixed],
             "penalty": ["discrete/method=penalty", f"discrete/penalty_stiffness={value}"]}[name]
 
 

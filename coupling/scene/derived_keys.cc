@@ -217,7 +217,9 @@ namespace diptych::coupling
       {"comparison/parameters_from", "the origin of the default law if it was calibrated on such grains, otherwise nothing",
        [](Scene &s, const Given &given) { s.comparison.parameters_from = origin(s, given); }}};
 
-    constexpr double accuracy_of_springs = 0.01; // of the strength, at kn/P = 1e4 (benchmarks/rigid_limit)
+    // Accuracy of the strength at kn/P = 1e4: explicit springs, and implicit ones with the step of that accuracy
+    // (benchmarks/rigid_limit). From 4000 grains on the implicit ones cost two thirds of contact dynamics, or less.
+    constexpr double accuracy_of_springs = 0.01, accuracy_of_compliant = 0.02, grains_for_compliant = 4000;
 
     // Empty if springs can replace contact dynamics in this scene.
     std::string obstacle_to_springs(const Scene &scene)
@@ -234,24 +236,28 @@ namespace diptych::coupling
 
     void choose_method(Scene &scene, const Given &given)
     {
+      using discrete::Method;
       discrete::Options &o = scene.discrete;
-      if (o.method.method != discrete::Method::automatic)
+      if (o.method.method != Method::automatic)
         return;
-      o.method.method     = discrete::Method::nscd;
-      scene.method_reason = o.accuracy.accuracy < accuracy_of_springs
+      const double accuracy = o.accuracy.accuracy, cost = cost_over_springs(scene, accuracy);
+      o.method.method     = Method::nscd;
+      scene.method_reason = accuracy < accuracy_of_springs
                               ? "springs are right to " + discrete::exact_text(accuracy_of_springs) + " only"
                               : obstacle_to_springs(scene);
       if (!scene.method_reason.empty())
         return;
-      const double cost   = cost_over_springs(scene, o.accuracy.accuracy);
-      scene.method_reason = "contact dynamics is expected to take " + discrete::exact_text(std::round(100 * cost) / 100) +
-                            " of the CPU time of springs at this size, speed and accuracy";
-      if (cost <= 1)
-        return;
-      o.method.method = discrete::Method::penalty;
-      if (given.count("discrete/penalty_stiffness") == 0)
+      if (accuracy >= accuracy_of_compliant && discrete::expected_grains(scene.sample) >= grains_for_compliant)
+        o.method.method = Method::compliant;
+      else if (cost > 1)
+        o.method.method = Method::penalty;
+      scene.method_reason = o.method.method == Method::compliant
+                              ? "from 4000 grains on it is the cheapest method that is right to 0.02"
+                              : "contact dynamics is expected to take " + discrete::exact_text(std::round(100 * cost) / 100) +
+                                  " of the CPU time of explicit springs";
+      if (o.method.method != Method::nscd && given.count("discrete/penalty_stiffness") == 0)
         o.penalty.stiffness = 1e4;
-      if (given.count("discrete/penalty_step_fraction") == 0)
+      if (o.method.method == Method::penalty && given.count("discrete/penalty_step_fraction") == 0)
         o.penalty.step_fraction = 0.5;
     }
 

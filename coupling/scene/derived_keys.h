@@ -20,7 +20,7 @@ namespace diptych::coupling
   // in discrete/friction between them. Angles that are given change those that depend on them: start and dilatancy stay shares of
   // the peak.
   //
-  // discrete/method = auto becomes nscd or penalty, the cheaper one by benchmarks/rigid_limit.
+  // discrete/method = auto becomes nscd, compliant or penalty, the cheapest by benchmarks/rigid_limit.
   void derive_keys(Scene &scene, const std::set<std::string> &given);
 
   // CPU time of contact dynamics / that of springs with kn/P = 1e4 and a step fraction of 0.5, within a factor of two

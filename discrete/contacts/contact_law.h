@@ -132,6 +132,18 @@ namespace diptych::discrete
     c.inverse_wmm      = wmm > 0 ? 1 / wmm : 0;
   }
 
+  // u + C r: relative velocity and give of the springs.
+  template <class Number>
+  DIPTYCH_INLINE Parts<Number> with_give(const Parts<Number> &u, const Parts<Number> &compliance, const Parts<Number> &r)
+  {
+    return {u.normal + compliance.normal * r.normal, u.tangential + compliance.tangential * r.tangential};
+  }
+
+  inline RelativeVelocity velocity_with_give(const ContactRow &c, const std::vector<BodyVelocity> &v, const Impulse &r)
+  {
+    return with_give(relative_velocity(c, v), {c.normal_compliance, c.tangential_compliance}, {r.normal, r.tangential});
+  }
+
   inline double rolling_velocity(const ContactRow &c, const std::vector<BodyVelocity> &v)
   {
     return rolling_velocity(c.rolling_arm, v[c.i].surface, v[c.j].surface);
@@ -144,7 +156,7 @@ namespace diptych::discrete
                                          const Relaxation                 omega)
   {
     const LawTerms<double> terms{c.normal_term, c.tangential_term, c.friction, c.inverse_wnn, c.inverse_wtt};
-    return signorini_coulomb(terms, relative_velocity(c, v), {r.normal, r.tangential},
+    return signorini_coulomb(terms, velocity_with_give(c, v, r), {r.normal, r.tangential},
                              relaxation(c.friction, r.normal, r.tangential, omega));
   }
 
@@ -155,7 +167,8 @@ namespace diptych::discrete
                                    const double      normal,
                                    const Relaxation  omega)
   {
-    return rolling_resistance({c.rolling_friction, c.rolling_arm, c.inverse_wmm}, w, r.rolling, normal,
+    const double give = c.rolling_term + c.tangential_compliance * r.rolling;
+    return rolling_resistance({c.rolling_friction, c.rolling_arm, c.inverse_wmm}, w + give, r.rolling, normal,
                               relaxation(c.rolling_friction, r.normal, r.rolling, omega));
   }
 

@@ -35,11 +35,15 @@ namespace diptych::discrete
     double normal_term;     // c_n of  0 <= u_n' + c_n  _|_  r_n >= 0   [length/time]
     double tangential_term; // c_t = e_t u_t of the friction law        [length/time]
     double friction;        // mu
-    double inverse_wnn;     // 1 / (1/m_i + 1/m_j)                      [mass]
-    double inverse_wtt;     // 1 / (1/m_i + 1/m_j + k_i + k_j)          [mass]
+    double inverse_wnn;     // 1 / (1/m_i + 1/m_j + C_n)                [mass]
+    double inverse_wtt;     // 1 / (1/m_i + 1/m_j + k_i + k_j + C_t)    [mass]
     double rolling_friction = 0; // bound of |r_m| / r_n: mu_r times length of the law / R; the next two count only if it is not 0
     double rolling_arm      = 0; // a; -a if the row is turned (step_problem.cc), so that r_m keeps its sign
-    double inverse_wmm      = 0; // 1 / (k_i a^2 + k_j (1 - a)^2)       [mass]
+    double inverse_wmm      = 0; // 1 / (k_i a^2 + k_j (1 - a)^2 + C_t) [mass]
+    // Springs give way by C r within the step, so that the law holds for u_n + C_n r_n, u_t + C_t r_t and w + c_m + C_t r_m.
+    double normal_compliance     = 0; // C_n; 0 with the next two if the contact is rigid [1/mass]
+    double tangential_compliance = 0; // C_t
+    double rolling_term          = 0; // c_m [length/time]
   };
 
   // Unknowns are the impulses r; the velocities are v = v_free + M^-1 H r. Every contact obeys Signorini's condition, Coulomb's

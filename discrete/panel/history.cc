@@ -169,10 +169,11 @@ namespace diptych::discrete
     const double scale       = std::max({std::abs(row.external_work), std::abs(row.friction_dissipation),
                                          std::abs(row.rolling_dissipation), std::abs(row.impact_dissipation), row.kinetic_energy,
                                          reference.kinetic_energy});
-    const double lost        = row.friction_dissipation + row.rolling_dissipation + row.impact_dissipation;
-    row.energy_residual      = scale > 0 ? (change - row.external_work + lost) / scale : 0;
-    const double s           = 0.5 * row.stress.trace();
-    row.inertial_number      = s > 0 ? reference.strain_rate * setting.mean_diameter * std::sqrt(reference.mean_density / s) : 0;
+    const double excess      = change - row.external_work + row.friction_dissipation + row.impact_dissipation +
+                          row.rolling_dissipation;
+    row.energy_residual = scale > 0 ? excess / scale : 0;
+    const double s      = 0.5 * row.stress.trace();
+    row.inertial_number = s > 0 ? reference.strain_rate * setting.mean_diameter * std::sqrt(reference.mean_density / s) : 0;
     const std::vector<std::uint8_t> free = rattlers(result, state.grains);
     row.rattlers                         = int(std::count(free.begin(), free.end(), 1));
     row.spin_term_share                  = s > 0 ? spin / area / s : 0;

@@ -47,20 +47,25 @@ namespace diptych::discrete
                     {"preparation_friction"});
     }
 
+    bool has_springs(const Options &o)
+    {
+      return o.method.method == Method::penalty || o.method.method == Method::compliant;
+    }
+
     void add_unused(const Options &o, std::vector<UnusedKey> &keys)
     {
       const Unused      unused{"discrete", keys};
-      const bool        penalty = o.method.method == Method::penalty;
+      const bool        penalty = o.method.method == Method::penalty, springs = has_springs(o);
       const std::string method  = "discrete/method = " + name_of(o.method.method),
                         lateral = "discrete/lateral = " + name_of(o.lateral.lateral);
       const bool moves          = o.lateral.lateral == Lateral::rigid_walls || o.lateral.lateral == Lateral::periodic;
-      unused.unless(
-        penalty, method,
-        {"penalty_stiffness", "penalty_step_fraction", "penalty_damping", "penalty_preload", "penalty_preload_friction"});
+      unused.unless(springs, method, {"penalty_stiffness", "penalty_damping"});
+      unused.unless(penalty, method, {"penalty_step_fraction", "penalty_preload", "penalty_preload_friction"});
       unused.unless(!penalty || o.penalty.preload > 0, "discrete/penalty_preload = 0", {"penalty_preload_friction"});
-      unused.unless(!penalty, method,
-                    {"step", "penetration_correction", "accuracy", "tolerance", "max_sweeps", "snapshot_accuracy",
-                     "snapshot_max_sweeps", "reference_sweeps"});
+      unused.unless(
+        !penalty, method,
+        {"step", "accuracy", "tolerance", "max_sweeps", "snapshot_accuracy", "snapshot_max_sweeps", "reference_sweeps"});
+      unused.unless(!springs, method, {"penetration_correction"});
       unused.unless(penalty || !o.time.step || !o.accuracy.tolerance, "discrete/step and discrete/tolerance are given",
                     {"accuracy"});
       unused.unless(o.lateral.lateral == Lateral::end_grains, lateral, {"band_height", "end_grains"});
@@ -88,7 +93,7 @@ namespace diptych::discrete
     Unused{"sample", keys}.unless(!of_file || lateral == Lateral::periodic, "sample/file with " + sides, {"width"});
     Unused{"discrete", keys}.unless(options.method.method == Method::imported,
                                     "discrete/method = " + name_of(options.method.method), {"file"});
-    Unused{"discrete", keys}.unless(options.method.method == Method::nscd || sweeps,
+    Unused{"discrete", keys}.unless(options.method.method == Method::nscd || options.method.method == Method::compliant || sweeps,
                                     "discrete/method = penalty, and a sample from a file that is not prepared",
                                     {"solver", "omega_sticking", "omega_slipping", "sweeps_per_check"});
     return keys;
@@ -96,9 +101,11 @@ namespace diptych::discrete
 
   double expected_step(const SampleOptions &sample, const Loading &loading, const Options &options)
   {
-    if (options.method.method == Method::nscd && options.time.step)
+    if (options.method.method == Method::imported)
+      return 0;
+    if (options.method.method != Method::penalty && options.time.step)
       return *options.time.step;
-    if (options.method.method == Method::imported || !(loading.pressure > 0))
+    if (!(loading.pressure > 0))
       return 0;
     if (options.method.method == Method::penalty)
       {
@@ -147,14 +154,15 @@ namespace diptych::discrete
                       "loading/mode = plane_shear: the normal force is normal_pressure x width, so discrete/lateral "
                       "must be periodic or rigid_walls, not " +
                         name_of(options.lateral.lateral));
-    const bool penalty = options.method.method == Method::penalty;
-    if (penalty && (options.law.normal_restitution != 0 || options.law.tangential_restitution != 0))
+    const bool        penalty = options.method.method == Method::penalty, springs = has_springs(options);
+    const std::string method = "discrete/method = " + name_of(options.method.method);
+    if (springs && (options.law.normal_restitution != 0 || options.law.tangential_restitution != 0))
       throw WrongKeys({"discrete/method", "discrete/normal_restitution", "discrete/tangential_restitution"},
-                      "discrete/method = penalty: discrete/normal_restitution and tangential_restitution must be 0; "
-                      "with springs, penalty_damping controls the rebound");
-    if (penalty && options.method.store_problems)
+                      method + ": discrete/normal_restitution and tangential_restitution must be 0; with springs, "
+                               "penalty_damping controls the rebound");
+    if (springs && options.method.store_problems)
       throw WrongKeys({"discrete/store_problems", "discrete/method"},
-                      "discrete/method = penalty has no contact problems to store: discrete/store_problems must be false");
+                      method + " has no problems of rigid contacts to store: discrete/store_problems must be false");
     if (const double steps = expected_steps(sample, loading, options); steps > most_steps)
       throw WrongKeys({"discrete/step", "discrete/accuracy", "discrete/penalty_stiffness", "discrete/penalty_step_fraction",
                        "loading/inertial_number", "loading/strain_rate"},
@@ -165,9 +173,15 @@ namespace diptych::discrete
                            : "discrete/step = auto gives " + exact_text(expected_step(sample, loading, options)) +
                                " for discrete/accuracy = " + exact_text(options.accuracy.accuracy)) +
                         "; loading/inertial_number or strain_rate gives the duration");
-    if (penalty && !(loading.pressure > 0))
+    if (springs && !(loading.pressure > 0))
       throw WrongKeys({"loading/pressure", "discrete/method"},
-                      "discrete/method = penalty: the stiffness penalty_stiffness x loading/pressure must be positive");
+                      method + ": the stiffness penalty_stiffness x loading/pressure must be positive");
+  }
+
+  Compliance compliance(const Loading &loading, const Options &options)
+  {
+    const bool compliant = options.method.method == Method::compliant;
+    return {compliant ? options.penalty.stiffness * loading.pressure : 0, options.penalty.damping};
   }
 
   PreparationSetting preparation_setting(const Loading &loading, const Options &options)

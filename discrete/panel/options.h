@@ -12,16 +12,18 @@ namespace diptych::discrete
 {
   enum class Method
   {
-    nscd,     // Non-Smooth Contact Dynamics
-    penalty,  // explicit springs, dashpots and Coulomb friction (Cundall & Strack 1979)
-    imported, // no computation: frames of another code
-    automatic // nscd or penalty; coupling/scene/derived_keys.h replaces it before a run
+    nscd,      // Non-Smooth Contact Dynamics
+    compliant, // the springs and dashpots of penalty, implicit over long steps
+    penalty,   // explicit springs, dashpots and Coulomb friction (Cundall & Strack 1979)
+    imported,  // no computation: frames of another code
+    automatic  // one of the first three; coupling/scene/derived_keys.h replaces it before a run
   };
 
   constexpr auto choices(Method)
   {
-    return std::array{std::pair{Method::nscd, "nscd"}, std::pair{Method::penalty, "penalty"},
-                      std::pair{Method::imported, "imported"}, std::pair{Method::automatic, "auto"}};
+    return std::array{std::pair{Method::nscd, "nscd"}, std::pair{Method::compliant, "compliant"},
+                      std::pair{Method::penalty, "penalty"}, std::pair{Method::imported, "imported"},
+                      std::pair{Method::automatic, "auto"}};
   }
 
   struct MethodOptions
@@ -37,10 +39,10 @@ namespace diptych::discrete
   {
     visitor(
       "method", o.method, "-",
-      "nscd: Non-Smooth Contact Dynamics; penalty: explicit springs, dashpots and Coulomb friction (Cundall & Strack 1979); "
-      "imported: no computation; the frames of another code are taken from `file`; auto: penalty (with penalty_stiffness 1e4 and "
-      "penalty_step_fraction 0.5 unless given) if it is expected to be cheaper than nscd at this size, speed and accuracy; the "
-      "resolved scene states the choice and the reason");
+      "nscd: Non-Smooth Contact Dynamics; compliant: the springs of `penalty`, implicit over long steps; penalty: explicit "
+      "springs, dashpots and Coulomb friction (Cundall & Strack 1979); imported: no computation; the frames of another code are "
+      "taken from `file`; auto: the cheapest of the first three at this size, speed and accuracy, springs with penalty_stiffness "
+      "1e4 unless given; the resolved scene states the choice and the reason");
     visitor("file", FileName{o.file}, "-",
             "imported: discrete.h5 of `diptych import`, with discrete.csv in the same folder; {seed} in the path stands for "
             "sample/seed, so "
@@ -99,5 +101,6 @@ namespace diptych::discrete
   double expected_steps(const SampleOptions &sample, const Loading &loading, const Options &options);
   double expected_rows(const SampleOptions &sample, const Loading &loading, const Options &options);
 
+  Compliance         compliance(const Loading &loading, const Options &options); // stiffness 0: method is not compliant
   PreparationSetting preparation_setting(const Loading &loading, const Options &options);
 } // namespace diptych::discrete

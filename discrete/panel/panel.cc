@@ -45,6 +45,7 @@ namespace diptych::discrete
       setting_.lateral       = lateral_condition(options.lateral);
       setting_.pressure      = loading.pressure;
       setting_.mean_diameter = sample.mean_diameter;
+      setting_.compliance    = compliance(loading, options);
       cache_.team            = std::make_shared<ThreadTeam>(options.threads);
     }
 
@@ -258,7 +259,7 @@ namespace diptych::discrete
     bool interpenetrate(const double penetration)
     {
       constexpr double limit = 0.3; // mean diameters
-      if (penetration <= limit || penalty())
+      if (penetration <= limit || options_.method.method != Method::nscd)
         return false;
       now.report.status  = Status::not_converged;
       now.report.message = interpenetration_text(now.row.step, penetration);

@@ -37,16 +37,18 @@ namespace diptych::discrete
     }
 
     DIPTYCH_INLINE Parts<Four> local_solution(const ContactBatch &c,
-                                              const double       *tangential_term,
+                                              const TermBatch    *more,
                                               const Bodies       &bi,
                                               const Bodies       &bj,
                                               const Relaxation    omega)
     {
       const Four           zero{}, inverse_wnn = read(c.inverse_wnn);
-      const LawTerms<Four> terms{read(c.normal_term), tangential_term ? read(tangential_term) : zero, read(c.friction),
-                                 inverse_wnn, inverse_wnn * disc_wnn_over_wtt};
+      const LawTerms<Four> terms{read(c.normal_term), more ? read(more->tangential_term) : zero, read(c.friction), inverse_wnn,
+                                 more ? read(more->inverse_wtt) : inverse_wnn * disc_wnn_over_wtt};
       const Parts<Four>    r = impulses_of(c);
-      const Parts<Four>    u = relative_velocity(read(c.nx), read(c.ny), bi.x - bj.x, bi.y - bj.y, bi.surface, bj.surface);
+      Parts<Four>          u = relative_velocity(read(c.nx), read(c.ny), bi.x - bj.x, bi.y - bj.y, bi.surface, bj.surface);
+      if (more)
+        u = with_give(u, {read(more->normal_compliance), read(more->tangential_compliance)}, r);
       return signorini_coulomb(terms, u, r, relaxation(terms.friction, r.normal, r.tangential, omega));
     }
 
@@ -61,10 +63,11 @@ namespace diptych::discrete
       bj.surface -= 2 * bj.inverse_mass * dr.tangential;
     }
 
-    // Of the spins after the tangential impulse changed.
-    DIPTYCH_INLINE Four rolling_velocity_of(const RollingBatch &m, const Bodies &bi, const Bodies &bj)
+    // Of the spins after the tangential impulse changed, with the give of the springs.
+    DIPTYCH_INLINE Four rolling_velocity_of(const RollingBatch &m, const TermBatch *more, const Bodies &bi, const Bodies &bj)
     {
-      return rolling_velocity(read(m.arm), bi.surface, bj.surface);
+      const Four w = rolling_velocity(read(m.arm), bi.surface, bj.surface);
+      return more ? w + (read(more->rolling_term) + read(more->tangential_compliance) * read(m.rolling)) : w;
     }
 
     DIPTYCH_INLINE Four
@@ -82,15 +85,15 @@ namespace diptych::discrete
       bj.surface -= 2 * bj.inverse_mass * (1 - arm) * dr;
     }
 
-    DIPTYCH_INLINE void update(ContactBatch &c, RollingBatch *m, const double *term, const Relaxation omega, BodyVelocity *v)
+    DIPTYCH_INLINE void update(ContactBatch &c, RollingBatch *m, const TermBatch *more, const Relaxation omega, BodyVelocity *v)
     {
       Bodies            bi = gather(v, c.i), bj = gather(v, c.j);
       const Four        old_normal = read(c.normal);
-      const Parts<Four> r          = local_solution(c, term, bi, bj, omega);
+      const Parts<Four> r          = local_solution(c, more, bi, bj, omega);
       apply(c, {r.normal - old_normal, r.tangential - read(c.tangential)}, bi, bj);
       if (m)
         {
-          const Four couple = local_couple(*m, rolling_velocity_of(*m, bi, bj), old_normal, r.normal, omega);
+          const Four couple = local_couple(*m, rolling_velocity_of(*m, more, bi, bj), old_normal, r.normal, omega);
           apply_couple(*m, couple - read(m->rolling), bi, bj);
           write(m->rolling, couple);
         }
@@ -101,20 +104,20 @@ namespace diptych::discrete
     }
   } // namespace
 
-  DIPTYCH_FOR_EACH_MACHINE void sweep_batches(ContactBatch                *batches,
-                                              RollingBatch                *rolling,
-                                              const std::array<double, 4> *terms,
-                                              const std::size_t            n,
-                                              const double                 sticking,
-                                              const double                 slipping,
-                                              BodyVelocity                *v)
+  DIPTYCH_FOR_EACH_MACHINE void sweep_batches(ContactBatch     *batches,
+                                              RollingBatch     *rolling,
+                                              const TermBatch  *terms,
+                                              const std::size_t n,
+                                              const double      sticking,
+                                              const double      slipping,
+                                              BodyVelocity     *v)
   {
     if (rolling)
       for (std::size_t b = 0; b < n; ++b)
-        update(batches[b], rolling + b, terms ? terms[b].data() : nullptr, {sticking, slipping}, v);
+        update(batches[b], rolling + b, terms ? terms + b : nullptr, {sticking, slipping}, v);
     else if (terms)
       for (std::size_t b = 0; b < n; ++b)
-        update(batches[b], nullptr, terms[b].data(), {sticking, slipping}, v);
+        update(batches[b], nullptr, terms + b, {sticking, slipping}, v);
     else
       for (std::size_t b = 0; b < n; ++b)
         update(batches[b], nullptr, nullptr, {sticking, slipping}, v);
@@ -137,20 +140,21 @@ namespace diptych::discrete
       }
   }
 
-  DIPTYCH_FOR_EACH_MACHINE void add_squares(const ContactBatch          *batches,
-                                            const RollingBatch          *rolling,
-                                            const std::array<double, 4> *terms,
-                                            const std::size_t            n,
-                                            const BodyVelocity          *v,
-                                            double                      *difference,
-                                            double                      *norm)
+  DIPTYCH_FOR_EACH_MACHINE void add_squares(const ContactBatch *batches,
+                                            const RollingBatch *rolling,
+                                            const TermBatch    *terms,
+                                            const std::size_t   n,
+                                            const BodyVelocity *v,
+                                            double             *difference,
+                                            double             *norm)
   {
     Four d{}, s{};
     for (std::size_t b = 0; b < n; ++b)
       {
-        const ContactBatch &c  = batches[b];
+        const ContactBatch &c    = batches[b];
+        const TermBatch    *more = terms ? terms + b : nullptr;
         Bodies              bi = gather(v, c.i), bj = gather(v, c.j);
-        const Parts<Four>   p  = local_solution(c, terms ? terms[b].data() : nullptr, bi, bj, exact);
+        const Parts<Four>   p  = local_solution(c, more, bi, bj, exact);
         const Four          rn = read(c.normal), rt = read(c.tangential);
         d += (rn - p.normal) * (rn - p.normal) + (rt - p.tangential) * (rt - p.tangential);
         s += rn * rn + rt * rt;
@@ -158,7 +162,7 @@ namespace diptych::discrete
           continue;
         apply(c, {Four{}, p.tangential - rt}, bi, bj); // only the spins count below
         const Four rm = read(rolling[b].rolling),
-                   pm = local_couple(rolling[b], rolling_velocity_of(rolling[b], bi, bj), rn, p.normal, exact);
+                   pm = local_couple(rolling[b], rolling_velocity_of(rolling[b], more, bi, bj), rn, p.normal, exact);
         d += (rm - pm) * (rm - pm);
         s += rm * rm;
       }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <array>
 #include <cstddef>
 
 #include "discrete/contacts/contact_problem.h"
@@ -25,27 +24,34 @@ namespace diptych::discrete
     double friction[lanes], arm[lanes], inverse_wmm[lanes], rolling[lanes];
   };
 
-  // The three functions take n batches, their couples (null: none) and the velocities of all bodies. `terms` are the tangential
-  // terms of the lanes (null: all zero).
+  // Terms that few rows have: tangential restitution and springs. Members as in ContactRow.
+  struct alignas(64) TermBatch
+  {
+    double tangential_term[lanes], inverse_wtt[lanes], normal_compliance[lanes], tangential_compliance[lanes],
+      rolling_term[lanes];
+  };
+
+  // The three functions take n batches, their couples (null: none), their further terms (null: all zero) and the velocities of
+  // all bodies.
 
   // One over-relaxed pass. Impulses at their bound (before the pass) take `slipping`.
-  void sweep_batches(ContactBatch                    *batches,
-                     RollingBatch                    *rolling,
-                     const std::array<double, lanes> *terms,
-                     std::size_t                      n,
-                     double                           sticking,
-                     double                           slipping,
-                     BodyVelocity                    *v);
+  void sweep_batches(ContactBatch    *batches,
+                     RollingBatch    *rolling,
+                     const TermBatch *terms,
+                     std::size_t      n,
+                     double           sticking,
+                     double           slipping,
+                     BodyVelocity    *v);
 
   // v += M^-1 H r.
   void add_impulses(const ContactBatch *batches, const RollingBatch *rolling, std::size_t n, BodyVelocity *v);
 
   // Adds the squares of |r - P(r)| and of |r| to `difference` and `norm`.
-  void add_squares(const ContactBatch              *batches,
-                   const RollingBatch              *rolling,
-                   const std::array<double, lanes> *terms,
-                   std::size_t                      n,
-                   const BodyVelocity              *v,
-                   double                          *difference,
-                   double                          *norm);
+  void add_squares(const ContactBatch *batches,
+                   const RollingBatch *rolling,
+                   const TermBatch    *terms,
+                   std::size_t         n,
+                   const BodyVelocity *v,
+                   double             *difference,
+                   double             *norm);
 } // namespace diptych::discrete

@@ -27,7 +27,7 @@ namespace diptych::discrete
       return std::abs(a - b) <= 1e-14 * std::abs(b);
     }; // files round these numbers
     return c.cell < 0 && same(c.jx, wj) && same(c.jy, wj) && same(c.ki, 2 * wi) && same(c.kj, 2 * wj) &&
-           same(c.inverse_wtt, c.inverse_wnn * disc_wnn_over_wtt);
+           (c.normal_compliance > 0 || same(c.inverse_wtt, c.inverse_wnn * disc_wnn_over_wtt));
   }
 
   // False: a contact would join blocks that are not neighbours, or a body has contacts in two gaps between blocks.
@@ -86,15 +86,17 @@ namespace diptych::discrete
     v_.push_back({0, 0, 0, 0});
     part.batches.reserve(rows.size() / 3 + 2);
     part.rows.reserve(rows.size() / 3 + 2);
-    part.tangential_term.reserve(rows.size() / 3 + 2);
+    part.terms.reserve(rows.size() / 3 + 2);
     std::vector<int> awake, idle;
     for (const int row : rows)
       (is_idle_[row] ? idle : awake).push_back(row);
     pack(awake, part, own);
     part.n_awake = part.batches.size();
     pack(idle, part, own);
-    if (std::all_of(rows.begin(), rows.end(), [&](const int row) { return problem_.contacts[row].tangential_term == 0; }))
-      part.tangential_term.clear();
+    if (std::all_of(rows.begin(), rows.end(), [&](const int row) {
+          return problem_.contacts[row].tangential_term == 0 && problem_.contacts[row].normal_compliance == 0;
+        }))
+      part.terms.clear();
     if (std::any_of(rows.begin(), rows.end(), [&](const int row) { return problem_.contacts[row].rolling_friction != 0; }))
       add_couples(part);
     return part;
@@ -126,7 +128,7 @@ namespace diptych::discrete
         waiting = entered - taken_rows;
         part.batches.push_back(empty);
         part.rows.push_back({-1, -1, -1, -1});
-        part.tangential_term.push_back({});
+        part.terms.push_back({});
         int filled = 0;
         for (const int distance : {1, 0})
           for (int before = 0; after[before] < entered && filled < lanes;)
@@ -162,8 +164,13 @@ namespace diptych::discrete
     data.normal_term[lane]            = c.normal_term;
     data.friction[lane]               = c.friction;
     data.inverse_wnn[lane]            = c.inverse_wnn;
-    part.tangential_term.back()[lane] = c.tangential_term;
     part.rows.back()[lane]            = row;
+    TermBatch &terms                  = part.terms.back();
+    terms.tangential_term[lane]       = c.tangential_term;
+    terms.inverse_wtt[lane]           = c.inverse_wtt;
+    terms.normal_compliance[lane]     = c.normal_compliance;
+    terms.tangential_compliance[lane] = c.tangential_compliance;
+    terms.rolling_term[lane]          = c.rolling_term;
   }
 
   void BatchedContacts::add_couples(Part &part) const

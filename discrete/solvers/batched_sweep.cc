@@ -17,6 +17,11 @@ namespace diptych::discrete
       return part.rolling.empty() ? nullptr : part.rolling.data();
     }
 
+    template <class Part> auto terms_of(Part &part)
+    {
+      return part.terms.empty() ? nullptr : part.terms.data();
+    }
+
     // Number of sweeps that a part has finished, visible to other threads. Each counter has a cache line of its own.
     class alignas(64) Progress
     {
@@ -125,8 +130,8 @@ namespace diptych::discrete
 
   void BatchedContacts::sweep_part(Part &part, const double omega_sticking, const double omega_slipping, const bool with_idle)
   {
-    sweep_batches(part.batches.data(), couples_of(part), part.tangential_term.empty() ? nullptr : part.tangential_term.data(),
-                  with_idle ? part.batches.size() : part.n_awake, omega_sticking, omega_slipping, v_.data());
+    sweep_batches(part.batches.data(), couples_of(part), terms_of(part), with_idle ? part.batches.size() : part.n_awake,
+                  omega_sticking, omega_slipping, v_.data());
     if (with_idle)
       wake(part);
   }
@@ -144,8 +149,8 @@ namespace diptych::discrete
         std::swap(part.rows[b], part.rows[part.n_awake]);
         if (!part.rolling.empty())
           std::swap(part.rolling[b], part.rolling[part.n_awake]);
-        if (!part.tangential_term.empty())
-          std::swap(part.tangential_term[b], part.tangential_term[part.n_awake]);
+        if (!part.terms.empty())
+          std::swap(part.terms[b], part.terms[part.n_awake]);
         ++part.n_awake;
       }
   }
@@ -197,8 +202,8 @@ namespace diptych::discrete
   NaturalMapSquares BatchedContacts::residual_squares(const Part &part) const
   {
     NaturalMapSquares squares;
-    add_squares(part.batches.data(), couples_of(part), part.tangential_term.empty() ? nullptr : part.tangential_term.data(),
-                part.batches.size(), v_.data(), &squares.difference, &squares.norm);
+    add_squares(part.batches.data(), couples_of(part), terms_of(part), part.batches.size(), v_.data(), &squares.difference,
+                &squares.norm);
     return squares;
   }
 

@@ -52,12 +52,12 @@ namespace diptych::discrete
 
     struct Part
     {
-      std::vector<ContactBatch>          batches;
-      std::vector<RollingBatch>          rolling;         // one per batch; empty: no couples
-      std::vector<std::array<double, 4>> tangential_term; // one per batch; empty: all zero
-      std::vector<std::array<int, 4>>    rows;            // -1 in an empty lane
-      std::size_t                        n_awake   = 0;   // number of batches before the idle ones
-      int                                idle_body = 0;   // body of the part's empty lanes
+      std::vector<ContactBatch>       batches;
+      std::vector<RollingBatch>       rolling;       // one per batch; empty: no couples
+      std::vector<TermBatch>          terms;         // one per batch; empty: all zero
+      std::vector<std::array<int, 4>> rows;          // -1 in an empty lane
+      std::size_t                     n_awake   = 0; // number of batches before the idle ones
+      int                             idle_body = 0; // body of the part's empty lanes
     };
 
     bool                           fits_a_batch(const ContactRow &row) const;

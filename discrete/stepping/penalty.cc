@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 
 #include "discrete/contacts/natural_map.h"
@@ -18,8 +17,6 @@ namespace diptych::discrete
 {
   namespace
   {
-    constexpr double tangential_over_normal_stiffness = 0.5; // also of the rolling spring
-
     void validate(const StepSetting &setting, const PenaltyOptions &options)
     {
       if (!(options.stiffness * setting.pressure > 0))
@@ -68,18 +65,13 @@ namespace diptych::discrete
       return {force, force * (spring - force) / stiffness};
     }
 
-    struct Losses
-    {
-      double sliding, rolling;
-    };
-
     // Updates one contact. `r` holds its impulse of the last step and receives that of this step.
-    Losses apply_law(const SpringLaw                 &law,
-                     const ContactRow                &c,
-                     const double                     gap,
-                     const std::vector<BodyVelocity> &v,
-                     const double                     h,
-                     Impulse                         &r)
+    BoundWork apply_law(const SpringLaw                 &law,
+                        const ContactRow                &c,
+                        const double                     gap,
+                        const std::vector<BodyVelocity> &v,
+                        const double                     h,
+                        Impulse                         &r)
     {
       const RelativeVelocity u       = relative_velocity(c, v);
       const double           dashpot = std::isfinite(c.inverse_wnn) ? 2 * law.damping * std::sqrt(law.kn * c.inverse_wnn) : 0.;
@@ -90,24 +82,6 @@ namespace diptych::discrete
                                                                  c.rolling_friction * fn, law.kt);
       r                        = {h * fn, h * t.force, h * m.force};
       return {t.work, m.work};
-    }
-
-    // The ledger of a step counts all work of tangential impulses and couples as dissipation. Here only that of sliding and
-    // rolling at the bound is. The rest is elastic and counts with the work along the normal.
-    void take_ledger(StepLedger ledger, const Losses &lost, StepResult &result)
-    {
-      const std::vector<double> &each = result.contact_dissipation;
-      StepEnergies              &e = result.energies = ledger.energies;
-      e.impact_dissipation += e.friction_dissipation - lost.sliding;
-      e.impact_dissipation += e.rolling_dissipation - lost.rolling;
-      e.friction_dissipation = lost.sliding;
-      e.rolling_dissipation  = lost.rolling;
-      result.contact_impact  = std::move(ledger.contact_impact);
-      for (std::size_t k = 0; k < each.size(); ++k)
-        result.contact_impact[k] += ledger.contact_dissipation[k] - each[k];
-      result.wall_force        = std::move(ledger.wall_force);
-      result.momentum_residual = ledger.momentum_residual;
-      result.unbalanced_force  = ledger.unbalanced_force;
     }
   } // namespace
 
@@ -141,21 +115,20 @@ namespace diptych::discrete
                                                            {free_velocities(trial, v, result.applied_force, setting), {}, {}});
     const SpringLaw                 law{kn, tangential_over_normal_stiffness * kn, options.damping,
                         penalty.impulse_step > 0 ? penalty.impulse_step : h};
-    Losses                          lost{};
+    std::vector<BoundWork>          lost;
     for (std::size_t k = 0; k < result.contacts.size(); ++k)
       {
-        const double gap  = result.contacts[k].gap;
-        const Losses here = apply_law(law, problem.contacts[k], gap, v, h, result.impulses[k]);
-        lost.sliding += here.sliding;
-        lost.rolling += here.rolling;
-        result.contact_dissipation.push_back(here.sliding + here.rolling);
+        const double gap = result.contacts[k].gap;
+        lost.push_back(apply_law(law, problem.contacts[k], gap, v, h, result.impulses[k]));
         result.largest_penetration = std::max(result.largest_penetration, -gap);
       }
 
     const std::vector<int>          acting = acting_contacts(result.impulses);
     const std::vector<BodyVelocity> v_new  = velocities(problem, result.impulses, acting);
-    take_ledger(step_ledger({trial, problem, result.contacts, result.impulses, acting, result.applied_force, v, v_new, h}, false),
-                lost, result);
+    StepLedger ledger = step_ledger({trial, problem, result.contacts, result.impulses, acting, result.applied_force, v, v_new, h},
+                                    false);
+    count_springs(lost, ledger);
+    take_ledger(std::move(ledger), result);
     take_velocities(v_new, trial);
     drift(trial, 0.5 * h);
     if (has_blown_up(trial, h))

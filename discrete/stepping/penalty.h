@@ -18,13 +18,15 @@ namespace diptych::discrete
   template <class Visitor> void visit_parameters(PenaltyOptions &o, Visitor &&visitor)
   {
     visitor("penalty_stiffness", o.stiffness, "-", {1., 1e12},
-            "normal contact stiffness kn / P; overlaps are about d / penalty_stiffness; the tangential stiffness is half of it");
+            "normal contact stiffness kn / P of penalty and compliant; overlaps are about d / penalty_stiffness; the tangential "
+            "stiffness is half of it. compliant: 1e4 is near to rigid and cheap");
     visitor("penalty_step_fraction", o.step_fraction, "-", {1e-6, 10.},
             "step / sqrt(m_min/kn); frictionless samples blow up from 0.9-1.0 on, sticking ones from 0.75; energy errors grow "
             "unnoticed "
             "from 0.55 on");
     visitor("penalty_damping", o.damping, "-", {0., 1.},
-            "damping of the normal dashpot as a fraction of the critical damping of the two bodies; there is no other damping");
+            "penalty and compliant: damping of the normal dashpot as a fraction of the critical damping of the two bodies; there "
+            "is no other damping");
     visitor("penalty_preload", o.preload, "d sqrt(rho/P)", {0., 1e6},
             "time in which the springs take up the pressure before the loading, with the platens at rest; 0: no preload. "
             "loading/mode = time has no preload");

@@ -186,4 +186,24 @@ namespace diptych::discrete
     ledger.momentum_residual = contacts.impulse > 0 ? balance.norm() / (contacts.impulse + momentum_sum) : 0;
     return ledger;
   }
+
+  void count_springs(const std::vector<BoundWork> &lost, StepLedger &ledger)
+  {
+    BoundWork all;
+    for (std::size_t k = 0; k < lost.size(); ++k)
+      {
+        double here = lost[k].sliding;
+        if (lost[k].rolling != 0) // adding 0 would change the sign of a zero
+          here += lost[k].rolling;
+        all.sliding += lost[k].sliding;
+        all.rolling += lost[k].rolling;
+        ledger.contact_impact[k] += ledger.contact_dissipation[k] - here;
+        ledger.contact_dissipation[k] = here;
+      }
+    StepEnergies &e = ledger.energies;
+    e.impact_dissipation += e.friction_dissipation - all.sliding;
+    e.impact_dissipation += e.rolling_dissipation - all.rolling;
+    e.friction_dissipation = all.sliding;
+    e.rolling_dissipation  = all.rolling;
+  }
 } // namespace diptych::discrete

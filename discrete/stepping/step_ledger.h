@@ -43,4 +43,14 @@ namespace diptych::discrete
   };
 
   StepLedger step_ledger(const SolvedStep &solved, bool corrects_by_velocity);
+
+  // Work of one contact at its bounds: while it slides and while it rolls. [energy]
+  struct BoundWork
+  {
+    double sliding = 0, rolling = 0;
+  };
+
+  // step_ledger() counts all work of tangential impulses and couples as dissipation. With springs only that at the bounds is, one
+  // entry per contact. The rest is elastic and joins the work along the normal.
+  void count_springs(const std::vector<BoundWork> &lost, StepLedger &ledger);
 } // namespace diptych::discrete

@@ -3,6 +3,7 @@
 #include "discrete/stepping/step_problem.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "discrete/bodies/boundary.h"
 #include "discrete/contacts/contact_law.h"
@@ -173,5 +174,45 @@ namespace diptych::discrete
         add_rolling(state.grains, c, f.rolling, row);
       }
     return problem;
+  }
+
+  void add_springs(const StepSetting          &setting,
+                   const std::vector<Contact> &contacts,
+                   const std::vector<Impulse> &last,
+                   ContactProblem             &problem)
+  {
+    const double h = setting.step, kn = setting.compliance.stiffness, kt = tangential_over_normal_stiffness * kn;
+    const auto   with = [](const double compliance, const double inverse) { return 1 / (1 / inverse + compliance); };
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+      {
+        ContactRow  &row          = problem.contacts[k];
+        const double gap          = contacts[k].gap;
+        const bool   damps        = gap < 0 && std::isfinite(row.inverse_wnn);
+        const double duration     = h + (damps ? 2 * setting.compliance.damping * std::sqrt(row.inverse_wnn / kn) : 0);
+        row.normal_compliance     = 1 / (h * kn * duration);
+        row.tangential_compliance = 1 / (h * kt * h);
+        row.normal_term           = gap / duration;
+        row.tangential_term       = -row.tangential_compliance * last[k].tangential;
+        row.rolling_term          = -row.tangential_compliance * last[k].rolling;
+        row.inverse_wnn           = with(row.normal_compliance, row.inverse_wnn);
+        row.inverse_wtt           = with(row.tangential_compliance, row.inverse_wtt);
+        row.inverse_wmm           = with(row.tangential_compliance, row.inverse_wmm);
+      }
+  }
+
+  std::vector<BoundWork> work_at_bounds(const ContactProblem            &problem,
+                                        const std::vector<BodyVelocity> &v,
+                                        const std::vector<Impulse>      &impulses)
+  {
+    std::vector<BoundWork> work(impulses.size());
+    for (std::size_t k = 0; k < impulses.size(); ++k)
+      {
+        const ContactRow &c = problem.contacts[k];
+        const Impulse    &r = impulses[k];
+        work[k].sliding     = 0 - r.tangential * (velocity_with_give(c, v, r).tangential + c.tangential_term);
+        if (c.rolling_friction != 0)
+          work[k].rolling = 0 - r.rolling * (rolling_velocity(c, v) + c.rolling_term + c.tangential_compliance * r.rolling);
+      }
+    return work;
   }
 } // namespace diptych::discrete

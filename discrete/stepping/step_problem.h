@@ -4,6 +4,7 @@
 
 #include "discrete/contacts/contact_detection.h"
 #include "discrete/contacts/contact_problem.h"
+#include "discrete/stepping/step_ledger.h"
 
 namespace diptych::discrete
 {
@@ -27,6 +28,21 @@ namespace diptych::discrete
                               const std::vector<Contact>      &contacts,
                               const std::vector<BodyVelocity> &v,
                               ContactProblem                   problem);
+
+  // Springs of setting.compliance for the rows of make_problem(), `last` holds the impulses of the last step of the same length.
+  // With stiffness kn, overlap -g' at the next q_m, g' = g + h u_n', and dashpot c (0 if the contact is still open, g >= 0):
+  //   r_n = h max(0, -kn g' - c u_n'),   r_t = r_t of the last step - h^2 kt u_t'  clamped to +-mu r_n,
+  // and couples like r_t. This is the law of rigid contacts with a compliance: u_n' + g/T + r_n/(h kn T) with T = h + c/kn takes
+  // the place of u_n' + c_n, and u_t' + (r_t - r_t of the last step)/(h^2 kt) that of u_t'.
+  void add_springs(const StepSetting          &setting,
+                   const std::vector<Contact> &contacts,
+                   const std::vector<Impulse> &last,
+                   ContactProblem             &problem);
+
+  // Work of the contacts with springs at their bounds: force x the displacement that the springs do not take. `v`: end of step.
+  std::vector<BoundWork> work_at_bounds(const ContactProblem            &problem,
+                                        const std::vector<BodyVelocity> &v,
+                                        const std::vector<Impulse>      &impulses);
 
   inline Eigen::Vector2d impulse_vector(const Contact &c, const Impulse &r)
   {

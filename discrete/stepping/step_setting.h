@@ -76,12 +76,23 @@ namespace diptych::discrete
     visitor("gravity_y", o.gravity_y, "length/time^2", {-1e12, 1e12}, "vertical acceleration of gravity; it acts on grains only");
   }
 
+  // Springs of the contacts, taken implicitly over the step: method = compliant.
+  struct Compliance
+  {
+    double stiffness = 0; // kn [pressure]; 0: the contacts are rigid
+    double damping   = 0; // of the normal dashpot, as a fraction of the critical damping of the two bodies
+  };
+
+  // kt / kn of springs; the springs of couples have kt, too.
+  constexpr double tangential_over_normal_stiffness = 0.5;
+
   struct StepSetting
   {
     double            step = 1; // h [time]
     StepOptions       time;     // its `step` is the value from the scene
     ContactLawOptions law;
     SolverOptions     solver;
+    Compliance        compliance;
     LateralCondition  lateral;
     double            pressure           = 1;     // of the lateral action
     double            mean_diameter      = 1;     // [length]

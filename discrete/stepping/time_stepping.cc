@@ -71,12 +71,15 @@ namespace diptych::discrete
     result.applied_force              = applied_forces(trial, setting);
     const std::vector<BodyVelocity> v = body_velocities(trial);
     result.contacts = cache.neighbours.find_contacts(trial, detection_margins(trial, setting, v, result.applied_force));
-    result.largest_penetration     = largest_penetration(result.contacts);
-    cache.problem.free_velocity    = free_velocities(trial, v, result.applied_force, setting);
-    cache.problem                  = make_problem(trial, setting, result.contacts, v, std::move(cache.problem));
-    const ContactProblem &problem  = cache.problem;
-    const FirstGuess      previous = first_guess(state.impulses, result.contacts);
-    result.impulses                = previous.impulses;
+    result.largest_penetration      = largest_penetration(result.contacts);
+    cache.problem.free_velocity     = free_velocities(trial, v, result.applied_force, setting);
+    cache.problem                   = make_problem(trial, setting, result.contacts, v, std::move(cache.problem));
+    const ContactProblem &problem   = cache.problem;
+    const FirstGuess      previous  = first_guess(state.impulses, result.contacts);
+    const bool            compliant = setting.compliance.stiffness > 0;
+    if (compliant)
+      add_springs(setting, result.contacts, previous.impulses, cache.problem);
+    result.impulses = previous.impulses;
     extrapolate(problem, previous.changes, result.impulses);
     if (sample && sample->options.snapshot_max_sweeps > 0)
       result.solve = solve_sampled({problem, trial.grains.radius, result.contacts}, setting.solver, *sample, *cache.team,
@@ -93,21 +96,28 @@ namespace diptych::discrete
     const std::vector<BodyVelocity> v_new  = velocities(problem, result.impulses, acting);
     StepLedger ledger = step_ledger({trial, problem, result.contacts, result.impulses, acting, result.applied_force, v, v_new, h},
                                     setting.law.normal_restitution == 0 && corrected_share(setting.time) > 0);
-    result.energies   = ledger.energies;
-    result.wall_force = std::move(ledger.wall_force);
-    result.contact_dissipation = std::move(ledger.contact_dissipation);
-    result.contact_impact      = std::move(ledger.contact_impact);
-    result.momentum_residual   = ledger.momentum_residual;
-    result.unbalanced_force    = ledger.unbalanced_force;
+    if (compliant)
+      count_springs(work_at_bounds(problem, v_new, result.impulses), ledger);
+    take_ledger(std::move(ledger), result);
 
     take_velocities(v_new, trial);
     drift(trial, 0.5 * h);
-    if (setting.time.penetration_correction == PenetrationCorrection::projection)
+    if (!compliant && setting.time.penetration_correction == PenetrationCorrection::projection)
       correct_positions(trial, {problem, result.contacts, result.impulses, v_new, h}, 1e-4 * setting.mean_diameter, *cache.team);
     keep_impulses(result.contacts, result.impulses, previous.impulses, acting, trial);
     trial.time += h;
     state = std::move(trial);
     return result;
+  }
+
+  void take_ledger(StepLedger ledger, StepResult &result)
+  {
+    result.energies            = ledger.energies;
+    result.wall_force          = std::move(ledger.wall_force);
+    result.contact_dissipation = std::move(ledger.contact_dissipation);
+    result.contact_impact      = std::move(ledger.contact_impact);
+    result.momentum_residual   = ledger.momentum_residual;
+    result.unbalanced_force    = ledger.unbalanced_force;
   }
 
   StepResult advance(State &state, const StepSetting &setting)

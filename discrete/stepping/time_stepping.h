@@ -50,6 +50,8 @@ namespace diptych::discrete
   StepResult advance(State &state, const StepSetting &setting, StepCache &cache, const SampleRequest *sample = nullptr);
   StepResult advance(State &state, const StepSetting &setting);
 
+  void take_ledger(StepLedger ledger, StepResult &result);
+
   // Lateral action and gravity on each grain at the present positions; zero for fixed grains. [pressure x length]
   std::vector<Eigen::Vector2d> applied_forces(const State &state, const StepSetting &setting);
 

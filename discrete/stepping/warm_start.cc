@@ -54,7 +54,7 @@ namespace diptych::discrete
     for (const int k : changed)
       {
         const ContactRow      &c = problem.contacts[k];
-        const RelativeVelocity u = relative_velocity(c, v), du = relative_velocity(c, w);
+        const RelativeVelocity u = velocity_with_give(c, v, impulses[k]), du = velocity_with_give(c, w, changes[k]);
         const double           violation = u.tangential + c.tangential_term;
         const bool             slides    = is_slipping(c.friction, impulses[k]) &&
                             impulses[k].tangential * violation < 0; // in the right direction
@@ -63,11 +63,13 @@ namespace diptych::discrete
         change_of_work += changes[k].normal * du.normal + tangential * du.tangential;
         if (c.rolling_friction == 0)
           continue;
-        const double turning = rolling_velocity(c, v), bound = coulomb_margin * c.rolling_friction * impulses[k].normal;
+        const double give    = c.tangential_compliance;
+        const double turning = rolling_velocity(c, v) + c.rolling_term + give * impulses[k].rolling,
+                     bound   = coulomb_margin * c.rolling_friction * impulses[k].normal;
         const bool   rolls   = std::abs(impulses[k].rolling) > bound && impulses[k].rolling * turning < 0;
         const double rolling = rolls ? 0 : changes[k].rolling;
         work += rolling * turning;
-        change_of_work += rolling * rolling_velocity(c, w);
+        change_of_work += rolling * (rolling_velocity(c, w) + give * changes[k].rolling);
       }
     if (!(change_of_work > 0))
       return;

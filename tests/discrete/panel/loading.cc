@@ -356,6 +356,11 @@ namespace
     RecordProperty("nscd", std::to_string(mean_stress_ratio(nscd, 0.005)));
     RecordProperty("penalty", std::to_string(mean_stress_ratio(penalty, 0.005)));
     EXPECT_NEAR(mean_stress_ratio(penalty, 0.005), mean_stress_ratio(nscd, 0.005), 0.05);
+    options.method.method  = Method::compliant;
+    const Course compliant = loaded(small_sample(200), loading, options);
+    expect_ledgers_closed(compliant);
+    EXPECT_NEAR(mean_stress_ratio(compliant, 0.005), mean_stress_ratio(nscd, 0.005), 0.05);
+    options.method.method = Method::penalty;
 
     options.penalty.step_fraction = 1.2;
     EXPECT_LT(mean_stress_ratio(loaded(small_sample(200), loading, options), 0.005), 0.8 * mean_stress_ratio(penalty, 0.005));

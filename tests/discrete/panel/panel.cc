@@ -145,16 +145,19 @@ namespace
     EXPECT_EQ(a.back().mean_internal_moment, b.back().mean_internal_moment);
   }
 
-  // The rebound of the penalty method follows from its dashpots, and it has no contact problems.
-  TEST(Panel, KeysThatThePenaltyMethodWouldIgnoreAndStagesOutOfOrderAreRefused)
+  // The rebound of springs follows from their dashpots, and they have no problems of rigid contacts.
+  TEST(Panel, KeysThatSpringsWouldIgnoreAndStagesOutOfOrderAreRefused)
   {
-    Options springs       = quick_options();
-    springs.method.method = Method::penalty;
-    Options rebound = springs, problems = springs;
-    rebound.law.normal_restitution = 0.5;
-    problems.method.store_problems = true;
-    for (const Options &options : {rebound, problems})
-      EXPECT_THROW(Panel(small_sample(150), short_loading(), options), std::invalid_argument);
+    for (const Method method : {Method::penalty, Method::compliant})
+      {
+        Options springs       = quick_options();
+        springs.method.method = method;
+        Options rebound = springs, problems = springs;
+        rebound.law.normal_restitution = 0.5;
+        problems.method.store_problems = true;
+        for (const Options &options : {rebound, problems})
+          EXPECT_THROW(Panel(small_sample(150), short_loading(), options), std::invalid_argument);
+      }
     Loading loading = short_loading();
     loading.stages  = {0.01, 0.005};
     EXPECT_THROW(Panel(small_sample(150), loading, quick_options()), std::invalid_argument);

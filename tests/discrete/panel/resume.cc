@@ -149,6 +149,9 @@ namespace
     const Loading     loading = fast({0.001, 0.002, 0.003});
     const std::size_t n       = run_with_checkpoints(small_sample(80), loading, springs()).rows.size();
     expect_same_from(small_sample(80), loading, springs(), {0, 2, n / 2, n - 1});
+    Options implicit       = quick_options();
+    implicit.method.method = Method::compliant;
+    expect_same_from(small_sample(80), two_stages(), implicit, {0, 4, 10});
   }
 
   // Stages of 0.005, 0.01 - 0.005, ... are equal except for rounding, and so are their steps.
