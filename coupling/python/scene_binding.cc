@@ -9,6 +9,7 @@
 #include <pybind11/stl.h>
 
 #include "coupling/python/bindings.h"
+#include "coupling/scene/derived_keys.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
 #include "coupling/version.h"
@@ -111,6 +112,7 @@ namespace diptych::python
       .def("input_files", &coupling::input_files)
       .def("averaging_width", &coupling::averaging_width)
       .def("is_mirror_symmetric", &coupling::is_mirror_symmetric)
+      .def("cost_over_springs", &coupling::cost_over_springs)
       .def("loading_variable",
            [](const coupling::Scene &scene) {
              return std::string(discrete::name_of(discrete::loading_variable_of(scene.loading.mode)));

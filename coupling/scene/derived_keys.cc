@@ -222,6 +222,50 @@ namespace diptych::coupling
       {"comparison/parameters_from", "the origin of the default law if it was calibrated on such grains, otherwise nothing",
        [](Scene &s, const Given &given) { s.comparison.parameters_from = origin(s, given); }}};
 
+    // Accuracy of the strength at kn/P = 1e4: explicit springs, and implicit ones with the step of that accuracy
+    // (benchmarks/rigid_limit). From 4000 grains on the implicit ones cost two thirds of contact dynamics, or less.
+    constexpr double accuracy_of_springs = 0.01, accuracy_of_compliant = 0.02, grains_for_compliant = 4000;
+
+    // Empty if springs can replace contact dynamics in this scene.
+    std::string obstacle_to_springs(const Scene &scene)
+    {
+      const discrete::Options &o = scene.discrete;
+      if (!scene.sample.file.empty())
+        return "the number of grains in sample/file is unknown before the run";
+      if (scene.loading.mode == discrete::LoadingMode::time || !(scene.loading.pressure > 0))
+        return "the cost of springs was measured under pressure and along a strain";
+      if (o.law.normal_restitution != 0 || o.law.tangential_restitution != 0 || o.method.store_problems)
+        return "springs have neither restitution coefficients nor contact problems to store";
+      return "";
+    }
+
+    void choose_method(Scene &scene, const Given &given)
+    {
+      using discrete::Method;
+      discrete::Options &o = scene.discrete;
+      if (o.method.method != Method::automatic)
+        return;
+      const double accuracy = o.accuracy.accuracy, cost = cost_over_springs(scene, accuracy);
+      o.method.method     = Method::nscd;
+      scene.method_reason = accuracy < accuracy_of_springs
+                              ? "springs are right to " + discrete::exact_text(accuracy_of_springs) + " only"
+                              : obstacle_to_springs(scene);
+      if (!scene.method_reason.empty())
+        return;
+      if (accuracy >= accuracy_of_compliant && discrete::expected_grains(scene.sample) >= grains_for_compliant)
+        o.method.method = Method::compliant;
+      else if (cost > 1)
+        o.method.method = Method::penalty;
+      scene.method_reason = o.method.method == Method::compliant
+                              ? "from 4000 grains on it is the cheapest method that is right to 0.02"
+                              : "contact dynamics is expected to take " + discrete::exact_text(std::round(100 * cost) / 100) +
+                                  " of the CPU time of explicit springs";
+      if (o.method.method != Method::nscd && given.count("discrete/penalty_stiffness") == 0)
+        o.penalty.stiffness = 1e4;
+      if (o.method.method == Method::penalty && given.count("discrete/penalty_step_fraction") == 0)
+        o.penalty.step_fraction = 0.5;
+    }
+
     const DerivedKey *find(const std::string &key)
     {
       const auto found = std::find_if(std::begin(derived_keys), std::end(derived_keys),
@@ -240,10 +284,19 @@ namespace diptych::coupling
     return find(key)->rule;
   }
 
+  double cost_over_springs(const Scene &scene, const double accuracy)
+  {
+    if (!obstacle_to_springs(scene).empty())
+      return 0;
+    return 0.35 * std::pow(discrete::expected_grains(scene.sample) / 4000, 0.2) * std::pow(1e-3 / inertial_number(scene), 0.15) *
+           std::pow(0.02 / accuracy, 1.5);
+  }
+
   void derive_keys(Scene &scene, const Given &given)
   {
     for (const DerivedKey &key : derived_keys)
       if (given.count(key.name) == 0)
         key.derive(scene, given);
+    choose_method(scene, given);
   }
 } // namespace diptych::coupling

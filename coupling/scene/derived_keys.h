@@ -19,7 +19,13 @@ namespace diptych::coupling
   // Law of the continuum: from calibrations on dense samples with friction 0.2 to 0.8 (benchmarks/calibration/defaults), linear
   // in discrete/friction between them. Angles that are given change those that depend on them: start and dilatancy stay shares of
   // the peak.
+  //
+  // discrete/method = auto becomes nscd, compliant or penalty, the cheapest by benchmarks/rigid_limit.
   void derive_keys(Scene &scene, const std::set<std::string> &given);
+
+  // CPU time of contact dynamics / that of springs with kn/P = 1e4 and a step fraction of 0.5, within a factor of two
+  // (benchmarks/rigid_limit, size.csv and order.csv). 0 if springs cannot replace contact dynamics in this scene.
+  double cost_over_springs(const Scene &scene, double accuracy);
 
   // Largest inertial number of a loading that counts as quasi-static (benchmarks/studies/grains_inertia).
   constexpr double largest_quasi_static = 3e-3;

@@ -123,7 +123,8 @@ namespace diptych::coupling
     ComparisonOptions       comparison;
     OutputOptions           output;
 
-    std::vector<std::string> warnings; // from reading it: unused keys, doubtful values
+    std::string              method_reason; // of discrete/method = auto; the resolved scene states it
+    std::vector<std::string> warnings;      // from reading it: unused keys, doubtful values
   };
 
   // The sections of a scene, in their order: function(name, options). A new section needs an entry only here.

@@ -287,6 +287,9 @@ namespace diptych::coupling
   {
     std::ostringstream out;
     out << "# " << scene.name << ": every parameter, as it was used\n";
+    if (!scene.method_reason.empty())
+      out << "# discrete/method = auto became " << discrete::name_of(scene.discrete.method.method) << ": " << scene.method_reason
+          << '\n';
     Scene copy = scene;
     for_each_section(copy, [&](const char *section, auto &options) {
       std::vector<KeyDescription> keys;

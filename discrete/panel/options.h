@@ -15,13 +15,15 @@ namespace diptych::discrete
     nscd,      // Non-Smooth Contact Dynamics
     compliant, // the springs and dashpots of penalty, implicit over long steps
     penalty,   // explicit springs, dashpots and Coulomb friction (Cundall & Strack 1979)
-    imported   // no computation: frames of another code
+    imported,  // no computation: frames of another code
+    automatic  // one of the first three; coupling/scene/derived_keys.h replaces it before a run
   };
 
   constexpr auto choices(Method)
   {
     return std::array{std::pair{Method::nscd, "nscd"}, std::pair{Method::compliant, "compliant"},
-                      std::pair{Method::penalty, "penalty"}, std::pair{Method::imported, "imported"}};
+                      std::pair{Method::penalty, "penalty"}, std::pair{Method::imported, "imported"},
+                      std::pair{Method::automatic, "auto"}};
   }
 
   struct MethodOptions
@@ -35,10 +37,12 @@ namespace diptych::discrete
 
   template <class Visitor> void visit_parameters(MethodOptions &o, Visitor &&visitor)
   {
-    visitor("method", o.method, "-",
-            "nscd: Non-Smooth Contact Dynamics; compliant: the springs of `penalty`, implicit over long steps; penalty: explicit "
-            "springs, dashpots and Coulomb friction (Cundall & Strack 1979); "
-            "imported: no computation; the frames of another code are taken from `file`");
+    visitor(
+      "method", o.method, "-",
+      "nscd: Non-Smooth Contact Dynamics; compliant: the springs of `penalty`, implicit over long steps; penalty: explicit "
+      "springs, dashpots and Coulomb friction (Cundall & Strack 1979); imported: no computation; the frames of another code are "
+      "taken from `file`; auto: the cheapest of the first three at this size, speed and accuracy, springs with penalty_stiffness "
+      "1e4 unless given; the resolved scene states the choice and the reason");
     visitor("file", FileName{o.file}, "-",
             "imported: discrete.h5 of `diptych import`, with discrete.csv in the same folder; {seed} in the path stands for "
             "sample/seed, so "

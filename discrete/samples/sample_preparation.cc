@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <random>
 #include <stdexcept>
@@ -36,12 +35,18 @@ namespace diptych::discrete
       return UniformByNumber{o.radius_min, o.radius_max};
     }
 
-    // Quantiles in random order: the mean diameter is exact for every seed. [length]
-    std::vector<double> radii(const SampleOptions &o, const int n, std::mt19937_64 &random)
+    std::vector<double> sorted_radii(const SampleOptions &o, const int n)
     {
       std::vector<double> radius = radius_quantiles(distribution(o), n, RadiusScale::mean_diameter_one);
       for (double &r : radius)
         r *= o.mean_diameter;
+      return radius;
+    }
+
+    // In random order: the mean diameter is exact for every seed. [length]
+    std::vector<double> radii(const SampleOptions &o, const int n, std::mt19937_64 &random)
+    {
+      std::vector<double> radius = sorted_radii(o, n);
       for (int k = n - 1; k > 0; --k)
         std::swap(radius[k], radius[int(uniform(random) * (k + 1))]);
       return radius;
@@ -53,14 +58,6 @@ namespace diptych::discrete
       for (const double r : radius)
         area += M_PI * r * r;
       return area;
-    }
-
-    std::vector<double> typical_radii(const SampleOptions &o)
-    {
-      std::vector<double> radius = radius_quantiles(distribution(o), 1000, RadiusScale::mean_diameter_one);
-      for (double &r : radius)
-        r *= o.mean_diameter;
-      return radius;
     }
 
     Eigen::Vector2d sample_size(const SampleOptions &o, const double area)
@@ -175,26 +172,32 @@ namespace diptych::discrete
                            StepSetting                          setting,
                            const std::function<bool(int, int)> &progress)
     {
-      PreparedSample sample;
-      sample.state                  = std::move(start);
-      sample.step                   = setting.step;
+      // Forces have further to go in a large sample.
+      const double       longer = options.preparation_step ? 1 : std::sqrt(std::max(1., double(start.grains.size()) / 10000));
+      const int          steps  = std::max(1, int(std::lround(options.preparation_steps / longer)));
+      PreparedSample     sample{std::move(start), {}, setting.step, {}};
       PreparationReport &report     = sample.report;
       report.friction               = setting.law.friction;
-      setting.solver.stop_requested = [&] { return !progress(report.steps, std::max(report.steps, options.preparation_steps)); };
+      setting.solver.stop_requested = [&] { return !progress(report.steps, std::max(report.steps, steps)); };
+      StepSetting motion            = setting;
+      motion.step *= longer;
+      if (longer > 1) // position sweeps cannot remove the overlap that a residual leaves in large regions
+        motion.time.penetration_correction = PenetrationCorrection::soft_velocity;
       StepCache cache;
-      while (!report.quiet && report.steps < 10 * options.preparation_steps && progress(report.steps, options.preparation_steps))
+      while (!report.quiet && report.steps < 10 * steps && progress(report.steps, steps))
         {
-          sample.last_step        = advance(sample.state, setting, cache);
+          sample.last_step        = advance(sample.state, motion, cache);
           report.residual         = sample.last_step.solve.residual;
           report.unbalanced_force = sample.last_step.unbalanced_force;
           ++report.steps;
-          report.quiet = report.steps >= options.preparation_steps && report.residual <= options.preparation_tolerance &&
+          report.quiet = report.steps >= steps && report.residual <= options.preparation_tolerance &&
                          report.unbalanced_force <= options.quiet_unbalanced_force;
         }
+      scale_impulses(sample.state, 1 / longer);
       if (report.quiet)
         {
-          const SettlingOptions wanted{largest_prepared_overlap * options.mean_diameter, options.quiet_unbalanced_force,
-                                       options.preparation_steps, 10 * options.preparation_steps};
+          const SettlingOptions wanted{largest_prepared_overlap * options.mean_diameter, options.quiet_unbalanced_force, steps,
+                                       10 * steps};
           Settled settled         = settle(sample.state, setting, wanted, [&] { return progress(report.steps, report.steps); });
           report.quiet            = settled.quiet;
           report.settling_steps   = settled.steps;
@@ -216,15 +219,14 @@ namespace diptych::discrete
       State                  state = random_box(options, preparation.lateral);
       const RelaxationReport loose = relax_soft_discs(state, 1e-3 * options.mean_diameter, 4000, go_on);
       PreparedSample         sample;
-      sample.report.soft_overlap = loose.largest_overlap;
       if (loose.stopped)
+        sample.state = std::move(state);
+      else
         {
-          sample.state = std::move(state);
-          return sample;
+          state = numbered_upward(state);
+          set_sides(state, preparation);
+          sample = compact(state, options, compaction_setting(options, preparation, friction), progress);
         }
-      state = numbered_upward(state);
-      set_sides(state, preparation);
-      sample                     = compact(state, options, compaction_setting(options, preparation, friction), progress);
       sample.report.soft_overlap = loose.largest_overlap;
       return sample;
     }
@@ -314,7 +316,7 @@ namespace diptych::discrete
         throw WrongKeys({"sample/width", "sample/height"},
                         "sample/width and sample/height hold " + exact_text(std::round(n)) + " grains; allowed: 10 to 1e+07");
       const Eigen::Vector2d size = expected_size(o);
-      if (const double least = 2 * typical_radii(o).back(); !(size.minCoeff() >= least))
+      if (const double least = 2 * sorted_radii(o, 1000).back(); !(size.minCoeff() >= least))
         throw WrongKeys({"sample/width", "sample/height", "sample/width_over_height"},
                         "sample/width, height and width_over_height make a sample of " + exact_text(size.x()) + " x " +
                           exact_text(size.y()) + "; both must be at least the diameter of the largest grain, " +
@@ -326,13 +328,13 @@ namespace diptych::discrete
   {
     if (o.width <= 0 || o.height <= 0)
       return o.grains;
-    const std::vector<double> radius = typical_radii(o);
+    const std::vector<double> radius = sorted_radii(o, 1000);
     return o.width * o.height * o.solid_fraction / (disc_area(radius) / double(radius.size()));
   }
 
   Eigen::Vector2d expected_size(const SampleOptions &o)
   {
-    const std::vector<double> radius = typical_radii(o);
+    const std::vector<double> radius = sorted_radii(o, 1000);
     return sample_size(o, disc_area(radius) / double(radius.size()) * expected_grains(o));
   }
 

@@ -53,6 +53,24 @@ namespace
     EXPECT_EQ(scene_with({"continuum/element_size=8"}).comparison.coarse_element_size, 16);
   }
 
+  TEST(DerivedKeys, TheMethodFollowsFromSizeSpeedAndAccuracy)
+  {
+    using diptych::discrete::Method;
+    const auto chosen = [](const Words &more) {
+      Words words = {"discrete/method=auto"};
+      words.insert(words.end(), more.begin(), more.end());
+      return scene_with(words);
+    };
+    const Scene usual = chosen({"sample/grains=2000"}), slow = chosen({"loading/inertial_number=1e-5", "discrete/accuracy=0.01"});
+    EXPECT_EQ(usual.discrete.method.method, Method::nscd);
+    EXPECT_NE(resolved_text(usual).find("# discrete/method = auto became nscd: contact dynamics"), std::string::npos);
+    EXPECT_EQ(chosen({}).discrete.method.method, Method::compliant) << "4000 grains";
+    EXPECT_EQ(slow.discrete.method.method, Method::penalty);
+    EXPECT_EQ(slow.discrete.penalty.stiffness, 1e4);
+    EXPECT_EQ(chosen({"loading/inertial_number=1e-5", "discrete/accuracy=0.005"}).discrete.method.method, Method::nscd);
+    EXPECT_EQ(scene_with({}).method_reason, "");
+  }
+
   TEST(DerivedKeys, StagesDivideTheLoading)
   {
     const auto strain = [](const char *end) {

@@ -18,7 +18,7 @@ from .levels import LEAST_PAIRS, MOST_RATIO, Variances, numbers_for, predicted
 from .plan_errors import (COARSEST_ACCURACY, FINEST_ACCURACY, MOST_SAMPLES_OF_A_PLAN, Estimate, GrainErrors, cheapest_choice,
                           cost_at, half_interval, improved, relative_difference, rounded_to_two_digits, samples_for, summary_of)
 from .plan_question import Budget, PanelPlan, Part, Pilot, Question, RunPilot, Task, percent, planned
-from .plan_springs import may_pay, try_springs
+from .plan_springs import try_springs
 from .statistics import Statistics
 
 PILOT_SAMPLES, PAIRED_SAMPLES = 8, 4
@@ -70,7 +70,7 @@ class GrainsPlan:
                             for key in ("coarse_element_size", "band_resamples", "probe_resamples")]
         self.corrects = keys["discrete"]["penetration_correction"] != "none"
         self.preparation_steps = keys["sample"]["preparation_steps"]
-        self.springs_may_pay = may_pay(keys)
+        self.cost_over_springs = scene.cost_over_springs
         self.levels: list[Level] = []
         self.cheaper: dict[str, list[float]] = {}  # cheaper settings in use: effect on each quantity, with sign
         self.one_run = [0.0] * len(self.quantities)  # half an interval of a single run, for a single sample
@@ -94,7 +94,7 @@ class GrainsPlan:
                 choice = self._choose()
             two = self._two_levels(choice)
             self._conclude(*choice, two)
-            if self.springs_may_pay:
+            if self.cost_over_springs(choice[0]) > 0.5:
                 try_springs(self.plan, self.question, self.run, self.quantities)
         except _Unfinished:
             self.plan.reaches = False

@@ -1,8 +1,8 @@
 # diptych: whether springs are cheaper than contact dynamics for the grains of a plan
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The CPU time of contact dynamics grows with the number of grains n like n^1.9 to n^2.1, that of springs like n^1.1 to n^1.3.
-Both cost the same at about n = 4e4 (I / 1e-3)^0.7, where I is the inertial number (benchmarks/rigid_limit/size.py). From half
-of this number on, a plan runs one sample with springs, and takes them if they save time."""
+"""discrete/method = auto expects which method is cheaper at a size, speed and accuracy (coupling/scene/derived_keys.h). That
+estimate is right within a factor of two. Where springs may be cheaper, a plan runs one sample with them, and takes them if they
+save time."""
 
 from __future__ import annotations
 
@@ -16,16 +16,6 @@ SPRINGS = [planned("discrete/method", "penalty"), planned("discrete/penalty_stif
            planned("discrete/penalty_step_fraction", 0.5)]
 # Largest relative errors of these springs, measured bias and its standard error (benchmarks/rigid_limit/order.py).
 ERROR = {"strength": 0.01, "dilation": 0.04}
-
-
-def may_pay(keys: dict[str, Any]) -> bool:
-    """keys: the scene's. True from half of the number of grains on at which both methods cost the same."""
-    loading = keys["loading"]
-    inertial = loading["inertial_number"]
-    if loading["strain_rate"]:
-        sample = keys["sample"]
-        inertial = loading["strain_rate"] * sample["mean_diameter"] * (sample["density"] / loading["pressure"]) ** 0.5
-    return keys["sample"]["grains"] >= 0.5 * 4e4 * (inertial / 1e-3) ** 0.7
 
 
 def try_springs(plan: PanelPlan, question: Question, run: RunPilot, quantities: Sequence[dict[str, Any]]) -> None:
