@@ -21,7 +21,7 @@ import pandas as pd
 from ..arrays import Array
 from ..errors import NotConverged, SceneError, Stopped
 from .calibration_coordinates import Coordinates
-from .calibration_file import Calibration, Target, read_calibration
+from .calibration_file import Calibration, Target, is_element, read_calibration
 from .calibration_findings import (discrepancy_record, discrepancy_words, parameter_records, parameter_words, path_record,
                                    posterior_table, summary, write_calibration)
 from .calibration_grains import GrainRuns
@@ -245,7 +245,7 @@ def _check_target(calibration: Calibration, coordinates: Coordinates, target: Ta
         scene = read_target(target, [*calibration.fixed, *coordinates.settings(coordinates.start, target.name)])
     except SceneError as error:
         raise SceneError(f"{calibration.file}: with every parameter at its start: {error}; change start or set") from error
-    if not calibration.of_grains:
+    if not calibration.of_grains and not is_element(scene):
         importlib.import_module("diptych._continuum").require_continuum(scene)
     if not calibration.of_grains and scene.dict()["continuum"]["initial_stress"] == "mapped":
         raise SceneError(f"{target.scene}: continuum/initial_stress = mapped has no place in a calibration: one mesh serves "
@@ -256,7 +256,7 @@ def _check_target(calibration: Calibration, coordinates: Coordinates, target: Ta
     except ValueError as error:
         raise SceneError(place + str(error)) from error
     for kind in calibration.kinds:
-        if target.is_fitted and not target.curve and kind not in [one.kind for one in observables]:
+        if target.is_fitted and not (target.curve or is_element(scene)) and kind not in [one.kind for one in observables]:
             raise SceneError(f"{place}no bin or window of {kind} lies within its loading")
     for p in coordinates.parameters:
         if p.is_of(target.name) and p.key in (unused := scene.unused_keys()):

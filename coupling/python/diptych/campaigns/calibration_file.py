@@ -26,12 +26,16 @@ FAR = 1e12
 MOST_PARAMETERS = 12  # the starts are spread over at most so many directions
 KEYS_OF_THE_SEARCH = ("mesh", "element_size", "rectangle_width", "rectangle_height", "initial_step", "max_step")
 CURVE_COLUMNS = {"stress_ratio": "stress_ratio_deviation", "volumetric_strain": "volumetric_strain_deviation"}
+# The same in element.csv: means of samples of grains, and standard errors.
+OTHER_NAMES = {f"{name}{ending}": f"grains_{name}{other}" for name in CURVE_COLUMNS
+               for ending, other in (("", ""), ("_deviation", "_error"))}
+PRESCRIBED = 1e-9  # a smaller deviation: the path prescribes the quantity
 
 
 @dataclass
 class Target:
     """A loading path: one scene on several samples, on finished result folders, or with a measured curve instead of grains. A
-    curve and seeds: parameters of the grains are fitted to the curve."""
+    curve and seeds: parameters of the grains are fitted to the curve. An element test is a scene with loading/mode = path."""
 
     name: str
     scene: str
@@ -76,25 +80,34 @@ class Calibration:
         return self.parameters[0].setting[0] == "discrete"
 
     def observables_of(self, scene: _diptych.Scene, is_curve: bool = False) -> list[Observable]:
-        """Bins up to the end of the scene's loading, and windows of its comparison; a measured curve has no windows."""
+        """Bins up to the end of the scene's loading, and windows of its comparison; curves and element tests have no windows."""
         keys, found = scene.dict(), []
         for kind in self.kinds:
             edges = keys["comparison"]["window_edges"] if kind == "ln_width" else self.bins
             edges = [float(edge) for edge in (edges.split(",") if isinstance(edges, str) else edges)]
             found += [Observable(kind, low, high) for low, high in zip(edges, edges[1:])
-                      if not is_beyond(high, keys["loading"]["axial_strain"]) and not (is_curve and kind == "ln_width")]
+                      if not is_beyond(high, keys["loading"]["axial_strain"]) and not (kind == "ln_width" and (is_curve or is_element(scene)))]
         if not found:
             raise ValueError("no bin and no window lies within the loading; check bins and comparison/window_edges")
         return found
 
 
+def is_element(scene: _diptych.Scene) -> bool:
+    """True if the law's point follows the path, and not a boundary value problem."""
+    return scene.dict()["loading"]["mode"] == "path"
+
+
 def read_curve(file: str, bins: Sequence[tuple[float, float]] = ()) -> pd.DataFrame:
-    """A measured curve: axial_strain, stress_ratio (t/s), volumetric_strain and, where given, their deviations; compression
-    positive. Other columns are ignored. Warns of `bins` (low, high) in which nothing was measured. Raises SceneError with file,
-    line and column."""
+    """A measured curve: axial_strain or the progress of a path, stress_ratio (t/s), volumetric_strain and, where given, their
+    deviations; compression positive. Also element.csv, whose grains count; a quantity that its path prescribes is left out. Other
+    columns are ignored. Warns of `bins` (low, high) in which nothing was measured. Raises SceneError with file, line and column."""
     rows = read_table(file)
     allowed = ["axial_strain", *CURVE_COLUMNS, *CURVE_COLUMNS.values()]
-    table = pd.DataFrame({name: rows.numbers(name) for name in allowed if rows.has(name)})
+    names = {"axial_strain": ("progress", "axial_strain"), **{one[0]: one for one in OTHER_NAMES.items()}}
+    table = pd.DataFrame({name: rows.numbers(*both) for name, both in names.items() if rows.find(*both) is not None})
+    for name, deviation in CURVE_COLUMNS.items():
+        if rows.has(OTHER_NAMES[deviation]) and table[deviation].max() < PRESCRIBED:
+            table = table.drop(columns=[name, deviation])
     if not {"axial_strain", *CURVE_COLUMNS} & set(table) > {"axial_strain"}:
         raise SceneError(f"{file}: its columns are {', '.join(rows.columns)}; the line above the numbers must name "
                          f"axial_strain and stress_ratio or volumetric_strain; used are {', '.join(allowed)}")
@@ -102,7 +115,7 @@ def read_curve(file: str, bins: Sequence[tuple[float, float]] = ()) -> pd.DataFr
         rows.refuse(table[name] <= 0, lambda k: f"{name} = {table[name][k]:g} must be positive")
     strain = table["axial_strain"].to_numpy()
     rows.refuse(np.diff(strain, prepend=-np.inf) <= 0, lambda k: f"axial_strain = {strain[k]:g} must be larger than above it")
-    rows.refuse(strain >= 1, lambda k: f"axial_strain = {strain[k]:g}; give strains below 1, not per cent")
+    rows.refuse((strain >= 1) & (not rows.has("progress")), lambda k: f"axial_strain = {strain[k]:g}; give strains below 1, not per cent")
     if len(table) < 2:
         raise SceneError(f"{file}: a curve needs at least two rows of numbers")
     if "stress_ratio" in table and (table["stress_ratio"].mean() < 0 or table["stress_ratio"].abs().max() >= 1):

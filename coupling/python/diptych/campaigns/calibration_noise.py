@@ -53,12 +53,13 @@ class Noise:
 class Data:
     """The samples of one path. values: (samples, observables), NaN if a sample has none. given: (observables) deviations that a
     measured curve brings, NaN where it brings none. runs: number of samples of grains that are compared with the data in their
-    mean; 0: a continuum without scatter."""
+    mean; 0: a continuum without scatter. own: the scatter of one sample of this path; None: that of the calibration."""
 
     observables: Sequence[Observable]
     values: Array
     given: Array | None = None
     runs: int = 0
+    own: Noise | None = None
     mean: Array = field(init=False)  # over the samples that have it; NaN if less than half do
     count: Array = field(init=False)
 
@@ -120,6 +121,7 @@ def _width_square(paths: Iterable[Data]) -> float:
 def noise_of(paths: Sequence[Data], given: Noise) -> Noise:
     """Fills in the deviations that are not given: the scatter within every path, pooled. Raises ValueError if some are needed
     and cannot be estimated."""
+    paths = [path for path in paths if path.own is None]
     squares = dict(zip(("stress_level", "stress_shape"), _stress_squares(paths)))
     squares.update(zip(("volume_start", "volume_growth"), _volume_squares(paths)), ln_width=_width_square(paths))
     needed = [key for kind, keys in ESTIMATED.items() for key in keys  # else this kind is measured with deviations, or missing
@@ -135,7 +137,7 @@ def noise_of(paths: Sequence[Data], given: Noise) -> Noise:
 
 def covariance(noise: Noise, data: Data) -> Array:
     """(observables, observables): covariance of one sample."""
-    x = data.middles
+    x, noise = data.middles, data.own or noise
     near = np.exp(-np.abs(x[:, None] - x) / noise.correlation_strain)
     result = np.zeros_like(near)
     for kind, form in (("stress_ratio", noise.stress_level**2 + noise.stress_shape**2 * near),
@@ -166,7 +168,8 @@ def discrepancy(noise: Noise, data: Data) -> Array:
 def working_weights(noise: Noise, data: Data) -> Array:
     """(observables): 1 / (scatter of the mean + model tolerance), or 0 if the mean is NaN. The scatter common to all bins is
     left out of the weights: a fit with it can lie below every data point (Peelle's puzzle)."""
-    variance = discrepancy(noise, data) + np.diag(covariance_of_mean(replace(noise, stress_level=0.0), data))
+    level_free = replace(noise, stress_level=0.0), replace(data, own=data.own and replace(data.own, stress_level=0.0))
+    variance = discrepancy(noise, data) + np.diag(covariance_of_mean(*level_free))
     return np.where(np.isfinite(data.mean) & (variance > 0), 1 / np.where(variance > 0, variance, 1), 0.0)
 
 
@@ -195,5 +198,6 @@ class FittedData:
     def of_scatter(self, keys: Sequence[str]) -> Array:
         """(n, n): the part of it due to these deviations of one sample."""
         noise = replace(self.noise, **{key: 0.0 for of_kind in ESTIMATED.values() for key in of_kind if key not in keys})
-        known = [replace(path, given=np.where(np.isfinite(path.given), 0.0, np.nan)) for path in self.paths]  # not scatter
+        known = [replace(path, given=np.where(np.isfinite(path.given), 0.0, np.nan), own=path.own and Noise(0, 0, 0, 0, 0))
+                 for path in self.paths]  # not this scatter
         return scipy.linalg.block_diag(*[covariance_of_mean(noise, path) for path in known])

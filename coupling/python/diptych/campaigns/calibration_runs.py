@@ -1,7 +1,7 @@
 # diptych: the runs of a calibration and their observables
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Grains of every target are run or read; a measured curve stands instead of them. The continuum runs on one outline per
-path."""
+path. The law's point follows the path of an element test."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ import pandas as pd
 from .. import _diptych, operators
 from ..arrays import Array
 from ..errors import NotConverged, SceneError, Stopped
-from .calibration_file import CURVE_COLUMNS, Calibration, Target, read_curve
-from .calibration_noise import Data, Noise, Observable, covariance
+from .calibration_file import CURVE_COLUMNS, Calibration, Target, is_element, read_curve
+from .calibration_noise import Data, Noise, Observable, covariance, noise_of
 from .calibration_search import NORMAL
 from .engine import Options
 from .folders import Runs, SceneRun, read_json
@@ -150,7 +150,7 @@ class CalibrationRuns:
             record = self.runs.path(run, "/provenance.json")
             if run.name not in self._counted and os.path.exists(record):
                 self._counted.add(run.name)
-                self.cpu_s[run.command] += sum(phase["cpu_s"] for phase in read_json(record)["phases"])
+                self.cpu_s["discrete" if run.command == "discrete" else "continuum"] += sum(phase["cpu_s"] for phase in read_json(record)["phases"])
         return [self._failure_of(run) for run in runs]
 
     def _failure_of(self, run: SceneRun) -> str:
@@ -200,20 +200,26 @@ class CalibrationRuns:
             return Path(target, scene, Data(observables, sample.values, deviations), [sample], [""] * len(observables))
         samples = [self._observed(target, scene, observables, folder)
                    for folder in target.results or self._grains(target, target.seeds)]
-        return Path(target, scene, Data(observables, [s.values for s in samples]), samples, [""] * len(observables))
+        data = Data(observables, [s.values for s in samples])
+        if is_element(scene) and len(samples) > 1:  # a cell scatters more or less than the samples of other targets
+            data.own = noise_of([data], Noise())
+        return Path(target, scene, data, samples, [""] * len(observables))
 
     def _observed(self, target: Target, scene: _diptych.Scene, observables: Sequence[Observable], folder: str) -> Observation:
         table = panel_table(folder, "discrete")
         reached = 0.0 if table is None else float(table["progress"].iloc[-1])
         if is_beyond(observables[0].high, reached) or is_beyond(scene.dict()["loading"]["axial_strain"], reached):
             raise SceneError(f"{self.calibration.file}: target '{target.name}': {folder} ends at {reached:g}, before the end "
-                             "of its "
-                             "loading")
+                             "of its loading")
+        o = observe_history(scene, observables, table)
+        if is_element(scene):
+            self.outlines.setdefault(target.name, Outline(np.nan, np.nan, float(table["solid_fraction"].iloc[0]), [], ""))
+            return o
         snapshots = _diptych.read_grains(folder).snapshots
         if target.name not in self.outlines:
             self.outlines[target.name] = self._outline(target, scene, observables, snapshots)
         frames = self.outlines[target.name].frames
-        return add_bands(observe_history(scene, observables, table), scene, observables, snapshots, frames, True)
+        return add_bands(o, scene, observables, snapshots, frames, True)
 
     def paths(self) -> list[Path]:
         """The grains of every target, run or read, with what they show."""
@@ -237,13 +243,15 @@ class CalibrationRuns:
         def add(section: str, **keys: Any) -> None:
             here.extend(Setting(section, key, str(value), "the calibration") for key, value in keys.items())
 
-        if not fine:
+        is_point = is_element(path.scene)
+        if not fine and not is_point:
             add("continuum", mesh="rectangle", rectangle_width=outline.width, rectangle_height=outline.height,
                 element_size=self.calibration.coarse_element_size)
         elif outline.mesh:
             add("continuum", mesh=outline.mesh)
         add("continuum", initial_step=load_step, max_step=load_step)
-        add("comparison", coarse_element_size=0)
+        if not is_point:
+            add("comparison", coarse_element_size=0)
         here.extend(point)
         material = path.scene.dict()["continuum"]
         hardening = next((one.value for one in reversed(point) if one.key == "hardening"), material["hardening"])
@@ -256,6 +264,8 @@ class CalibrationRuns:
         if failure:
             return Observation(np.full(len(observables), np.nan), failure=failure)
         folder = self.runs.path(run)
+        if is_element(path.scene):
+            return observe_history(path.scene, observables, panel_table(folder, "material_point"))
         o = observe_history(path.scene, observables, panel_table(folder, "continuum"))
         return add_bands(o, path.scene, observables, _diptych.read_nodes(folder).snapshots,
                          self.outlines[path.target.name].frames, False)
@@ -263,7 +273,8 @@ class CalibrationRuns:
     def evaluate(self, paths: Sequence[Path], points: Sequence[Sequence[Sequence[Setting]]], fine: bool,
                   load_step: float) -> list[list[Observation]]:
         """Runs the continuum with points[point][path]; returns [point][path]."""
-        runs = [scene_run(path.target.scene, "continuum", self._settings(path, settings, fine, load_step))
+        runs = [scene_run(path.target.scene, "material-point" if is_element(path.scene) else "continuum",
+                          self._settings(path, settings, fine, load_step))
                 for point in points for path, settings in zip(paths, point)]
         seen = [self._observed_continuum(path, run, failure)
                 for path, run, failure in zip(list(paths) * len(points), runs, self._do(runs))]
@@ -272,7 +283,11 @@ class CalibrationRuns:
 
 def read_target(target: Target, more: Sequence[Setting] = ()) -> _diptych.Scene:
     """The scene of a target with its settings and more. Raises SceneError."""
-    scene = _diptych.read_changed_scene(target.scene, [*target.settings, *more], not target.curve)
+    scene = _diptych.read_changed_scene(target.scene, [*target.settings, *more], False)
+    if is_element(scene):
+        return scene
+    if not target.curve:
+        scene = _diptych.read_changed_scene(target.scene, [*target.settings, *more], True)
     mesh, mode = scene.dict()["continuum"]["mesh"], scene.dict()["loading"]["mode"]
     if target.curve and not target.seeds and mesh != "rectangle":
         raise SceneError(f"{target.scene}: continuum/mesh = {mesh}: a measured curve has no grains with an outline; set "
