@@ -19,10 +19,12 @@ from ..errors import SceneError
 from ..importers import read_table
 from .calibration_coordinates import COORDINATES, USUAL, Parameter
 from .calibration_noise import KINDS, Noise, Observable
+from .calibration_profiles import PROFILE, STRIPS
 from .histories import is_beyond
 from .input_file import Part, Setting, is_number, name_of, value_text
 
 FAR = 1e12
+OF_BANDS = ("ln_width", PROFILE)  # taken in the windows of the comparison
 MOST_PARAMETERS = 12  # the starts are spread over at most so many directions
 KEYS_OF_THE_SEARCH = ("mesh", "element_size", "rectangle_width", "rectangle_height", "initial_step", "max_step")
 CURVE_COLUMNS = {"stress_ratio": "stress_ratio_deviation", "volumetric_strain": "volumetric_strain_deviation"}
@@ -83,10 +85,13 @@ class Calibration:
         """Bins up to the end of the scene's loading, and windows of its comparison; curves and element tests have no windows."""
         keys, found = scene.dict(), []
         for kind in self.kinds:
-            edges = keys["comparison"]["window_edges"] if kind == "ln_width" else self.bins
+            if kind in OF_BANDS and (is_curve or is_element(scene)):
+                continue
+            edges = keys["comparison"]["window_edges"] if kind in OF_BANDS else self.bins
             edges = [float(edge) for edge in (edges.split(",") if isinstance(edges, str) else edges)]
-            found += [Observable(kind, low, high) for low, high in zip(edges, edges[1:])
-                      if not is_beyond(high, keys["loading"]["axial_strain"]) and not (kind == "ln_width" and (is_curve or is_element(scene)))]
+            found += [Observable(kind, low, high, *strip) for low, high in zip(edges, edges[1:])
+                      if not is_beyond(high, keys["loading"]["axial_strain"])
+                      for strip in (zip(STRIPS, STRIPS[1:]) if kind == PROFILE else [()])]
         if not found:
             raise ValueError("no bin and no window lies within the loading; check bins and comparison/window_edges")
         return found
@@ -99,8 +104,9 @@ def is_element(scene: _diptych.Scene) -> bool:
 
 def read_curve(file: str, bins: Sequence[tuple[float, float]] = ()) -> pd.DataFrame:
     """A measured curve: axial_strain or the progress of a path, stress_ratio (t/s), volumetric_strain and, where given, their
-    deviations; compression positive. Also element.csv, whose grains count; a quantity that its path prescribes is left out. Other
-    columns are ignored. Warns of `bins` (low, high) in which nothing was measured. Raises SceneError with file, line and column."""
+    deviations; compression positive. Also element.csv, whose grains count; a quantity that its path prescribes is left out.
+    Other columns are ignored. Warns of `bins` (low, high) in which nothing was measured. Raises SceneError with file, line and
+    column."""
     rows = read_table(file)
     allowed = ["axial_strain", *CURVE_COLUMNS, *CURVE_COLUMNS.values()]
     names = {"axial_strain": ("progress", "axial_strain"), **{one[0]: one for one in OTHER_NAMES.items()}}
@@ -115,7 +121,8 @@ def read_curve(file: str, bins: Sequence[tuple[float, float]] = ()) -> pd.DataFr
         rows.refuse(table[name] <= 0, lambda k: f"{name} = {table[name][k]:g} must be positive")
     strain = table["axial_strain"].to_numpy()
     rows.refuse(np.diff(strain, prepend=-np.inf) <= 0, lambda k: f"axial_strain = {strain[k]:g} must be larger than above it")
-    rows.refuse((strain >= 1) & (not rows.has("progress")), lambda k: f"axial_strain = {strain[k]:g}; give strains below 1, not per cent")
+    if not rows.has("progress"):
+        rows.refuse(strain >= 1, lambda k: f"axial_strain = {strain[k]:g}; give strains below 1, not per cent")
     if len(table) < 2:
         raise SceneError(f"{file}: a curve needs at least two rows of numbers")
     if "stress_ratio" in table and (table["stress_ratio"].mean() < 0 or table["stress_ratio"].abs().max() >= 1):
@@ -265,12 +272,13 @@ def read_calibration(file: str, contents: Mapping[str, Any] | None = None) -> Ca
         root.refuse(f" = '{', '.join(kinds)}' is not allowed; use some of {', '.join(KINDS)}", "quantities")
     root.demand_distinct("quantities", kinds)
     bins = [part.value for part in root.list("bins")]
+    has_bins = not set(kinds) <= set(OF_BANDS)
     ascend = len(bins) > 1 and all(map(is_number, bins)) and bins[0] >= 0 and np.all(np.diff(bins) > 0)
-    if kinds != ["ln_width"] and not ascend:
+    if has_bins and not ascend:
         root.refuse(f" = {bins} is not allowed; give at least two edges that ascend from 0 or above", "bins")
     for target in targets:
         if target.curve:
-            read_curve(target.curve, list(zip(bins, bins[1:])) if kinds != ["ln_width"] else [])
+            read_curve(target.curve, list(zip(bins, bins[1:])) if has_bins else [])
     parameters = [_parameter(part, targets) for part in root.list("parameters")]
     if not 0 < len(parameters) <= MOST_PARAMETERS:
         root.refuse(f" is missing or empty; name 1 to {MOST_PARAMETERS} keys to be fitted", "parameters")
