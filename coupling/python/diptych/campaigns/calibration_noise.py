@@ -152,19 +152,20 @@ def _width_square(paths: Iterable[Data]) -> float:
 
 
 def _profile_squares(paths: Iterable[Data]) -> tuple[float, float]:
-    """Variance of ln(width), from the stretch of every window; and the factor of the noise, from what it leaves."""
+    """Variance of ln(width), from the mean stretch of all windows of a sample; and the factor of the noise, from the rest."""
     stretch = left = freedom = strips = 0.0
     for path in paths:
-        _, mode, variance = path.shapes()
+        (_, mode, variance), common = path.shapes(), []
         for at in path.windows():
             n = path.count[at].min() - 1
             if n < 1 or not variance[at].all():
                 continue
             off, filter_ = np.nan_to_num(path.values[:, at] - path.mean[at]), mode[at] / variance[at]
-            own = off @ filter_ / (mode[at] @ filter_)
-            stretch += (own**2).sum()
-            left += ((off - np.outer(own, mode[at])) ** 2 / variance[at]).sum()
-            freedom, strips = freedom + n, strips + n * (len(at) - 1)
+            common.append(off @ filter_ / (mode[at] @ filter_))
+            left += ((off - np.outer(common[-1], mode[at])) ** 2 / variance[at]).sum()
+            strips += n * (len(at) - 1)
+        if common:
+            stretch, freedom = stretch + (np.mean(common, axis=0) ** 2).sum(), freedom + len(path.values) - 1
     return (stretch / freedom, left / strips) if freedom else (np.nan, np.nan)
 
 
