@@ -17,10 +17,11 @@ namespace diptych::discrete
   struct ContactForce
   {
     int             i, j;
-    Eigen::Vector2d point;     // contact point [length]
-    Eigen::Vector2d normal;    // unit, from j to i
-    Eigen::Vector2d force;     // on i = impulse / step [pressure * length, unit thickness]
-    double          shift = 0; // x of the touching image of j minus x of j; not 0 only across the edge of a periodic cell
+    Eigen::Vector2d point;      // contact point [length]
+    Eigen::Vector2d normal;     // unit, from j to i
+    Eigen::Vector2d force;      // on i = impulse / step [pressure * length, unit thickness]
+    double          shift  = 0; // x of the touching image of j minus x of j; not 0 only across the edge of a periodic cell
+    double          couple = 0; // of rolling resistance on i, counter-clockwise; the opposite acts on j [pressure * length^2]
   };
 
   enum class ContactStatus : std::uint8_t
@@ -75,11 +76,12 @@ namespace diptych::discrete
     std::vector<ContactForce> window_forces;
     double                    window_time = 0; // 0: the window has not started
 
-    // Friction dissipation of each entry of window_forces, summed over the steps of the window [energy, unit thickness]. It is
-    // zero if the window has not started, and empty if a file does not contain it. One step contributes -r_t (u_t + u_t')/2: the
-    // work of the tangential impulse on the mean velocity (penalty: the work of sliding). The ledger sums the same terms, so all
-    // entries of all windows add up to friction_dissipation of discrete.csv. The law only requires -r_t (u_t' + e_t u_t) >= 0.
-    // Single entries may therefore be negative unless e_t = 1 (discrete/notes/energy.md).
+    // Dissipation by friction and rolling resistance of each entry of window_forces, summed over the steps of the window [energy,
+    // unit thickness]. It is zero if the window has not started, and empty if a file does not contain it. One step contributes
+    // -r_t (u_t + u_t')/2 - r_m (w + w')/2: the work of tangential impulse and couple on the mean velocity (penalty: the work of
+    // sliding and of rolling at the bound). The ledger sums the same terms, so all entries of all windows add up to
+    // friction_dissipation + rolling_dissipation of discrete.csv. The law only requires -r_t (u_t' + e_t u_t) >= 0 and -r_m w' >=
+    // 0. Single entries may therefore be negative (discrete/notes/energy.md).
     std::vector<double> window_dissipation;
     std::vector<double> window_impact_dissipation; // the same for -r_n (u_n + u_n')/2: impact_dissipation of discrete.csv
 

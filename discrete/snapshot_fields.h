@@ -44,6 +44,7 @@ namespace diptych::discrete
     visit("force", c.force, "pressure length", "force on the first body");
     visit("image_shift", c.shift, "length",
           "x of the touching image of the second body minus x of that body; not 0 only across the edge of a periodic cell");
+    visit("couple", c.couple, "pressure length^2", "couple of rolling resistance on the first body, counter-clockwise");
   }
   inline constexpr char contact_bodies[] =
     "two body numbers per contact: grains count from 0, walls from the number of grains on";
@@ -61,7 +62,7 @@ namespace diptych::discrete
     visit("contacts/gap", s.gap, "length", "distance of the surfaces; negative: penetration");
     visit("contacts/status", s.status, "-", "0 open, 1 sticking, 2 slipping, 3 unknown (imported)");
     visit("window/dissipation", s.window_dissipation, "pressure length^2",
-          "friction dissipation, summed over the steps of the stage");
+          "dissipation by friction and rolling resistance, summed over the steps of the stage");
     visit("window/impact_dissipation", s.window_impact_dissipation, "pressure length^2",
           "dissipation along the normal, summed over the steps of the stage");
   }

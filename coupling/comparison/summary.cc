@@ -52,7 +52,8 @@ namespace diptych::coupling
         return NAN;
       const auto   first   = std::upper_bound(progress.begin(), progress.end(), early_strain) - progress.begin();
       const auto   growth  = [&](const char *name) { return column(h, name).back() - column(h, name)[std::size_t(first)]; };
-      const double impacts = growth("impact_dissipation"), sum = impacts + growth("friction_dissipation");
+      const double impacts = growth("impact_dissipation"),
+                   sum     = impacts + growth("friction_dissipation") + growth("rolling_dissipation");
       return sum > 0 ? impacts / sum : NAN;
     }
 

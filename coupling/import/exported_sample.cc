@@ -89,6 +89,7 @@ namespace diptych::coupling
       std::ostringstream out = exact_stream();
       out
         << "# Discs of sample.data between walls at rest, springs kn = 1e4 P (rigid grains have none), dashpots near critical.\n"
+        << (law.rolling_friction > 0 ? "# They roll freely here; `rolling sds` of pair_style granular resists rolling.\n" : "")
         << "units si\ndimension 2\nboundary f f p\nnewton off\ncomm_modify vel yes\natom_style sphere\nread_data sample.data\n"
         << "set group all density/disc " << rho << "\n"
         << "variable kn equal " << kn << "\nvariable kt equal 0.8*${kn}\nvariable gn equal " << damping

@@ -183,7 +183,8 @@ namespace diptych::coupling
       row.rattlers             = int(std::count(s.rattler.begin(), s.rattler.end(), 1));
       row.kinetic_energy       = kinetic_energy(f);
       row.kinetic_energy_ratio = row.friction_dissipation = row.impact_dissipation = row.external_work = not_told;
-      row.correction_work = row.energy_residual = row.momentum_residual = row.residual = row.skew_moment = not_told;
+      row.correction_work = row.rolling_dissipation = row.energy_residual = row.momentum_residual = row.residual =
+        row.skew_moment                                                                           = not_told;
       row.inertial_number = row.spin_term_share = not_told;
       row.max_penetration                       = arrival.checks[k].largest_overlap;
       row.unbalanced_force                      = f.contacts.empty() ? not_told : unbalanced_force(f);

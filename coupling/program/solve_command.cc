@@ -30,9 +30,10 @@ namespace diptych::coupling
     // The form asked for, by default the better one that the file has.
     discrete::ProblemForm form_of(const CommandLine &line, const discrete::StoredProblem &problem)
     {
-      if (line.solve.form == discrete::ProblemForm::body && !problem.bodies)
-        throw std::invalid_argument("--form body: " + line.target + " has no such form: " + problem.reason);
-      return line.solve.form.value_or(problem.form);
+      const discrete::ProblemForm form = line.solve.form.value_or(problem.form);
+      if (const std::string obstacle = problem.obstacle(form); !obstacle.empty())
+        throw std::invalid_argument("--form " + name_of(form) + ": " + line.target + " has no such form: " + obstacle);
+      return form;
     }
 
     void print_problem(const CommandLine &line, const discrete::StoredProblem &problem, const discrete::ProblemForm form)
@@ -69,13 +70,13 @@ namespace diptych::coupling
 
     void print_result(const CommandLine                    &line,
                       const discrete::SolveReport          &report,
-                      const discrete::DelassusProblem      &local,
+                      const discrete::StoredProblem        &problem,
                       const std::vector<discrete::Impulse> &r)
     {
       const double sweeps = double(std::max(1l, report.sweeps)), updates = sweeps * double(std::max<std::size_t>(1, r.size()));
       std::cout << "solver: " << discrete::name_of(line.solve.solver) << "\ntolerance: " << line.solve.tolerance
                 << "\nsweeps: " << report.sweeps << "\nresidual: " << report.residual
-                << "\nsiconos_residual: " << siconos_residual(local, r) << "\ncpu_s: " << report.cpu_s
+                << "\nsiconos_residual: " << problem.siconos_residual(r) << "\ncpu_s: " << report.cpu_s
                 << "\nus_per_sweep: " << 1e6 * report.cpu_s / sweeps << "\nns_per_update: " << 1e9 * report.cpu_s / updates
                 << "\nstatus: " << status_of(report) << std::endl;
     }
@@ -101,12 +102,11 @@ namespace diptych::coupling
     const discrete::SolveReport report = form == discrete::ProblemForm::body ? discrete::solve(*problem.bodies, options, r, team)
                                                                              : discrete::solve(problem.local, options, r);
     print_problem(line, problem, form);
-    print_result(line, report, problem.local, r);
+    print_result(line, report, problem, r);
     if (!line.output.empty())
       discrete::write_solution(line.target, line.output,
-                               {r, relative_velocities(problem.local, r),
-                                discrete::name_of(line.solve.solver) + ", " + name_of(form) + " form", status_of(report),
-                                report.residual});
+                               {r, problem.velocities(r), discrete::name_of(line.solve.solver) + ", " + name_of(form) + " form",
+                                status_of(report), report.residual});
     return report.status == discrete::SolveStatus::converged ? done : not_converged;
   }
 } // namespace diptych::coupling

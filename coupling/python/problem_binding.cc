@@ -49,16 +49,23 @@ namespace diptych::python
       return own(std::move(rows));
     }
 
-    py::dict solution(const discrete::SolveReport &report, const discrete::DelassusProblem &problem, const Impulses &r)
+    py::dict solution(const discrete::SolveReport &report, const discrete::StoredProblem &problem, const Impulses &r)
     {
       py::dict dict;
       dict["status"]           = discrete::name_of(report.status);
       dict["sweeps"]           = report.sweeps;
       dict["residual"]         = report.residual;
-      dict["siconos_residual"] = discrete::siconos_residual(problem, r);
+      dict["siconos_residual"] = problem.siconos_residual(r);
       dict["cpu_s"]            = report.cpu_s;
       dict["r"]                = columns_of(r);
-      dict["u"]                = columns_of(discrete::relative_velocities(problem, r));
+      dict["u"]                = columns_of(problem.velocities(r));
+      if (problem.rolls)
+        {
+          std::vector<double> rolling;
+          for (const discrete::Impulse &each : r)
+            rolling.push_back(each.rolling);
+          dict["rolling"] = own(std::move(rolling));
+        }
       return dict;
     }
 
@@ -72,8 +79,8 @@ namespace diptych::python
       const auto                    wanted  = form ? discrete::value_of<discrete::ProblemForm>(*form) : problem.form;
       if (!wanted)
         throw std::invalid_argument("form = '" + *form + "' is not allowed; use body or local");
-      if (wanted == discrete::ProblemForm::body && !problem.bodies)
-        throw std::invalid_argument("form = 'body': " + path + " has no such form: " + problem.reason);
+      if (const std::string obstacle = problem.obstacle(*wanted); !obstacle.empty())
+        throw std::invalid_argument("form = '" + discrete::name_of(*wanted) + "': " + path + " has no such form: " + obstacle);
       Impulses              r = first_guess(guess, problem.local.n_contacts());
       discrete::SolveReport report;
       {
@@ -81,7 +88,7 @@ namespace diptych::python
         report = wanted == discrete::ProblemForm::body ? discrete::solve(*problem.bodies, options, r)
                                                        : discrete::solve(problem.local, options, r);
       }
-      return solution(report, problem.local, r);
+      return solution(report, problem, r);
     }
 
     // w: indptr, indices and data of SciPy's csr_matrix.
@@ -116,12 +123,13 @@ namespace diptych::python
       for (long row = 0; row < n; ++row)
         if (!(matrix.coeff(row, row) > 0))
           throw std::invalid_argument("W[" + std::to_string(row) + ", " + std::to_string(row) + "] must be positive");
-      const discrete::DelassusProblem problem = discrete::delassus_problem(matrix, as_vector(velocity), as_vector(mu));
-      Impulses                        r       = first_guess(guess, mu.size());
-      discrete::SolveReport           report;
+      discrete::StoredProblem problem;
+      problem.local           = discrete::delassus_problem(matrix, as_vector(velocity), as_vector(mu));
+      Impulses              r = first_guess(guess, mu.size());
+      discrete::SolveReport report;
       {
         const py::gil_scoped_release release;
-        report = discrete::solve(problem, options, r);
+        report = discrete::solve(problem.local, options, r);
       }
       return solution(report, problem, r);
     }

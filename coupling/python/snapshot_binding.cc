@@ -112,6 +112,8 @@ namespace diptych::python
       bind_contact_member(type, "force", &discrete::ContactForce::force, "(n, 2) [pressure length]: on i");
       bind_contact_member(type, "shift", &discrete::ContactForce::shift,
                           "(n) [length]: x of the image of j that touches i minus x of j");
+      bind_contact_member(type, "couple", &discrete::ContactForce::couple,
+                          "(n) [pressure length^2]: couple on i, counter-clockwise; the opposite acts on j");
       type.def("__len__", [](const ContactList &list) { return list.entries().size(); });
       const auto beside = [&](const char *name, const bool of_window, const char *text, const auto &values) {
         type.def_property_readonly(

@@ -118,7 +118,8 @@ namespace diptych::coupling
                             "continuum/internal_length",
                             "continuum/couple_shear_ratio"};
 
-    // True if the default law was calibrated on such grains: friction, grading, preparation, number, sides, speed, platens.
+    // True if the default law was calibrated on such grains: friction, grading, preparation, number, sides, speed, platens; no
+    // rolling resistance.
     bool default_law_suits(const Scene &scene)
     {
       const discrete::SampleOptions &o = scene.sample;
@@ -128,7 +129,8 @@ namespace diptych::coupling
                             o.radius_distribution == discrete::RadiusKind::uniform_by_number && o.radius_min >= 0.25 &&
                             o.radius_min <= 0.35 && n >= 1000 && n <= 2500;
       const bool is_like = f >= calibrated.front().friction && f <= calibrated.back().friction &&
-                           scene.discrete.law.platen_friction >= f && scene.discrete.method.method == discrete::Method::nscd &&
+                           scene.discrete.law.platen_friction >= f && scene.discrete.law.rolling_friction == 0 &&
+                           scene.discrete.method.method == discrete::Method::nscd &&
                            scene.discrete.lateral.lateral == discrete::Lateral::end_grains &&
                            scene.loading.mode == discrete::LoadingMode::descent && inertial_number(scene) <= largest_quasi_static;
       return is_dense && is_like && c.platens == continuum::Platens::rough &&

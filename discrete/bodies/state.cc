@@ -37,6 +37,8 @@ namespace diptych::discrete
         r.tangential *= factor;
         r.normal_change *= factor * factor;
         r.tangential_change *= factor * factor;
+        r.rolling *= factor;
+        r.rolling_change *= factor * factor;
       }
   }
 } // namespace diptych::discrete

@@ -120,6 +120,7 @@ namespace diptych::discrete
     int    i, j; // i < j
     double normal, tangential;
     double normal_change = 0, tangential_change = 0; // since the previous step; 0 if the pair did not act then
+    double rolling = 0, rolling_change = 0;          // couple / effective radius
   };
 
   struct State

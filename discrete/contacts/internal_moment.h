@@ -13,12 +13,14 @@ namespace diptych::discrete
 {
   // M_i = -sym(sum_c l_c f_c^T) - (1/2) J_i omega_i^2 Id, l_c = x_c - x_i, summed over the contacts c of grain i (Moreau 1997,
   // eq. 6). J_i is the moment of inertia and Id the identity. Positive in compression [pressure x length^2]. Forces that act at
-  // the centre contribute nothing. `spin_term` is (1/2) J_i omega_i^2 of each grain, or its mean over a range of time.
+  // the centre contribute nothing, nor do the couples of contacts: these only change the skew part. `spin_term` is (1/2) J_i
+  // omega_i^2 of each grain, or its mean over a range of time.
   std::vector<Eigen::Matrix2d> internal_moments(const std::vector<Eigen::Vector2d> &position,
                                                 const std::vector<ContactForce>    &forces,
                                                 const std::vector<double>          &spin_term);
 
-  // Moment about the centre before symmetrisation. Its skew part is half the unbalanced couple of the grain.
+  // Moment about the centre before symmetrisation. Its skew part is half the unbalanced couple of the grain, couples of contacts
+  // included.
   std::vector<Eigen::Matrix2d> raw_contact_moments(const std::vector<Eigen::Vector2d> &position,
                                                    const std::vector<ContactForce>    &forces);
 

@@ -137,27 +137,31 @@ namespace diptych::discrete
     void write_pairs(Hdf5Writer &file, const Checkpoint &p)
     {
       std::vector<int>    body, window_body;
-      std::vector<double> impulse, change, window_impulse, window_dissipation, window_impact;
+      std::vector<double> impulse, change, rolling, window_impulse, window_dissipation, window_impact, window_rolling;
       for (const PairImpulse &r : p.state.impulses)
         {
           body.insert(body.end(), {r.i, r.j});
           impulse.insert(impulse.end(), {r.normal, r.tangential});
           change.insert(change.end(), {r.normal_change, r.tangential_change});
+          rolling.insert(rolling.end(), {r.rolling, r.rolling_change});
         }
       for (const WindowForces::PairSum &s : p.window.sums)
         {
           window_body.insert(window_body.end(), {s.i, s.j});
           window_dissipation.push_back(s.dissipation);
           window_impact.push_back(s.impact);
+          window_rolling.push_back(s.rolling);
           window_impulse.insert(window_impulse.end(), {s.impulse.x(), s.impulse.y()});
         }
       file.write("impulses/body", body);
       file.write("impulses/impulse", impulse);
       file.write("impulses/change", change);
+      file.write("impulses/rolling", rolling);
       file.write("window/body", window_body);
       file.write("window/impulse", window_impulse);
       file.write("window/dissipation", window_dissipation);
       file.write("window/impact", window_impact);
+      file.write("window/rolling", window_rolling);
       file.write("window/spin", p.window.spin);
     }
 
@@ -165,20 +169,24 @@ namespace diptych::discrete
     {
       const std::vector<int>    body = file.read_int("impulses/body"), window_body = file.read_int("window/body");
       const std::vector<double> impulse = file.read("impulses/impulse"), change = file.read("impulses/change"),
-                                window_impulse     = file.read("window/impulse"),
-                                window_dissipation = file.read("window/dissipation"), window_impact = file.read("window/impact");
+                                rolling = file.read("impulses/rolling"), window_impulse = file.read("window/impulse"),
+                                window_dissipation = file.read("window/dissipation"), window_impact = file.read("window/impact"),
+                                window_rolling = file.read("window/rolling");
       const std::size_t n = body.size(), n_window = window_body.size();
-      if (n % 2 != 0 || impulse.size() != n || change.size() != n || n_window % 2 != 0 || window_impulse.size() != n_window ||
-          window_dissipation.size() != n_window / 2 || window_impact.size() != n_window / 2)
+      if (n % 2 != 0 || impulse.size() != n || change.size() != n || rolling.size() != n || n_window % 2 != 0 ||
+          window_impulse.size() != n_window || window_dissipation.size() != n_window / 2 ||
+          window_impact.size() != n_window / 2 || window_rolling.size() != n_window / 2)
         throw std::invalid_argument(file.path() + ": the lengths of the lists in 'impulses' or 'window' do not match");
       for (std::size_t k = 0; k < n; k += 2)
-        p.state.impulses.push_back({body[k], body[k + 1], impulse[k], impulse[k + 1], change[k], change[k + 1]});
+        p.state.impulses.push_back(
+          {body[k], body[k + 1], impulse[k], impulse[k + 1], change[k], change[k + 1], rolling[k], rolling[k + 1]});
       for (std::size_t k = 0; k < n_window; k += 2)
         p.window.sums.push_back({window_body[k],
                                  window_body[k + 1],
                                  window_dissipation[k / 2],
                                  window_impact[k / 2],
-                                 {window_impulse[k], window_impulse[k + 1]}});
+                                 {window_impulse[k], window_impulse[k + 1]},
+                                 window_rolling[k / 2]});
       p.window.spin = file.read("window/spin");
     }
 

@@ -27,6 +27,7 @@ namespace diptych::discrete
     {
       const Grains                &g = state.grains;
       std::vector<Eigen::Matrix2d> moment(g.size(), Eigen::Matrix2d::Zero());
+      std::vector<double>          couple(g.size(), 0.); // of rolling resistance; it balances the skew part
       Eigen::RowVector2d           on_platens = Eigen::RowVector2d::Zero();
       for (std::size_t k = 0; k < result.contacts.size(); ++k)
         {
@@ -34,21 +35,24 @@ namespace diptych::discrete
             continue;
           const Contact         c     = make_contact(state, result.contacts[k].i, result.contacts[k].j);
           const Eigen::Vector2d force = impulse_vector(result.contacts[k], result.impulses[k]) / step;
+          const double          turn  = result.impulses[k].rolling * effective_radius(g, c.i, c.j) / step;
           const auto            add   = [&](const int body, const double sign) {
             if (const int platen = g.platen(body); platen >= 0)
               on_platens += sign * (c.point.y() - state.walls[platen].point.y()) * force.transpose();
             else
               moment[body] += (g.radius[body] + 0.5 * c.gap) * c.normal * force.transpose();
+            couple[body] += sign * turn;
           };
           add(c.i, -1);
           if (std::size_t(c.j) < g.size())
             add(c.j, 1);
         }
       MomentSums sums;
-      for (const Eigen::Matrix2d &m : moment)
+      for (std::size_t i = 0; i < g.size(); ++i)
         {
+          const Eigen::Matrix2d &m = moment[i];
           sums.total += m;
-          const double skew = 0.5 * (m(0, 1) - m(1, 0)), mean = 0.5 * (m(0, 1) + m(1, 0));
+          const double skew = g.platen(i) < 0 ? 0.5 * (m(0, 1) - m(1, 0) + couple[i]) : 0, mean = 0.5 * (m(0, 1) + m(1, 0));
           sums.skew_square += 2 * skew * skew;
           sums.square += m(0, 0) * m(0, 0) + m(1, 1) * m(1, 1) + 2 * mean * mean;
         }
@@ -127,6 +131,7 @@ namespace diptych::discrete
     row.momentum_residual = std::max(row.momentum_residual, result.momentum_residual);
     row.friction_dissipation += result.energies.friction_dissipation;
     row.impact_dissipation += result.energies.impact_dissipation;
+    row.rolling_dissipation += result.energies.rolling_dissipation;
     row.external_work += result.energies.external_work;
     row.correction_work += result.energies.correction_work;
   }
@@ -162,11 +167,12 @@ namespace diptych::discrete
     row.kinetic_energy_ratio = reference.platen_kinetic_energy > 0 ? row.kinetic_energy / reference.platen_kinetic_energy : 0;
     const double change      = row.kinetic_energy - reference.kinetic_energy;
     const double scale       = std::max({std::abs(row.external_work), std::abs(row.friction_dissipation),
-                                         std::abs(row.impact_dissipation), row.kinetic_energy, reference.kinetic_energy});
-    row.energy_residual = scale > 0 ? (change - row.external_work + row.friction_dissipation + row.impact_dissipation) / scale
-                                    : 0;
-    const double s      = 0.5 * row.stress.trace();
-    row.inertial_number = s > 0 ? reference.strain_rate * setting.mean_diameter * std::sqrt(reference.mean_density / s) : 0;
+                                         std::abs(row.rolling_dissipation), std::abs(row.impact_dissipation), row.kinetic_energy,
+                                         reference.kinetic_energy});
+    const double lost        = row.friction_dissipation + row.rolling_dissipation + row.impact_dissipation;
+    row.energy_residual      = scale > 0 ? (change - row.external_work + lost) / scale : 0;
+    const double s           = 0.5 * row.stress.trace();
+    row.inertial_number      = s > 0 ? reference.strain_rate * setting.mean_diameter * std::sqrt(reference.mean_density / s) : 0;
     const std::vector<std::uint8_t> free = rattlers(result, state.grains);
     row.rattlers                         = int(std::count(free.begin(), free.end(), 1));
     row.spin_term_share                  = s > 0 ? spin / area / s : 0;

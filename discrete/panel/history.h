@@ -34,9 +34,10 @@ namespace diptych::discrete
     double          momentum_residual = 0; // largest since the previous row, relative to the sums of contact impulses and momenta
     double          unbalanced_force  = 0; // mean over grains of |m dv/h| / mean normal contact force
     double          platen_sliding    = 0; // share of the force-carrying platen contacts that are at their Coulomb bound
-    double          skew_moment       = 0; // norm of the grains' skew moments / norm of the symmetric ones
-    double          progress          = 0; // of the loading variable: one of axial_strain, shear_strain and time
-    LoadingVariable loading_variable  = LoadingVariable::axial_strain;
+    double          rolling_dissipation = 0;
+    double          skew_moment         = 0; // norm of the grains' skew moments / norm of the symmetric ones
+    double          progress            = 0; // of the loading variable: one of axial_strain, shear_strain and time
+    LoadingVariable loading_variable    = LoadingVariable::axial_strain;
   };
 
   // Calls visit(column, value, unit, meaning) for every number of a row in the order of discrete.csv.
@@ -89,6 +90,8 @@ namespace diptych::discrete
     visit("platen_sliding", r.platen_sliding, "-", "share of the force-carrying platen contacts at their Coulomb bound");
     visit("skew_moment", r.skew_moment, "-", "norm of the grains' skew moments / norm of the symmetric ones");
     visit("progress", r.progress, "strain or time", "loading variable: axial strain, shear strain or time");
+    visit("rolling_dissipation", r.rolling_dissipation, "pressure length^2",
+          "dissipation by rolling resistance since the start of the loading");
     visit("walk", r.loading_variable, "-", "which column progress equals: axial_strain, shear_strain or time");
   }
 

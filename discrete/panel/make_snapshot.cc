@@ -22,12 +22,13 @@ namespace diptych::discrete
     {
       for (std::size_t k = 0; k < result.contacts.size(); ++k)
         {
-          const Contact c     = make_contact(state, result.contacts[k].i, result.contacts[k].j);
-          const double  shift = state.cell ? c.image * state.cell->width : 0.;
+          const Contact c      = make_contact(state, result.contacts[k].i, result.contacts[k].j);
+          const double  shift  = state.cell ? c.image * state.cell->width : 0.;
+          const double  couple = result.impulses[k].rolling * effective_radius(state.grains, c.i, c.j) / setting.step;
           s.contacts.push_back(
-            {c.i, c.j, c.point, c.normal, impulse_vector(result.contacts[k], result.impulses[k]) / setting.step, shift});
+            {c.i, c.j, c.point, c.normal, impulse_vector(result.contacts[k], result.impulses[k]) / setting.step, shift, couple});
           s.gap.push_back(c.gap);
-          s.status.push_back(contact_status(friction_of(state, setting, c.j), result.impulses[k]));
+          s.status.push_back(contact_status(friction_of(state, setting, c.j).sliding, result.impulses[k]));
         }
     }
 

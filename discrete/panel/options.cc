@@ -64,7 +64,7 @@ namespace diptych::discrete
       unused.unless(penalty || !o.time.step || !o.accuracy.tolerance, "discrete/step and discrete/tolerance are given",
                     {"accuracy"});
       unused.unless(o.lateral.lateral == Lateral::end_grains, lateral, {"band_height", "end_grains"});
-      unused.unless(o.lateral.lateral == Lateral::rigid_walls, lateral, {"wall_friction"});
+      unused.unless(o.lateral.lateral == Lateral::rigid_walls, lateral, {"wall_friction", "wall_rolling_friction"});
       unused.unless(moves, lateral, {"wall_mass"});
       unused.unless(o.solver.solver == ContactSolver::psor, "discrete/solver = " + name_of(o.solver.solver),
                     {"omega_sticking", "omega_slipping"});

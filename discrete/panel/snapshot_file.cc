@@ -136,7 +136,10 @@ namespace diptych::discrete
                                           std::to_string(k) + " (counted from 0)");
         }
       set_columns(contacts, contact_fields, [&](const std::string &name, auto &values) {
-        values = read_field<typename std::decay_t<decltype(values)>::value_type>(file, group + "/" + name);
+        using Value = typename std::decay_t<decltype(values)>::value_type;
+        if (name == "couple" && !file.has(group + "/" + name)) // files of earlier versions
+          return values.resize(contacts.size());
+        values = read_field<Value>(file, group + "/" + name);
         check.size(list + name, values.size(), contacts.size());
         check.finite(list + name, values);
       });

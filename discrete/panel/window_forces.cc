@@ -12,7 +12,8 @@ namespace diptych::discrete
     std::vector<PairSum> now; // ascending like the contacts
     for (std::size_t k = 0; k < result.contacts.size(); ++k)
       if (const Contact &c = result.contacts[k]; result.impulses[k].normal > 0)
-        now.push_back({c.i, c.j, result.contact_dissipation[k], result.contact_impact[k], impulse_vector(c, result.impulses[k])});
+        now.push_back({c.i, c.j, result.contact_dissipation[k], result.contact_impact[k], impulse_vector(c, result.impulses[k]),
+                       result.impulses[k].rolling});
     std::vector<PairSum> merged;
     merged.reserve(sums.size() + now.size());
     auto a = sums.begin();
@@ -22,7 +23,8 @@ namespace diptych::discrete
           merged.push_back(*a++);
         if (a != sums.end() && a->i == b.i && a->j == b.j)
           {
-            merged.push_back({b.i, b.j, a->dissipation + b.dissipation, a->impact + b.impact, a->impulse + b.impulse});
+            merged.push_back(
+              {b.i, b.j, a->dissipation + b.dissipation, a->impact + b.impact, a->impulse + b.impulse, a->rolling + b.rolling});
             ++a;
           }
         else
@@ -52,7 +54,8 @@ namespace diptych::discrete
     for (const PairSum &s : sums)
       {
         const Contact c = make_contact(state, s.i, s.j);
-        forces.push_back({s.i, s.j, c.point, c.normal, s.impulse / time, state.cell ? c.image * state.cell->width : 0.});
+        forces.push_back({s.i, s.j, c.point, c.normal, s.impulse / time, state.cell ? c.image * state.cell->width : 0.,
+                          s.rolling / time * effective_radius(state.grains, s.i, s.j)});
       }
     return forces;
   }

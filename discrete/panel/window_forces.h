@@ -14,9 +14,10 @@ namespace diptych::discrete
     struct PairSum
     {
       int             i, j;
-      double          dissipation; // by friction [energy]
+      double          dissipation; // by friction and rolling resistance [energy]
       double          impact;      // dissipated along the normal [energy]
       Eigen::Vector2d impulse;     // on i
+      double          rolling = 0; // on i: impulse of the couple / effective radius
     };
     std::vector<PairSum> sums;     // ascending in (i, j)
     std::vector<double>  spin;     // sum of step x spin term, of each grain

@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 
+#include "discrete/contacts/natural_map.h"
 #include "discrete/solvers/iteration.h"
 
 namespace diptych::discrete
@@ -272,6 +273,18 @@ namespace diptych::discrete
         q.add(a.q[k].tangential, b.q[k].tangential);
       }
     return std::max(w.ratio(), q.ratio());
+  }
+
+  std::vector<RelativeVelocity> relative_velocities(const ContactProblem &problem, const std::vector<Impulse> &impulses)
+  {
+    const std::vector<BodyVelocity> v = velocities(problem, impulses);
+    std::vector<RelativeVelocity>   result;
+    for (const ContactRow &c : problem.contacts)
+      {
+        const RelativeVelocity u = relative_velocity(c, v);
+        result.push_back({u.normal + c.normal_term, u.tangential + c.tangential_term});
+      }
+    return result;
   }
 
   std::vector<RelativeVelocity> relative_velocities(const DelassusProblem &problem, const std::vector<Impulse> &impulses)

@@ -60,7 +60,9 @@ namespace diptych::discrete
   // The larger of max|W_a - W_b| / max|W_a| and max|q_a - q_b| / max|q_a|. Infinity if the numbers of contacts differ.
   double relative_difference(const DelassusProblem &a, const DelassusProblem &b);
 
+  // u of both forms.
   std::vector<RelativeVelocity> relative_velocities(const DelassusProblem &problem, const std::vector<Impulse> &impulses);
+  std::vector<RelativeVelocity> relative_velocities(const ContactProblem &problem, const std::vector<Impulse> &impulses);
 
   // Natural map ||r - P(r)||_2 / ||r||_2 as in the body form (natural_map.h).
   double natural_map_residual(const DelassusProblem &problem, const std::vector<Impulse> &impulses);

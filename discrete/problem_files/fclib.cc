@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/problem_files/fclib.h"
 
+#include <limits>
+
 #include <Eigen/SparseCholesky>
 
 #include "discrete/problem_files/fclib_input.h"
@@ -126,7 +128,41 @@ namespace diptych::discrete
         impulses.push_back({r[2 * k], r[2 * k + 1]});
       return impulses;
     }
+
+    void read_rolling(const FclibInput &file, StoredProblem &problem)
+    {
+      if (!problem.bodies)
+        file.refuse("/rolling", "contacts resist rolling, which needs the bodies, but " + problem.reason);
+      const std::size_t         n        = problem.local.n_contacts();
+      const std::vector<double> friction = file.numbers("/rolling/friction", n), arm = file.numbers("/rolling/arm", n);
+      for (std::size_t k = 0; k < n; ++k)
+        set_rolling(friction[k], arm[k], problem.bodies->contacts[k]);
+      problem.rolls = true;
+      if (file.has("/solution/rolling"))
+        {
+          const std::vector<double> rolling = file.numbers("/solution/rolling", problem.solution.size());
+          for (std::size_t k = 0; k < rolling.size(); ++k)
+            problem.solution[k].rolling = rolling[k];
+        }
+    }
   } // namespace
+
+  std::string StoredProblem::obstacle(const ProblemForm wanted) const
+  {
+    if (wanted == ProblemForm::body)
+      return bodies ? "" : reason;
+    return rolls ? "its contacts resist rolling, and only the body form contains couples" : "";
+  }
+
+  std::vector<RelativeVelocity> StoredProblem::velocities(const std::vector<Impulse> &impulses) const
+  {
+    return rolls ? relative_velocities(*bodies, impulses) : relative_velocities(local, impulses);
+  }
+
+  double StoredProblem::siconos_residual(const std::vector<Impulse> &impulses) const
+  {
+    return rolls ? std::numeric_limits<double>::quiet_NaN() : discrete::siconos_residual(local, impulses);
+  }
 
   DelassusProblem read_fclib_local(const std::string &path)
   {
@@ -158,6 +194,8 @@ namespace diptych::discrete
     if (file.has("/guesses"))
       for (int k = 1; k <= file.integer("/guesses/number_of_guesses"); ++k)
         problem.guesses.push_back(read_impulses(file, text("/guesses/", k, "/r"), n));
+    if (file.has("/rolling"))
+      read_rolling(file, problem);
     return problem;
   }
 } // namespace diptych::discrete

@@ -28,21 +28,30 @@ namespace diptych::discrete
 
   // A plane problem of a file: u = W r + q, impulses r, normal component first. The layout is that of FCLIB (Acary, Bremond,
   // Koziara & Perignon 2014): /fclib_local (W, q, mu), /fclib_global (M v = f + H r, u = H^T v + w, mu), /solution and /guesses.
-  // Matrices are stored by rows (nz = -2), by columns (nz = -1) or as triplets (nz >= 0; p is the column and i the row).
+  // Diptych adds the group /rolling if contacts resist rolling: `friction` and `arm` as in ContactRow, one entry per contact.
+  // Only the bodies of /nscd show how couples act; /fclib_local and /fclib_global leave them out. /solution/rolling holds the
+  // couples. Matrices are stored by rows (nz = -2), by columns (nz = -1) or as triplets (nz >= 0; p is the column and i the row).
   struct StoredProblem
   {
     DelassusProblem local; // contacts in the order of the file; made from /fclib_global if there is no /fclib_local
     std::optional<ContactProblem>
                          bodies; // from Diptych's group /nscd: discs, then walls; rows in the order of the file, swept upward
-    ProblemForm          form = ProblemForm::local; // body if `bodies` is set
-    std::string          reason;                    // reason why `bodies` is empty
-    std::vector<Impulse> solution;                  // /solution/r; may be empty
-    std::vector<std::vector<Impulse>> guesses;      // /guesses/1, 2, ...
+    ProblemForm          form = ProblemForm::local;  // body if `bodies` is set
+    std::string          reason;                     // reason why `bodies` is empty
+    std::vector<Impulse> solution;                   // /solution/r; may be empty
+    std::vector<std::vector<Impulse>> guesses;       // /guesses/1, 2, ...
+    bool                              rolls = false; // contacts resist rolling
+
+    // Reason why a form cannot be solved; empty if it can.
+    std::string obstacle(ProblemForm wanted) const;
+
+    std::vector<RelativeVelocity> velocities(const std::vector<Impulse> &impulses) const;       // u
+    double                        siconos_residual(const std::vector<Impulse> &impulses) const; // NaN if contacts resist rolling
   };
 
   // Takes the body form if its W and q agree with the file within 1e-10 and no contact couples its normal and tangential
-  // directions. Throws std::invalid_argument with file, dataset and values if data are missing or malformed. Space dimension 3
-  // and equality constraints (V, G) are also refused.
+  // directions. Throws std::invalid_argument with file, dataset and values if data are missing or malformed. Space dimension 3,
+  // equality constraints (V, G), and rolling resistance without a body form are also refused.
   StoredProblem read_fclib(const std::string &path);
 
   // Reads one of the two descriptions, with the contacts in the order of the file. Throws like read_fclib().

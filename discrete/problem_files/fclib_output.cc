@@ -40,6 +40,31 @@ namespace diptych::discrete
       return flat;
     }
 
+    // Nothing if no contact resists rolling.
+    void write_rolling(Hdf5Writer &writer, const ContactProblem &problem)
+    {
+      std::vector<double> friction, arm;
+      for (const ContactRow &c : problem.contacts)
+        {
+          friction.push_back(c.rolling_friction);
+          arm.push_back(c.rolling_arm);
+        }
+      if (std::all_of(friction.begin(), friction.end(), [](const double f) { return f == 0; }))
+        return;
+      writer.write("/rolling/friction", friction);
+      writer.write("/rolling/arm", arm);
+    }
+
+    void write_impulses(Hdf5Writer &writer, const std::vector<Impulse> &r)
+    {
+      writer.write("/solution/r", normal_first(r));
+      std::vector<double> rolling;
+      for (const Impulse &each : r)
+        rolling.push_back(each.rolling);
+      if (std::any_of(rolling.begin(), rolling.end(), [](const double x) { return x != 0; }))
+        writer.write("/solution/rolling", rolling);
+    }
+
     void write_head(Hdf5Writer &writer, const std::string &group, const StoredText &about, const BodyMatrices &b)
     {
       writer.write(group + "/spacedim", std::vector<int>{2});
@@ -165,10 +190,13 @@ namespace diptych::discrete
                                        [](const auto &c) { return c.cell >= 0; });
     if (geometry && !free_cell)
       write_nscd(writer, problem, b, *geometry);
+    write_rolling(writer, problem);
     if (!solution.empty())
       {
-        writer.write("/solution/r", normal_first(solution));
-        writer.write("/solution/u", normal_first(relative_velocities(local, solution)));
+        const bool rolls = std::any_of(solution.begin(), solution.end(), [](const Impulse &r) { return r.rolling != 0; });
+        write_impulses(writer, solution);
+        writer.write("/solution/u",
+                     normal_first(rolls ? relative_velocities(problem, solution) : relative_velocities(local, solution)));
       }
     writer.finish();
   }
@@ -180,7 +208,7 @@ namespace diptych::discrete
     for (const std::string &name : reader.members("/"))
       if (name != "solution")
         writer.copy_values(reader, name);
-    writer.write("/solution/r", normal_first(solution.r));
+    write_impulses(writer, solution.r);
     writer.write("/solution/u", normal_first(solution.u));
     writer.attribute("/solution", "solver", solution.solver);
     writer.attribute("/solution", "status", solution.status);

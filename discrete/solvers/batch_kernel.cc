@@ -40,15 +40,14 @@ namespace diptych::discrete
                                               const double       *tangential_term,
                                               const Bodies       &bi,
                                               const Bodies       &bj,
-                                              const double        sticking,
-                                              const double        slipping)
+                                              const Relaxation    omega)
     {
       const Four           zero{}, inverse_wnn = read(c.inverse_wnn);
       const LawTerms<Four> terms{read(c.normal_term), tangential_term ? read(tangential_term) : zero, read(c.friction),
                                  inverse_wnn, inverse_wnn * disc_wnn_over_wtt};
       const Parts<Four>    r = impulses_of(c);
       const Parts<Four>    u = relative_velocity(read(c.nx), read(c.ny), bi.x - bj.x, bi.y - bj.y, bi.surface, bj.surface);
-      return signorini_coulomb(terms, u, r, relaxation(terms.friction, r, zero + sticking, zero + slipping));
+      return signorini_coulomb(terms, u, r, relaxation(terms.friction, r.normal, r.tangential, omega));
     }
 
     DIPTYCH_INLINE void apply(const ContactBatch &c, const Parts<Four> &dr, Bodies &bi, Bodies &bj)
@@ -62,11 +61,39 @@ namespace diptych::discrete
       bj.surface -= 2 * bj.inverse_mass * dr.tangential;
     }
 
-    DIPTYCH_INLINE void update(ContactBatch &c, const double *term, const double sticking, const double slipping, BodyVelocity *v)
+    // Of the spins after the tangential impulse changed.
+    DIPTYCH_INLINE Four rolling_velocity_of(const RollingBatch &m, const Bodies &bi, const Bodies &bj)
+    {
+      return rolling_velocity(read(m.arm), bi.surface, bj.surface);
+    }
+
+    DIPTYCH_INLINE Four
+    local_couple(const RollingBatch &m, const Four w, const Four old_normal, const Four normal, const Relaxation omega)
+    {
+      const Four               r = read(m.rolling);
+      const RollingTerms<Four> terms{read(m.friction), read(m.arm), read(m.inverse_wmm)};
+      return rolling_resistance(terms, w, r, normal, relaxation(terms.friction, old_normal, r, omega));
+    }
+
+    DIPTYCH_INLINE void apply_couple(const RollingBatch &m, const Four dr, Bodies &bi, Bodies &bj)
+    {
+      const Four arm = read(m.arm);
+      bi.surface += 2 * bi.inverse_mass * arm * dr;
+      bj.surface -= 2 * bj.inverse_mass * (1 - arm) * dr;
+    }
+
+    DIPTYCH_INLINE void update(ContactBatch &c, RollingBatch *m, const double *term, const Relaxation omega, BodyVelocity *v)
     {
       Bodies            bi = gather(v, c.i), bj = gather(v, c.j);
-      const Parts<Four> r = local_solution(c, term, bi, bj, sticking, slipping);
-      apply(c, {r.normal - read(c.normal), r.tangential - read(c.tangential)}, bi, bj);
+      const Four        old_normal = read(c.normal);
+      const Parts<Four> r          = local_solution(c, term, bi, bj, omega);
+      apply(c, {r.normal - old_normal, r.tangential - read(c.tangential)}, bi, bj);
+      if (m)
+        {
+          const Four couple = local_couple(*m, rolling_velocity_of(*m, bi, bj), old_normal, r.normal, omega);
+          apply_couple(*m, couple - read(m->rolling), bi, bj);
+          write(m->rolling, couple);
+        }
       scatter(bi, v, c.i);
       scatter(bj, v, c.j);
       write(c.normal, r.normal);
@@ -75,33 +102,43 @@ namespace diptych::discrete
   } // namespace
 
   DIPTYCH_FOR_EACH_MACHINE void sweep_batches(ContactBatch                *batches,
+                                              RollingBatch                *rolling,
                                               const std::array<double, 4> *terms,
                                               const std::size_t            n,
                                               const double                 sticking,
                                               const double                 slipping,
                                               BodyVelocity                *v)
   {
-    if (terms)
+    if (rolling)
       for (std::size_t b = 0; b < n; ++b)
-        update(batches[b], terms[b].data(), sticking, slipping, v);
+        update(batches[b], rolling + b, terms ? terms[b].data() : nullptr, {sticking, slipping}, v);
+    else if (terms)
+      for (std::size_t b = 0; b < n; ++b)
+        update(batches[b], nullptr, terms[b].data(), {sticking, slipping}, v);
     else
       for (std::size_t b = 0; b < n; ++b)
-        update(batches[b], nullptr, sticking, slipping, v);
+        update(batches[b], nullptr, nullptr, {sticking, slipping}, v);
   }
 
-  DIPTYCH_FOR_EACH_MACHINE void add_impulses(const ContactBatch *batches, const std::size_t n, BodyVelocity *v)
+  DIPTYCH_FOR_EACH_MACHINE void add_impulses(const ContactBatch *batches,
+                                             const RollingBatch *rolling,
+                                             const std::size_t   n,
+                                             BodyVelocity       *v)
   {
     for (std::size_t b = 0; b < n; ++b)
       {
         const ContactBatch &c  = batches[b];
         Bodies              bi = gather(v, c.i), bj = gather(v, c.j);
         apply(c, impulses_of(c), bi, bj);
+        if (rolling)
+          apply_couple(rolling[b], read(rolling[b].rolling), bi, bj);
         scatter(bi, v, c.i);
         scatter(bj, v, c.j);
       }
   }
 
   DIPTYCH_FOR_EACH_MACHINE void add_squares(const ContactBatch          *batches,
+                                            const RollingBatch          *rolling,
                                             const std::array<double, 4> *terms,
                                             const std::size_t            n,
                                             const BodyVelocity          *v,
@@ -112,11 +149,18 @@ namespace diptych::discrete
     for (std::size_t b = 0; b < n; ++b)
       {
         const ContactBatch &c  = batches[b];
-        const Bodies        bi = gather(v, c.i), bj = gather(v, c.j);
-        const Parts<Four>   p  = local_solution(c, terms ? terms[b].data() : nullptr, bi, bj, 1., 1.);
+        Bodies              bi = gather(v, c.i), bj = gather(v, c.j);
+        const Parts<Four>   p  = local_solution(c, terms ? terms[b].data() : nullptr, bi, bj, exact);
         const Four          rn = read(c.normal), rt = read(c.tangential);
         d += (rn - p.normal) * (rn - p.normal) + (rt - p.tangential) * (rt - p.tangential);
         s += rn * rn + rt * rt;
+        if (!rolling)
+          continue;
+        apply(c, {Four{}, p.tangential - rt}, bi, bj); // only the spins count below
+        const Four rm = read(rolling[b].rolling),
+                   pm = local_couple(rolling[b], rolling_velocity_of(rolling[b], bi, bj), rn, p.normal, exact);
+        d += (rm - pm) * (rm - pm);
+        s += rm * rm;
       }
     for (int lane = 0; lane < lanes; ++lane)
       {

@@ -19,10 +19,18 @@ namespace diptych::discrete
     int    i[lanes], j[lanes];
   };
 
-  // The three functions take n batches, the tangential terms of their lanes (null: all zero) and the velocities of all bodies.
+  // Their couples, apart because few samples have them. Members as in ContactRow and Impulse.
+  struct alignas(64) RollingBatch
+  {
+    double friction[lanes], arm[lanes], inverse_wmm[lanes], rolling[lanes];
+  };
 
-  // One over-relaxed pass. Contacts at their Coulomb bound (by their old impulse) take `slipping`.
+  // The three functions take n batches, their couples (null: none) and the velocities of all bodies. `terms` are the tangential
+  // terms of the lanes (null: all zero).
+
+  // One over-relaxed pass. Impulses at their bound (before the pass) take `slipping`.
   void sweep_batches(ContactBatch                    *batches,
+                     RollingBatch                    *rolling,
                      const std::array<double, lanes> *terms,
                      std::size_t                      n,
                      double                           sticking,
@@ -30,10 +38,11 @@ namespace diptych::discrete
                      BodyVelocity                    *v);
 
   // v += M^-1 H r.
-  void add_impulses(const ContactBatch *batches, std::size_t n, BodyVelocity *v);
+  void add_impulses(const ContactBatch *batches, const RollingBatch *rolling, std::size_t n, BodyVelocity *v);
 
   // Adds the squares of |r - P(r)| and of |r| to `difference` and `norm`.
   void add_squares(const ContactBatch              *batches,
+                   const RollingBatch              *rolling,
                    const std::array<double, lanes> *terms,
                    std::size_t                      n,
                    const BodyVelocity              *v,

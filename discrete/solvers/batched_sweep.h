@@ -53,6 +53,7 @@ namespace diptych::discrete
     struct Part
     {
       std::vector<ContactBatch>          batches;
+      std::vector<RollingBatch>          rolling;         // one per batch; empty: no couples
       std::vector<std::array<double, 4>> tangential_term; // one per batch; empty: all zero
       std::vector<std::array<int, 4>>    rows;            // -1 in an empty lane
       std::size_t                        n_awake   = 0;   // number of batches before the idle ones
@@ -64,6 +65,7 @@ namespace diptych::discrete
     Part                           make_part(const std::vector<int> &rows);
     void                           pack(const std::vector<int> &rows, Part &part, std::vector<int> &own);
     void                           fill_lane(Part &part, int lane, int row) const;
+    void                           add_couples(Part &part) const;
     NaturalMapSquares              residual_squares(const Part &part) const;
     void                           sweep_part(Part &part, double omega_sticking, double omega_slipping, bool with_idle);
     static void                    wake(Part &part);

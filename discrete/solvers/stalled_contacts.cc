@@ -80,7 +80,7 @@ namespace diptych::discrete
             Impulse          &r = impulses[k];
             if (check)
               squares.add(c, v, r);
-            update(c, 1., v, r);
+            update(c, exact, v, r);
           }
         if (check && squares.difference <= tolerance * tolerance * squares.norm)
           return;

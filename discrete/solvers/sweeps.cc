@@ -10,9 +10,9 @@ namespace diptych::discrete
   {
     if (problem.order.empty())
       for (std::size_t k = 0; k < problem.contacts.size(); ++k)
-        update(problem.contacts[k], 1., v, impulses[k]);
+        update(problem.contacts[k], exact, v, impulses[k]);
     for (const int k : problem.order)
-      update(problem.contacts[k], 1., v, impulses[k]);
+      update(problem.contacts[k], exact, v, impulses[k]);
   }
 
   void sweep_psor(const ContactProblem      &problem,
@@ -23,9 +23,6 @@ namespace diptych::discrete
                   std::vector<Impulse>      &impulses)
   {
     for (const int k : order)
-      {
-        const ContactRow &c = problem.contacts[k];
-        update(c, is_slipping(c.friction, impulses[k]) ? omega_slipping : omega_sticking, v, impulses[k]);
-      }
+      update(problem.contacts[k], {omega_sticking, omega_slipping}, v, impulses[k]);
   }
 } // namespace diptych::discrete

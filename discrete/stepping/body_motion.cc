@@ -49,7 +49,8 @@ namespace diptych::discrete
         const Impulse &r = impulses[k], &before = previous[k];
         const bool     both = before.normal > 0 && r.normal > 0;
         state.impulses.push_back({contacts[k].i, contacts[k].j, r.normal, r.tangential, both ? r.normal - before.normal : 0.,
-                                  both ? r.tangential - before.tangential : 0.});
+                                  both ? r.tangential - before.tangential : 0., r.rolling,
+                                  both ? r.rolling - before.rolling : 0.});
       }
   }
 } // namespace diptych::discrete

@@ -18,7 +18,7 @@ namespace diptych::discrete
 {
   namespace
   {
-    constexpr double tangential_over_normal_stiffness = 0.5;
+    constexpr double tangential_over_normal_stiffness = 0.5; // also of the rolling spring
 
     void validate(const StepSetting &setting, const PenaltyOptions &options)
     {
@@ -56,33 +56,53 @@ namespace diptych::discrete
       double previous_step; // length of the step whose impulse holds the spring
     };
 
-    // Updates one contact. `r` holds its impulse of the last step and receives that of this step. Returns the work of sliding
-    // since the preceding q_m.
-    double apply_law(const SpringLaw        &law,
-                     const ContactRow       &c,
-                     const double            gap,
-                     const RelativeVelocity &u,
-                     const double            h,
-                     Impulse                &r)
+    // A spring with a bound: its force, and the work that the bound took since the preceding q_m.
+    struct Slider
     {
-      const double dashpot = std::isfinite(c.inverse_wnn) ? 2 * law.damping * std::sqrt(law.kn * c.inverse_wnn) : 0.;
-      const double fn      = std::max(0., -law.kn * gap - dashpot * u.normal);
-      const double spring  = r.tangential / law.previous_step - law.kt * h * u.tangential;
-      const double ft      = std::clamp(spring, -c.friction * fn, c.friction * fn);
-      r                    = {h * fn, h * ft};
-      return ft * (spring - ft) / law.kt;
+      double force, work;
+    };
+
+    Slider slide(const double spring, const double bound, const double stiffness)
+    {
+      const double force = std::clamp(spring, -bound, bound);
+      return {force, force * (spring - force) / stiffness};
     }
 
-    // The ledger of a step counts all tangential work as friction. Here only sliding is friction. The rest is elastic and counts
-    // with the work along the normal.
-    void take_ledger(StepLedger ledger, StepResult &result)
+    struct Losses
     {
-      const std::vector<double> &each    = result.contact_dissipation;
-      const double               sliding = std::accumulate(each.begin(), each.end(), 0.);
-      result.energies                    = ledger.energies;
-      result.energies.impact_dissipation += result.energies.friction_dissipation - sliding;
-      result.energies.friction_dissipation = sliding;
-      result.contact_impact                = std::move(ledger.contact_impact);
+      double sliding, rolling;
+    };
+
+    // Updates one contact. `r` holds its impulse of the last step and receives that of this step.
+    Losses apply_law(const SpringLaw                 &law,
+                     const ContactRow                &c,
+                     const double                     gap,
+                     const std::vector<BodyVelocity> &v,
+                     const double                     h,
+                     Impulse                         &r)
+    {
+      const RelativeVelocity u       = relative_velocity(c, v);
+      const double           dashpot = std::isfinite(c.inverse_wnn) ? 2 * law.damping * std::sqrt(law.kn * c.inverse_wnn) : 0.;
+      const double           fn      = std::max(0., -law.kn * gap - dashpot * u.normal);
+      const Slider           t = slide(r.tangential / law.previous_step - law.kt * h * u.tangential, c.friction * fn, law.kt);
+      const Slider           m = c.rolling_friction == 0 ? Slider{0, 0}
+                                                         : slide(r.rolling / law.previous_step - law.kt * h * rolling_velocity(c, v),
+                                                                 c.rolling_friction * fn, law.kt);
+      r                        = {h * fn, h * t.force, h * m.force};
+      return {t.work, m.work};
+    }
+
+    // The ledger of a step counts all work of tangential impulses and couples as dissipation. Here only that of sliding and
+    // rolling at the bound is. The rest is elastic and counts with the work along the normal.
+    void take_ledger(StepLedger ledger, const Losses &lost, StepResult &result)
+    {
+      const std::vector<double> &each = result.contact_dissipation;
+      StepEnergies              &e = result.energies = ledger.energies;
+      e.impact_dissipation += e.friction_dissipation - lost.sliding;
+      e.impact_dissipation += e.rolling_dissipation - lost.rolling;
+      e.friction_dissipation = lost.sliding;
+      e.rolling_dissipation  = lost.rolling;
+      result.contact_impact  = std::move(ledger.contact_impact);
       for (std::size_t k = 0; k < each.size(); ++k)
         result.contact_impact[k] += ledger.contact_dissipation[k] - each[k];
       result.wall_force        = std::move(ledger.wall_force);
@@ -121,18 +141,21 @@ namespace diptych::discrete
                                                            {free_velocities(trial, v, result.applied_force, setting), {}, {}});
     const SpringLaw                 law{kn, tangential_over_normal_stiffness * kn, options.damping,
                         penalty.impulse_step > 0 ? penalty.impulse_step : h};
+    Losses                          lost{};
     for (std::size_t k = 0; k < result.contacts.size(); ++k)
       {
-        const ContactRow &c   = problem.contacts[k];
-        const double      gap = result.contacts[k].gap;
-        result.contact_dissipation.push_back(apply_law(law, c, gap, relative_velocity(c, v), h, result.impulses[k]));
+        const double gap  = result.contacts[k].gap;
+        const Losses here = apply_law(law, problem.contacts[k], gap, v, h, result.impulses[k]);
+        lost.sliding += here.sliding;
+        lost.rolling += here.rolling;
+        result.contact_dissipation.push_back(here.sliding + here.rolling);
         result.largest_penetration = std::max(result.largest_penetration, -gap);
       }
 
     const std::vector<int>          acting = acting_contacts(result.impulses);
     const std::vector<BodyVelocity> v_new  = velocities(problem, result.impulses, acting);
     take_ledger(step_ledger({trial, problem, result.contacts, result.impulses, acting, result.applied_force, v, v_new, h}, false),
-                result);
+                lost, result);
     take_velocities(v_new, trial);
     drift(trial, 0.5 * h);
     if (has_blown_up(trial, h))

@@ -55,12 +55,15 @@ namespace diptych::discrete
   // This is the trajectory of velocity Verlet: its half-step velocities are v, v' and its positions are the q_m. The order is 2
   // without damping, and the scheme is stable for h < 2/omega_max. A closed contact with overlap -g carries
   //   f_n = max(0, -kn g - 2 beta sqrt(kn m_eff) u_n),  f_t = f_t of the last step - (kn/2) h u_t  clamped to +-mu f_n;
+  // and, with rolling resistance, a couple R f_m from a third spring of the same kind, as of Iwashita & Oda (1998), k_r = kt R^2:
+  //   f_m = f_m of the last step - (kn/2) h w  clamped to +-mu_r (l/R) f_n.
   // At a constant step h u_t is the tangential displacement since the last q_m. Impulses are h f, with signs and arms as in
   // ContactRow. Contacts (only closed ones, ascending) and applied forces belong to q_m. Forces of drives are taken at the middle
   // of the step, prescribed velocities at its end.
   //
-  // Energies are those of StepLedger with two differences. friction_dissipation, also per contact, is only the work of sliding.
-  // To close the ledger, impact_dissipation contains the dashpots and the CHANGE OF THE ELASTIC ENERGY of both springs.
+  // Energies are those of StepLedger with two differences. friction_dissipation and rolling_dissipation, also per contact, are
+  // only the work at the bound. To close the ledger, impact_dissipation contains the dashpots and the CHANGE OF THE ELASTIC
+  // ENERGY of all springs.
   //
   // The method does not iterate: `solve` is converged with no sweeps. In a blow-up a grain is not finite or travels more than
   // its radius in a step. Then `solve` is blown_up with an infinite residual, and the state stays unchanged. Throws

@@ -50,6 +50,7 @@ namespace diptych::discrete
     {
       double impulse = 0, normal = 0;                  // |r| and r_n
       double impact = 0, friction = 0, correction = 0; // work, split by direction
+      double rolling = 0;                              // work of the couples
     };
 
     // Sums over the acting contacts. Also stores the work of each contact and the forces of the walls in the ledger.
@@ -72,7 +73,13 @@ namespace diptych::discrete
           const double friction = 0.5 * r.tangential * (u.tangential + next.tangential);
           sum.friction += friction;
           ledger.contact_dissipation[k] = 0 - friction;
-          ledger.contact_impact[k]      = 0 - impact;
+          if (r.rolling != 0)
+            {
+              const double rolling = 0.5 * r.rolling * (rolling_velocity(c, s.v) + rolling_velocity(c, s.v_new));
+              sum.rolling += rolling;
+              ledger.contact_dissipation[k] -= rolling;
+            }
+          ledger.contact_impact[k] = 0 - impact;
           if (corrects_by_velocity && c.normal_term < 0 && s.contacts[k].gap < 0)
             sum.correction += 0.5 * r.normal * c.normal_term;
           if (std::size_t(c.j) >= n)
@@ -87,19 +94,21 @@ namespace diptych::discrete
     {
       const Grains   &g        = s.state.grains;
       Eigen::Vector2d reaction = Eigen::Vector2d::Zero();
-      const auto      hold     = [&](const int body, const Eigen::Vector2d &impulse, const double tangential) {
+      const auto      hold     = [&](const int body, const Eigen::Vector2d &impulse, const double turning) {
         if (std::size_t(body) >= g.size() || g.fixed[body] != held_grain)
           return;
         reaction -= impulse;
-        e.external_work -= impulse.dot(mean_velocity(s, body)) - tangential * s.v[body].surface;
+        e.external_work -= impulse.dot(mean_velocity(s, body)) + turning * s.v[body].surface;
       };
       if (std::none_of(g.fixed.begin(), g.fixed.end(), [](const std::uint8_t fixed) { return fixed == held_grain; }))
         return reaction;
       for (std::size_t k = 0; k < s.contacts.size(); ++k)
         {
-          const Eigen::Vector2d impulse = vector_of(s.problem.contacts[k], s.impulses[k]);
-          hold(s.contacts[k].i, impulse, s.impulses[k].tangential);
-          hold(s.contacts[k].j, -impulse, s.impulses[k].tangential);
+          const ContactRow     &c       = s.problem.contacts[k];
+          const Impulse        &r       = s.impulses[k];
+          const Eigen::Vector2d impulse = vector_of(c, r);
+          hold(s.contacts[k].i, impulse, c.rolling_arm * r.rolling - r.tangential);
+          hold(s.contacts[k].j, -impulse, 0 - (1 - c.rolling_arm) * r.rolling - r.tangential);
         }
       return reaction;
     }
@@ -155,6 +164,7 @@ namespace diptych::discrete
     const ContactSums contacts           = sum_contacts(s, corrects_by_velocity, ledger);
     ledger.energies.impact_dissipation   = 0 - contacts.impact;
     ledger.energies.friction_dissipation = 0 - contacts.friction;
+    ledger.energies.rolling_dissipation  = 0 - contacts.rolling;
     ledger.energies.correction_work      = 0 - contacts.correction;
     add_grains(s, ledger.energies);
     add_walls(s, ledger.wall_force, ledger.energies);

@@ -9,13 +9,14 @@
 
 namespace diptych::discrete
 {
-  // Work of one step. kinetic_change = external_work - friction_dissipation - impact_dissipation to round-off. Momentum is
-  // balanced over the step, so sum r.(u + u')/2 is the work of the impulses. Free walls and a free cell width are bodies with
-  // kinetic energy like grains. Prescribed walls and fixed grains do external work. [energy]
+  // Work of one step. kinetic_change = external_work - friction_dissipation - rolling_dissipation - impact_dissipation to
+  // round-off. Momentum is balanced over the step, so sum r.(u + u')/2 is the work of the impulses. Free walls and a free cell
+  // width are bodies with kinetic energy like grains. Prescribed walls and fixed grains do external work. [energy]
   struct StepEnergies
   {
     double kinetic = 0, kinetic_change = 0, external_work = 0, friction_dissipation = 0, impact_dissipation = 0;
-    double correction_work = 0; // share of -impact_dissipation that comes from a velocity correction of penetrations
+    double rolling_dissipation = 0; // by the couples of rolling resistance
+    double correction_work     = 0; // share of -impact_dissipation that comes from a velocity correction of penetrations
   };
 
   struct StepLedger
@@ -23,7 +24,7 @@ namespace diptych::discrete
     StepEnergies                 energies;
     std::vector<Eigen::Vector2d> wall_force;           // of each wall on the sample = impulse / step
     std::vector<double>          contact_impact;       // of each contact; the sum is energies.impact_dissipation [energy]
-    std::vector<double>          contact_dissipation;  // of each contact; the sum is energies.friction_dissipation [energy]
+    std::vector<double>          contact_dissipation;  // of each contact; the sum is friction_dissipation + rolling_dissipation
     double                       unbalanced_force = 0; // mean over grains of |m dv/h| / mean normal contact force
     double momentum_residual = 0; // |sum m dv - h F - impulses of walls and fixed grains| / (sum |r| + sum m |v|)
   };

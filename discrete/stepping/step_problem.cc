@@ -77,6 +77,16 @@ namespace diptych::discrete
       row.inverse_wnn = 1 / wnn;
       row.inverse_wtt = row.cell < 0 && row.jx == row.jy && row.kj == 2 * row.jx ? row.inverse_wnn * disc_wnn_over_wtt : 1 / wtt;
     }
+
+    // The length of the law is 2R between discs and R at a wall (contact_law.h).
+    void add_rolling(const Grains &grains, const Contact &c, const double coefficient, ContactRow &row)
+    {
+      row.rolling_friction = 0;
+      if (coefficient == 0)
+        return;
+      const double arm = effective_radius(grains, c.i, c.j) / grains.radius[row.i];
+      set_rolling((std::size_t(c.j) < grains.size() ? 2 : 1) * coefficient, row.i == c.i ? arm : -arm, row);
+    }
   } // namespace
 
   std::vector<BodyVelocity> body_velocities(const State &state)
@@ -125,12 +135,20 @@ namespace diptych::discrete
     return time.penetration_correction == PenetrationCorrection::soft_velocity ? 0.2 : 0.;
   }
 
-  double friction_of(const State &state, const StepSetting &setting, const int body_j)
+  Friction friction_of(const State &state, const StepSetting &setting, const int body_j)
   {
-    const int n = int(state.grains.size());
+    const ContactLawOptions &law = setting.law;
+    const int                n   = int(state.grains.size());
     if (body_j < n)
-      return setting.law.friction;
-    return state.walls[body_j - n].kind == WallKind::platen ? setting.law.platen_friction : setting.law.wall_friction;
+      return {law.friction, law.rolling_friction};
+    return state.walls[body_j - n].kind == WallKind::platen ? Friction{law.platen_friction, law.platen_rolling_friction}
+                                                            : Friction{law.wall_friction, law.wall_rolling_friction};
+  }
+
+  double effective_radius(const Grains &grains, const int i, const int j)
+  {
+    const double ri = grains.radius[i];
+    return std::size_t(j) < grains.size() ? ri * grains.radius[j] / (ri + grains.radius[j]) : ri;
   }
 
   ContactProblem make_problem(const State                     &state,
@@ -148,9 +166,11 @@ namespace diptych::discrete
         ContactRow    &row = problem.contacts[k];
         set_kinematics(state, c, v, row);
         const RelativeVelocity u = relative_velocity(row, v);
-        row.friction             = friction_of(state, setting, c.j);
+        const Friction         f = friction_of(state, setting, c.j);
+        row.friction             = f.sliding;
         row.normal_term          = normal_term(c, u.normal, setting.law.normal_restitution, share, setting.step);
         row.tangential_term      = setting.law.tangential_restitution * u.tangential;
+        add_rolling(state.grains, c, f.rolling, row);
       }
     return problem;
   }

@@ -36,5 +36,13 @@ namespace diptych::discrete
   // Share of its penetration that a closed contact removes within the step through its normal term.
   double corrected_share(const StepOptions &time);
 
-  double friction_of(const State &state, const StepSetting &setting, int body_j);
+  // Coefficients of a contact with body j.
+  struct Friction
+  {
+    double sliding, rolling;
+  };
+  Friction friction_of(const State &state, const StepSetting &setting, int body_j);
+
+  // R of a contact: 1/R = 1/r_i + 1/r_j, or the radius of a grain on a wall. [length]
+  double effective_radius(const Grains &grains, int i, int j);
 } // namespace diptych::discrete

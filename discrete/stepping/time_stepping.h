@@ -29,7 +29,7 @@ namespace diptych::discrete
     std::vector<Eigen::Vector2d>   applied_force; // on each grain: lateral action and gravity
     std::vector<Eigen::Vector2d>   wall_force;    // of each wall on the sample = impulse / step
     StepEnergies                   energies;
-    std::vector<double>            contact_dissipation;     // by friction, of each contact; sum: energies.friction_dissipation
+    std::vector<double>            contact_dissipation;     // of each contact; sum: friction_dissipation + rolling_dissipation
     std::vector<double>            contact_impact;          // along the normal, of each contact; sum: energies.impact_dissipation
     double                         largest_penetration = 0; // at mid-step [length]
     double                         momentum_residual   = 0; // see StepLedger

@@ -34,8 +34,8 @@ namespace diptych::discrete
         const PairImpulse  none{c.i, c.j, 0, 0};
         const bool         known = pair->i == c.i && pair->j == c.j;
         const PairImpulse &r     = *(known ? &*pair : &none);
-        result.impulses[k]       = {r.normal, r.tangential};
-        result.changes[k]        = {r.normal_change, r.tangential_change};
+        result.impulses[k]       = {r.normal, r.tangential, r.rolling};
+        result.changes[k]        = {r.normal_change, r.tangential_change, r.rolling_change};
         pair += known;
       }
     return result;
@@ -61,6 +61,13 @@ namespace diptych::discrete
         const double tangential = slides ? 0 : changes[k].tangential;
         work += changes[k].normal * (u.normal + c.normal_term) + tangential * violation;
         change_of_work += changes[k].normal * du.normal + tangential * du.tangential;
+        if (c.rolling_friction == 0)
+          continue;
+        const double turning = rolling_velocity(c, v), bound = coulomb_margin * c.rolling_friction * impulses[k].normal;
+        const bool   rolls   = std::abs(impulses[k].rolling) > bound && impulses[k].rolling * turning < 0;
+        const double rolling = rolls ? 0 : changes[k].rolling;
+        work += rolling * turning;
+        change_of_work += rolling * rolling_velocity(c, w);
       }
     if (!(change_of_work > 0))
       return;
@@ -71,6 +78,8 @@ namespace diptych::discrete
         r.normal           = std::max(0., r.normal + share * changes[k].normal);
         const double bound = problem.contacts[k].friction * r.normal;
         r.tangential       = std::clamp(r.tangential + share * changes[k].tangential, -bound, bound);
+        const double most  = problem.contacts[k].rolling_friction * r.normal;
+        r.rolling          = std::clamp(r.rolling + share * changes[k].rolling, -most, most);
       }
   }
 } // namespace diptych::discrete

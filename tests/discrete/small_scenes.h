@@ -32,14 +32,22 @@ namespace diptych::tests
     return state;
   }
 
-  // Acceleration and angular acceleration of a disc on a plane of this slope. For tan a <= 3 mu it rolls with (2/3) g sin a.
-  // Otherwise it slides with g (sin a - mu cos a) and turns with 2 mu g cos a / r.
-  inline std::pair<double, double> on_an_incline(const double slope, const double g, const double mu, const double radius)
+  struct Slope
   {
-    const double rolling = 2. / 3 * g * std::sin(slope), friction = mu * g * std::cos(slope);
-    if (std::tan(slope) <= 3 * mu)
+    double angle, friction, rolling = 0;
+  };
+
+  // Acceleration and angular acceleration of a disc on a slope a, with t = tan a and the coefficients mu and mu_r. It rests for
+  // t <= mu and t <= mu_r and rolls with (2/3) g (sin a - mu_r cos a) for t <= 3 mu - 2 mu_r. Otherwise it slides with
+  // g (sin a - mu cos a), and turns with 2 (mu - mu_r) g cos a / r or, for mu_r >= mu, not at all.
+  inline std::pair<double, double> on_an_incline(const Slope &s, const double g, const double radius)
+  {
+    const double pull = g * std::sin(s.angle), press = g * std::cos(s.angle), rolling = 2. / 3 * (pull - s.rolling * press);
+    if (pull <= s.friction * press && pull <= s.rolling * press)
+      return {0, 0};
+    if (pull <= (3 * s.friction - 2 * s.rolling) * press)
       return {rolling, rolling / radius};
-    return {g * std::sin(slope) - friction, 2 * friction / radius};
+    return {pull - s.friction * press, 2 * std::max(0., s.friction - s.rolling) * press / radius};
   }
 
   // A disc whose gap to the floor is zero at mid-step, when contacts are searched.
@@ -70,7 +78,7 @@ namespace diptych::tests
   }
 
   // A converged step. Momentum: sum m dv = h F + impulses of walls and fixed grains. Energy: kinetic change = external work -
-  // friction - impact. Impulses may be very small beside momenta of order 10.
+  // friction - rolling - impact. Impulses may be very small beside momenta of order 10.
   inline void expect_ledgers(const StepResult &result, const double energy_tolerance)
   {
     const StepEnergies &e = result.energies;
@@ -79,7 +87,8 @@ namespace diptych::tests
     for (const Impulse &r : result.impulses)
       impulse_sum += std::hypot(r.normal, r.tangential);
     ASSERT_LT(result.momentum_residual * impulse_sum, 1e-13);
-    ASSERT_NEAR(e.kinetic_change, e.external_work - e.friction_dissipation - e.impact_dissipation, energy_tolerance);
+    ASSERT_NEAR(e.kinetic_change, e.external_work - e.friction_dissipation - e.rolling_dissipation - e.impact_dissipation,
+                energy_tolerance);
   }
 
   // A sample that takes less than a second to prepare.
@@ -152,13 +161,14 @@ namespace diptych::tests
     StepResult  result;
   };
 
-  inline ShearedSample sheared_sample()
+  inline ShearedSample sheared_sample(const double rolling_friction = 0)
   {
     PreparedSample sample = prepare_sample(small_sample(), {}, [](int, int) { return true; });
     ShearedSample  sheared;
-    sheared.setting.step              = 0.1;
-    sheared.setting.solver.tolerance  = 1e-5;
-    sheared.setting.solver.max_sweeps = 400000;
+    sheared.setting.step                 = 0.1;
+    sheared.setting.solver.tolerance     = 1e-5;
+    sheared.setting.solver.max_sweeps    = 400000;
+    sheared.setting.law.rolling_friction = sheared.setting.law.platen_rolling_friction = rolling_friction;
     // An affine start, because an impulsive start of a dense sample is much harder to solve.
     const Eigen::Vector2d velocity(0.02, -0.02);
     sample.state.walls[1].velocity = velocity;

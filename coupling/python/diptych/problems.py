@@ -38,7 +38,8 @@ def solve(problem: Any, tolerance: float = 2e-5, guess: Any = None, form: str | 
                sweeps_per_check
 
     Returns r (c, 2) impulses and u (c, 2) relative velocities, normal part first; status ("converged" or "max_sweeps_reached"),
-    sweeps, residual, siconos_residual, cpu_s. Raises SceneError for a wrong option, and ValueError with the file and dataset, or the
+    sweeps, residual, siconos_residual, cpu_s. A file whose contacts resist rolling adds rolling (c), the couples divided by the
+    effective radii, and has no siconos_residual (nan). Raises SceneError for a wrong option, and ValueError with the file and dataset, or the
     array.
     """
     keys: dict[str, Any] = {"tolerance": tolerance, **{name: scenes.text_of(value) for name, value in options.items()}}

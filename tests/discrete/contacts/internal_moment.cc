@@ -17,19 +17,22 @@ namespace
   // A real step with all its forces, at the positions of mid-step, where contacts and couples balance.
   struct Step
   {
-    ShearedSample                sheared = sheared_sample();
+    ShearedSample                sheared;
     std::vector<Eigen::Vector2d> position;
     std::vector<ContactForce>    forces;
 
-    Step()
+    explicit Step(const double rolling_friction = 0)
+        : sheared(sheared_sample(rolling_friction))
     {
       const double h = sheared.setting.step;
       for (std::size_t i = 0; i < sheared.before.grains.size(); ++i)
         position.push_back(sheared.before.grains.position[i] + 0.5 * h * sheared.before.grains.velocity[i]);
       for (std::size_t k = 0; k < sheared.result.contacts.size(); ++k)
         {
-          const Contact &c = sheared.result.contacts[k];
-          forces.push_back({c.i, c.j, c.point, c.normal, impulse_vector(c, sheared.result.impulses[k]) / h});
+          const Contact &c      = sheared.result.contacts[k];
+          const Impulse &r      = sheared.result.impulses[k];
+          const double   couple = r.rolling * effective_radius(sheared.state.grains, c.i, c.j) / h;
+          forces.push_back({c.i, c.j, c.point, c.normal, impulse_vector(c, r) / h, 0, couple});
         }
     }
 
@@ -90,18 +93,22 @@ namespace
       EXPECT_NEAR((a[i] - b[i]).norm(), 0, 1e-12 * (1 + a[i].norm()));
   }
 
-  // The skew part of the raw moment is half the couple that turns the grain: M_xy - M_yx = -I d(omega)/dt.
+  // The skew part of the raw moment, couples of contacts included, is half the couple that turns the grain: M_xy - M_yx = -I
+  // d(omega)/dt.
   TEST(InternalMoment, SkewPartIsTheUnbalancedCouple)
   {
-    const Step step;
-    const auto raw = raw_contact_moments(step.position, step.forces);
-    for (std::size_t i = 0; i < raw.size(); ++i)
+    for (const double rolling_friction : {0., 0.3})
       {
-        const double couple = step.sheared.state.grains.moment_of_inertia(i) *
-                              (step.sheared.state.grains.spin[i] - step.sheared.before.grains.spin[i]) /
-                              step.sheared.setting.step;
-        // Contact points are midway between the surfaces, so they are off by half a gap times the tangential force.
-        EXPECT_NEAR(-(raw[i](0, 1) - raw[i](1, 0)), couple, 0.02 * raw[i].norm() + 1e-12);
+        const Step step(rolling_friction);
+        const auto raw = raw_contact_moments(step.position, step.forces);
+        for (std::size_t i = 0; i < raw.size(); ++i)
+          {
+            const double couple = step.sheared.state.grains.moment_of_inertia(i) *
+                                  (step.sheared.state.grains.spin[i] - step.sheared.before.grains.spin[i]) /
+                                  step.sheared.setting.step;
+            // Contact points are midway between the surfaces, so they are off by half a gap times the tangential force.
+            EXPECT_NEAR(-(raw[i](0, 1) - raw[i](1, 0)), couple, 0.02 * raw[i].norm() + 1e-12);
+          }
       }
   }
 

@@ -29,17 +29,17 @@ namespace
     void operator()(const Eigen::Matrix2d &m) { (*this)(Eigen::Vector2d(m.row(0))), (*this)(Eigen::Vector2d(m.row(1))); }
     void operator()(const ContactForce &c)
     {
-      (*this)(c.i), (*this)(c.j), (*this)(c.point), (*this)(c.normal), (*this)(c.force), (*this)(c.shift);
+      (*this)(c.i), (*this)(c.j), (*this)(c.point), (*this)(c.normal), (*this)(c.force), (*this)(c.shift), (*this)(c.couple);
     }
     void operator()(const ContactStatus &status) { (*this)(double(status)); }
     void operator()(const PairImpulse &r)
     {
       (*this)(r.i), (*this)(r.j), (*this)(r.normal), (*this)(r.tangential);
-      (*this)(r.normal_change), (*this)(r.tangential_change);
+      (*this)(r.normal_change), (*this)(r.tangential_change), (*this)(r.rolling), (*this)(r.rolling_change);
     }
     void operator()(const WindowForces::PairSum &s)
     {
-      (*this)(s.i), (*this)(s.j), (*this)(s.dissipation), (*this)(s.impact), (*this)(s.impulse);
+      (*this)(s.i), (*this)(s.j), (*this)(s.dissipation), (*this)(s.impact), (*this)(s.impulse), (*this)(s.rolling);
     }
     void operator()(const Wall &w)
     {
@@ -155,7 +155,7 @@ namespace
       }
     state.cell = PeriodicCell{dice.size(), dice(), {}, dice()};
     for (int k = 0; k < 5; ++k)
-      state.impulses.push_back({k, k + 3, dice(), dice(), dice(), dice()});
+      state.impulses.push_back({k, k + 3, dice(), dice(), dice(), dice(), dice(), dice()});
     state.time = dice.size();
   }
 
@@ -183,7 +183,7 @@ namespace
     p.reference.grain_area = dice(), p.reference.kinetic_energy = dice(), p.reference.platen_kinetic_energy = dice();
     p.reference.strain_rate = dice(), p.reference.mean_density = dice();
     for (int k = 0; k < 6; ++k)
-      p.window.sums.push_back({k, k + 1, dice(), dice(), dice.vector()});
+      p.window.sums.push_back({k, k + 1, dice(), dice(), dice.vector(), dice()});
     p.window.time = dice(), p.stage = 3, p.steps_left = 77, p.step = dice.size(), p.interval = 5;
     p.row                 = random_row(dice);
     p.row.energy_residual = std::numeric_limits<double>::quiet_NaN();

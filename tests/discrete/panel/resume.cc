@@ -87,8 +87,9 @@ namespace
   {
     for (const Lateral lateral : {Lateral::rigid_walls, Lateral::periodic})
       {
-        Options options         = sampled_options();
-        options.lateral.lateral = lateral;
+        Options options              = sampled_options();
+        options.lateral.lateral      = lateral;
+        options.law.rolling_friction = 0.1;
         expect_same_from(small_sample(150), two_stages(), options, everywhere);
         options.lateral.side_motion   = SideMotion::velocity;
         options.lateral.side_velocity = 0.01;

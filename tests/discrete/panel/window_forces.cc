@@ -99,30 +99,37 @@ namespace
             {
               EXPECT_GT(sum, 0); // springs store elastic energy and return it
             }
-          EXPECT_NEAR(sum, (*row).*ledger - before, 3e-12 * (size + before));
-          before = (*row).*ledger;
+          EXPECT_NEAR(sum, ledger(*row) - before, 3e-12 * (size + before));
+          before = ledger(*row);
         }
-      EXPECT_EQ(before, r.rows.back().*ledger);
+      EXPECT_EQ(before, ledger(r.rows.back()));
     };
-    expect_ledger(&Snapshot::window_dissipation, &HistoryRow::friction_dissipation);
-    expect_ledger(&Snapshot::window_impact_dissipation, &HistoryRow::impact_dissipation);
+    expect_ledger(&Snapshot::window_dissipation,
+                  [](const HistoryRow &row) { return row.friction_dissipation + row.rolling_dissipation; });
+    expect_ledger(&Snapshot::window_impact_dissipation, [](const HistoryRow &row) { return row.impact_dissipation; });
+    EXPECT_EQ(r.rows.back().rolling_dissipation > 0, options.law.rolling_friction > 0);
+    for (const HistoryRow &row : r.rows)
+      EXPECT_LT(std::abs(row.energy_residual), 1e-11);
   }
 
-  TEST(WindowDissipation, OfAllPairsIsTheGrowthOfTheLedgersFriction)
+  TEST(WindowDissipation, OfAllPairsIsTheGrowthOfTheLedgersFrictionAndRolling)
   {
     for (const Lateral lateral : {Lateral::end_grains, Lateral::rigid_walls, Lateral::periodic})
       {
         SCOPED_TRACE(name_of(lateral));
         Options options         = quick_options();
         options.lateral.lateral = lateral;
+        if (lateral == Lateral::rigid_walls)
+          options.law.rolling_friction = options.law.platen_rolling_friction = options.law.wall_rolling_friction = 0.1;
         expect_windows_make_up_the_ledger(options);
       }
   }
 
-  TEST(WindowDissipation, OfAllPairsOnSpringsIsTheGrowthOfTheLedgersFriction)
+  TEST(WindowDissipation, OfAllPairsOnSpringsIsTheGrowthOfTheLedgersFrictionAndRolling)
   {
-    Options options       = quick_options();
-    options.method.method = Method::penalty;
+    Options options              = quick_options();
+    options.method.method        = Method::penalty;
+    options.law.rolling_friction = 0.1;
     expect_windows_make_up_the_ledger(options);
   }
 } // namespace

@@ -154,6 +154,30 @@ namespace
     EXPECT_FALSE(std::filesystem::exists(file.path + ".part"));
   }
 
+  // Without rolling resistance a file does not mention it.
+  TEST(Fclib, RollingResistanceIsReadBackWithTheBodiesAndOnlyWithThem)
+  {
+    const TemporaryFile  file;
+    const Hdf5Reader     reader(stored("small.h5"));
+    const StoredGeometry geometry = {reader.read("/nscd/dt")[0], reader.read("/nscd/gap"), reader.read("/nscd/radius"),
+                                     reader.read_vectors("/nscd/x")};
+    ContactProblem       bodies   = *read_fclib(stored("small.h5")).bodies;
+    write_fclib(file.path, bodies, {}, geometry);
+    EXPECT_FALSE(Hdf5Reader(file.path).has("/rolling"));
+    for (ContactRow &c : bodies.contacts)
+      set_rolling(0.1, 0.4, c);
+    std::vector<Impulse> r(bodies.contacts.size());
+    SolverOptions        options;
+    EXPECT_EQ(solve(bodies, options, r).status, SolveStatus::converged);
+    write_fclib(file.path, bodies, {}, geometry, r);
+    const StoredProblem again = read_fclib(file.path);
+    EXPECT_LT(natural_map_residual(*again.bodies, again.solution), 2 * options.tolerance);
+    EXPECT_GT(std::abs(again.solution[0].rolling), 0);
+    EXPECT_NE(again.obstacle(ProblemForm::local), "");
+    write_fclib(file.path, bodies, {});
+    expect_refused({file.path, "/rolling"}, [&] { read_fclib(file.path); });
+  }
+
   // Two discs across the edge of a free cell. The width is a body, and both forms agree on u and on the residual.
   TEST(Fclib, AFreeCellCouplesTheContactsAcrossItsEdge)
   {

@@ -13,7 +13,7 @@ namespace
   using namespace diptych::tests;
 
   // Free discs (mass 1) in a triangle, pressed onto a floor. This is small enough that all solvers reach the same solution.
-  ContactProblem pyramid(const double friction)
+  ContactProblem pyramid(const double friction, const double rolling = 0)
   {
     ContactProblem problem;
     const double   c = 0.5, s = std::sqrt(3.) / 2;
@@ -24,14 +24,17 @@ namespace
                {nx, ny, i, j, 0, -1, 2 * wi, 2 * wj, wj, wj, 0, 0, friction, 1 / (wi + wj), 1 / (wi + wj) * disc_wnn_over_wtt});
     };
     row(0, 3, 0, 1), row(1, 3, 0, 1), row(2, 0, c, s), row(2, 1, -c, s);
+    for (ContactRow &each : problem.contacts)
+      set_rolling(rolling, each.j == 3 ? 1 : 0.5, each);
     return problem;
   }
 
+  // With couples, many impulses belong to the same motion.
   TEST(Solvers, AllReachTheSameSolutionOfASmallProblem)
   {
-    for (const double friction : {0., 0.1, 0.5})
+    for (const auto &[friction, rolling] : {std::pair{0., 0.}, {0.1, 0.}, {0.5, 0.}, {0.1, 0.2}, {0.5, 0.05}, {0.5, 2.}})
       {
-        const ContactProblem problem = pyramid(friction);
+        const ContactProblem problem = pyramid(friction, rolling);
         std::vector<Impulse> reference;
         for (const ContactSolver solver : {ContactSolver::nsgs, ContactSolver::psor})
           {
@@ -45,7 +48,13 @@ namespace
             EXPECT_LE(natural_map_residual(problem, impulses), 1e-13);
             if (reference.empty())
               reference = impulses;
-            for (std::size_t k = 0; k < impulses.size(); ++k)
+            const std::vector<BodyVelocity> v = velocities(problem, impulses), expected = velocities(problem, reference);
+            for (std::size_t b = 0; b < v.size(); ++b)
+              {
+                EXPECT_NEAR(v[b].x, expected[b].x, 1e-10) << name_of(solver);
+                EXPECT_NEAR(v[b].surface, expected[b].surface, 1e-10) << name_of(solver);
+              }
+            for (std::size_t k = 0; k < impulses.size() && rolling == 0; ++k)
               {
                 EXPECT_NEAR(impulses[k].normal, reference[k].normal, 1e-10) << name_of(solver);
                 EXPECT_NEAR(impulses[k].tangential, reference[k].tangential, 1e-10) << name_of(solver);
@@ -86,7 +95,7 @@ namespace
   }
 
   // A problem like that of a step, on a real packing, with artificial terms of the law.
-  ContactProblem packing_problem(const int grains, const double tangential_term)
+  ContactProblem packing_problem(const int grains, const double tangential_term, const double rolling = 0)
   {
     const PreparedSample sample   = prepare_sample(small_sample(grains), {}, [](int, int) { return true; });
     const auto           contacts = find_contacts(sample.state, std::vector<double>(sample.state.grains.size(), 0.05));
@@ -101,18 +110,20 @@ namespace
         const double wnn = 1 / (wi + wj);
         problem.contacts.push_back({c.normal.x(), c.normal.y(), c.i, c.j, 0, -1, 2 * wi, 2 * wj, wj, wj, 0.001,
                                     tangential_term * double(c.i % 3), 0.4, wnn, wnn * disc_wnn_over_wtt});
+        const std::vector<double> &r = sample.state.grains.radius;
+        set_rolling(rolling, std::size_t(c.j) < r.size() ? r[c.j] / (r[c.i] + r[c.j]) : 1, problem.contacts.back());
       }
     problem.order = sweep_order(contacts, 1.);
     return problem;
   }
 
-  // Four lanes and row after row do the same arithmetic in an order that does not matter. This also holds with several blocks and
-  // with tangential restitution.
+  // Four lanes and row after row do the same arithmetic in an order that does not matter. This also holds with several blocks,
+  // with tangential restitution and with rolling resistance.
   TEST(Solvers, BatchedSweepsHaveTheBitsOfScalarOnes)
   {
-    for (const double tangential_term : {0., 0.002})
+    for (const auto &[tangential_term, rolling] : {std::pair{0., 0.}, {0.002, 0.}, {0., 0.1}, {0.002, 0.1}})
       {
-        const ContactProblem      problem = packing_problem(2000, tangential_term);
+        const ContactProblem      problem = packing_problem(2000, tangential_term, rolling);
         std::vector<Impulse>      scalar(problem.contacts.size());
         std::vector<BodyVelocity> v = problem.free_velocity;
         ThreadTeam                team(1);
@@ -123,14 +134,17 @@ namespace
           sweep_psor(problem, batches.order(), 1.8, 1.0, v, scalar);
         batches.sweep(1.8, 1.0, 30, team);
         const std::vector<Impulse> batched = batches.impulses();
-        double                     sum     = 0;
+        double                     sum = 0, couples = 0;
         for (std::size_t k = 0; k < scalar.size(); ++k)
           {
             EXPECT_EQ(scalar[k].normal, batched[k].normal);
             EXPECT_EQ(scalar[k].tangential, batched[k].tangential);
+            EXPECT_EQ(scalar[k].rolling, batched[k].rolling);
             sum += scalar[k].normal;
+            couples += std::abs(scalar[k].rolling);
           }
         EXPECT_GT(sum, 0);
+        EXPECT_EQ(couples > 0, rolling > 0);
         EXPECT_LT(batches.n_batches(), 0.3 * double(scalar.size())) << "most batches should be full";
         batches.refresh_velocities();
         EXPECT_NEAR(batches.residual(team), natural_map_residual(problem, scalar), 1e-12);
@@ -139,7 +153,7 @@ namespace
 
   TEST(Solvers, EveryNumberOfThreadsGivesTheSameBits)
   {
-    const ContactProblem problem = packing_problem(2000, 0);
+    const ContactProblem problem = packing_problem(2000, 0, 0.1);
     SolverOptions        options;
     options.tolerance  = 1e-14;
     options.max_sweeps = 1000;
@@ -156,6 +170,7 @@ namespace
         {
           EXPECT_EQ(result[k].normal, results[0][k].normal);
           EXPECT_EQ(result[k].tangential, results[0][k].tangential);
+          EXPECT_EQ(result[k].rolling, results[0][k].rolling);
         }
   }
 

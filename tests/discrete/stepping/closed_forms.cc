@@ -37,20 +37,31 @@ namespace
       }
   }
 
-  TEST(ClosedForm, DiscOnAnInclineRollsOrSlides)
+  TEST(ClosedForm, DiscOnAnInclineRestsRollsOrSlides)
   {
-    const double g = 9.81, step = 0.001, mu = 0.2, radius = 0.5;
+    const double g = 9.81, step = 0.001, radius = 0.5;
     const int    n_steps = 50;
-    for (const double slope : {0.2, 0.5, 0.54, 0.6, 0.9}) // atan(0.6) = 0.5404
+    for (const Slope &s : {Slope{0.2, 0.2},
+                           {0.5, 0.2},
+                           {0.54, 0.2},
+                           {0.6, 0.2},
+                           {0.9, 0.2}, // atan(0.6) = 0.5404
+                           {0.19, 0.5, 0.2},
+                           {0.21, 0.5, 0.2},
+                           {0.9, 0.5, 0.1},
+                           {1., 0.5, 0.1},
+                           {0.35, 0.3, 0.4}})
       {
-        StepSetting setting         = exact_setting(step);
-        setting.time.gravity_x      = g * std::sin(slope);
-        setting.time.gravity_y      = -g * std::cos(slope);
-        setting.law.platen_friction = mu;
-        State state                 = disc_on_floor({0, 0}, radius);
+        const double slope                  = s.angle;
+        StepSetting  setting                = exact_setting(step);
+        setting.time.gravity_x              = g * std::sin(slope);
+        setting.time.gravity_y              = -g * std::cos(slope);
+        setting.law.platen_friction         = s.friction;
+        setting.law.platen_rolling_friction = s.rolling;
+        State state                         = disc_on_floor({0, 0}, radius);
         for (int k = 0; k < n_steps; ++k)
           ASSERT_EQ(advance(state, setting).solve.status, SolveStatus::converged);
-        const auto [acceleration, turning] = on_an_incline(slope, g, mu, radius);
+        const auto [acceleration, turning] = on_an_incline(s, g, radius);
         const double time                  = n_steps * step;
         EXPECT_NEAR(state.grains.velocity[0].x(), acceleration * time, 1e-10) << "slope " << slope;
         EXPECT_NEAR(state.grains.spin[0], -turning * time, 1e-9) << "slope " << slope; // downhill to the right: clockwise

@@ -9,6 +9,7 @@ from diptych_report.data.numbers import plain
 
 ENERGIES = {"discrete": (("external_work", "work of platens and pressure, grains", GRAINS, "-"),
                          ("friction_dissipation", "dissipated by friction, grains", THIRD, (0, (6, 1.5))),
+                         ("rolling_dissipation", "dissipated by rolling resistance, grains", THIRD, (0, (1, 1))),
                          ("impact_dissipation", "dissipated by impacts, grains", INK, (0, (2, 1.2)))),
             "continuum": (("dissipation", "plastic work, continuum", CONTINUUM, (0, (5, 1.5))),)}
 
@@ -19,14 +20,14 @@ def figures(result):
 
 
 def _energies(result):
-    caption = ("Energies since the start. Grains: work = friction + impacts + change of kinetic energy; the accuracy table gives the residual. "
+    caption = ("Energies since the start. Grains: work = friction + rolling resistance + impacts + change of kinetic energy; the accuracy table gives the residual. "
                "Continuum: plastic work.")
     figure, axes = chart(result, "energy (P d²)")
     unit = result.units.size("pressure length^2")
     for panel, lines in ENERGIES.items():
         for name, label, colour, dashes in lines:
             found = result.history(panel, name)
-            if found is not None:
+            if found is not None and (found[1] != 0).any():
                 axes.plot(*thin(result.loading_variable.factor * found[0], found[1] / unit), color=colour, linestyle=dashes, label=label)
     if not axes.lines:
         return None, caption
