@@ -180,7 +180,7 @@ class Calibrator:
 
     def _sample(self, fit: Fit) -> Draws:
         """The posterior by an emulator of all runs. A first, short sampling tells where more coarse runs improve it."""
-        n = min(MORE_RUNS, 3 * len(fit.point))
+        n = self.calibration.more_runs or min(MORE_RUNS, 3 * len(fit.point))
         first = self._posterior().sample(fit.point, fit.jacobian, self.calibration.seed, SHORT)
         more = first.points[np.linspace(0, len(first.points) - 1, n).astype(int)]
         failed = sum(any(one.failure for one in runs) for runs in self._runs(more, self.fitted, False, "coarse_runs"))

@@ -74,6 +74,7 @@ class Calibration:
     load_step: float = 0.001
     coarse_element_size: float = 4.0
     check_samples: int = 2
+    more_runs: int = 0  # for the emulator; 0: three per parameter, at most 20
     seed: int = 1
 
     @property
@@ -261,7 +262,7 @@ def read_calibration(file: str, contents: Mapping[str, Any] | None = None) -> Ca
     value and the allowed values."""
     root = Part(file, {}, contents) if contents else Part.read(file, "targets, quantities, bins and parameters")
     root.allow("title", "targets", "quantities", "bins", "set", "parameters", "noise", "starts", "jacobians", "fine_jacobians",
-               "start_jacobians", "load_step", "coarse_element_size", "check_samples", "seed")
+               "start_jacobians", "load_step", "coarse_element_size", "check_samples", "more_runs", "seed")
     name = name_of(file, "calibration")
     targets = [_target(part) for part in root.list("targets")]
     if not any(target.is_fitted for target in targets):
@@ -293,7 +294,8 @@ def read_calibration(file: str, contents: Mapping[str, Any] | None = None) -> Ca
         for name in filter(part.has, names):
             setattr(c.noise, name, part.number(name, 1e-9 if name in ("correlation_strain", "early_strain") else 0, FAR))
     for key, low, high in (("starts", 1, 20), ("jacobians", 1, 100), ("fine_jacobians", 1, 100), ("start_jacobians", 1, 20),
-                           ("check_samples", 0, 1000), ("seed", 0, 1_000_000), ("load_step", 1e-9, 1), ("coarse_element_size", 0.01, 1e3)):
+                           ("check_samples", 0, 1000), ("more_runs", 0, 1000), ("seed", 0, 1_000_000), ("load_step", 1e-9, 1),
+                           ("coarse_element_size", 0.01, 1e3)):
         if root.has(key):
             setattr(c, key, root.number(key, low, high, isinstance(getattr(c, key), int)))
     return c
