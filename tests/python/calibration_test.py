@@ -18,6 +18,7 @@ from diptych.campaigns.calibration_file import Calibration, Target, read_calibra
 from diptych.campaigns.calibration_findings import predictions
 from diptych.campaigns.calibration_grains import mean_of
 from diptych.campaigns.calibration_noise import Data, Noise, Observable
+from diptych.campaigns.calibration_profiles import PROFILE, STRIPS
 from diptych.campaigns.calibration_runs import Observation, Path, observe_curve
 from diptych.campaigns.calibration_search import least_squares
 from diptych.campaigns.calibration_standard import standard_calibration
@@ -32,7 +33,7 @@ SIX = [Parameter("friction_angle_peak", "logarithm", 30, 12, 45),
        Parameter("dilatancy_angle_peak", "share_of", 0.3, 0.05, 1, "friction_angle_start"),
        Parameter("youngs_modulus", "logarithm", 4000, 100, 20000)]
 TRUTHS = [23, 0.35, 0.6, 0.004, 0.7, 900]  # numbers of the coordinates
-USUAL = Noise(0.02, 0.0045, 1e-4, 0.04, 0.3)
+USUAL = Noise(0.02, 0.0045, 1e-4, 0.04, 0.3, 0, 0)
 SCENE = scenes.read({"loading": {"axial_strain": 0.03}, "comparison": {"window_edges": [0, 0.03]}})
 
 
@@ -162,8 +163,8 @@ def test_noise_is_found_again():
 
 
 def test_weights_leave_the_common_level_out():
-    weights = noise.working_weights(USUAL, drawn(USUAL, usual_observables(), np.full(29, 0.3), 4, 3))
-    assert weights[12] ** -0.5 == pytest.approx(math.hypot(0.008, 0.0045 / 2), abs=1e-4)  # tolerance, shape on four samples
+    working = noise.working_covariance(USUAL, drawn(USUAL, usual_observables(), np.full(29, 0.3), 4, 3))
+    assert working[12, 12] ** 0.5 == pytest.approx(math.hypot(0.008, 0.0045 / 2), abs=1e-4)  # tolerance, shape on four samples
 
 
 def test_a_calibration_finds_the_parameters_of_its_own_data():
@@ -251,8 +252,8 @@ def test_a_measured_curve_gives_means_over_bins_and_its_own_deviations(tmp_path)
     assert o.values == pytest.approx([0.15, 0.35, np.nan, -0.003], nan_ok=True)  # beyond its end nothing is measured
     assert deviations == pytest.approx([0.01, 0.015, np.nan, np.nan], nan_ok=True)
     data = Data(observables[:2], o.values[:2], deviations[:2])
-    assert noise.noise_of([data], Noise()) == Noise(0, 0, 0, 0, 0)  # no scatter is needed: all deviations are measured
-    assert np.sqrt(np.diag(noise.covariance(Noise(0, 0, 0, 0, 0), data))) == pytest.approx([0.01, 0.015])
+    assert noise.noise_of([data], Noise()) == Noise(*[0] * 7)  # no scatter is needed: all deviations are measured
+    assert np.sqrt(np.diag(noise.covariance(Noise(*[0] * 7), data))) == pytest.approx([0.01, 0.015])
     with pytest.raises(ValueError, match="stress_level, stress_shape.* must be given"):
         noise.noise_of([Data(observables[:2], o.values[:2])], Noise())
 
@@ -340,3 +341,39 @@ def test_friction_of_noisy_grains_is_found_within_its_interval():
     assert sum(p["number_low"] < 0.4 < p["number_high"] for p in found) >= 7
     assert np.sqrt(np.mean([(p["value"] - 0.4) ** 2 for p in found])) < 0.04
     assert max(p["number_high"] - p["number_low"] for p in found) < 0.25
+
+
+def banded(settings, observables):
+    """Profile of a band whose width is 5 internal lengths."""
+    delta = 5 * float(next((one.value for one in settings), 3)) / 2.197
+    return np.array([0.5 / delta / np.cosh(0.5 * (one.near + one.far) / delta) ** 2 for one in observables])
+
+
+@pytest.mark.parametrize("parts", [1, 4])
+def test_a_profile_gives_the_internal_length_and_no_more_for_finer_strips(parts):
+    """Bands of four samples vary by 20 % in width: their mean is known to 10 %, however many strips show it."""
+    observables = [Observable(PROFILE, low, low + 0.01, *(a + (b - a) * (k + i) / parts for i in (0, 1)))
+                   for low in (0.01, 0.02) for a, b in zip(STRIPS, STRIPS[1:]) for k in range(parts)]
+    c, truth, held, deviations = calibration([Parameter("internal_length", "logarithm", 3, 0.8, 8)]), 2.0, 0, []
+    mean, c.noise = banded([Setting("continuum", "internal_length", str(truth), "")], observables), Noise(width_discrepancy=1e-3)
+    for seed in range(8):
+        data, record = drawn(Noise(0, 0, 0, 0, 0, 0.2, 0.08), observables, mean, 4, seed), empty_record("c")
+        Calibrator(c, Coordinates(c.parameters, {}), [path_of(c.targets[0], data)], lambda on, points, fine, step: [
+            [Observation(banded(s, observables)) for s in point] for point in points], record).calibrate()
+        [p] = record["parameters"]
+        held += p["number_low"] < truth < p["number_high"]
+        deviations.append(np.log(p["draws"]).std())
+    assert held >= 7 and 0.08 < np.mean(deviations) < 0.15
+
+
+def test_element_tests_have_their_own_scatter_and_no_bands(tmp_path):
+    """element.csv gives means of grains with errors; a prescribed volume does not count."""
+    header = "progress,grains_stress_ratio,grains_stress_ratio_error,grains_volumetric_strain,grains_volumetric_strain_error"
+    (tmp_path / "element.csv").write_text(header + "\n0,0,0.01,0,0\n0.02,0.3,0.02,0,1e-17\n2,0.3,0.02,0,0\n")
+    table = read_curve(str(tmp_path / "element.csv"))
+    assert list(table) == ["progress", "stress_ratio", "stress_ratio_deviation"] and len(table) == 3
+    data = drawn(USUAL, usual_observables(), np.full(29, 0.3), 200, 3)
+    cell = drawn(Noise(0.1, 0.02, 1e-4, 0.1, 0.3, 0, 0), usual_observables(), np.full(29, 0.3), 8, 4)
+    cell.own = noise.noise_of([cell], Noise())
+    assert noise.noise_of([data, cell], Noise()).stress_level == pytest.approx(0.02, abs=0.003)
+    assert noise.covariance(USUAL, cell)[0, 0] ** 0.5 == pytest.approx(0.1, rel=0.5)

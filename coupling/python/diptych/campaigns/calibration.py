@@ -21,12 +21,13 @@ import pandas as pd
 from ..arrays import Array
 from ..errors import NotConverged, SceneError, Stopped
 from .calibration_coordinates import Coordinates
-from .calibration_file import Calibration, Target, read_calibration
+from .calibration_file import OF_BANDS, Calibration, Target, is_element, read_calibration
 from .calibration_findings import (discrepancy_record, discrepancy_words, parameter_records, parameter_words, path_record,
                                    posterior_table, summary, write_calibration)
 from .calibration_grains import GrainRuns
 from .calibration_noise import Data, FittedData, noise_of
 from .calibration_posterior import Draws, Posterior
+from .calibration_profiles import PROFILE
 from .calibration_runs import CalibrationRuns, Observation, Path, observe_curve, read_target
 from .calibration_search import DIFFERENCE, GRAINS_DIFFERENCE, PRIOR, Fit, difference_jacobian, least_squares, spread_point
 from .calibration_standard import standard_calibration
@@ -39,8 +40,8 @@ HARDLY_WORSE = 4  # in chi^2: two deviations
 MOST_FAILED_STARTS = 8  # replaced by further points
 STEPS = 1500  # of the sampling of the posterior
 MORE_RUNS, SHORT = 20, 500  # coarse runs at points of the posterior, after so many steps of a first sampling
-KEYS_OF_NOISE = ("stress_level", "stress_shape", "volume_start", "volume_growth", "ln_width", "correlation_strain",
-                 "degrees_of_freedom")  # in calibration.json
+KEYS_OF_NOISE = ("stress_level", "stress_shape", "volume_start", "volume_growth", "ln_width", "profile_stretch",
+                 "profile_noise", "correlation_strain", "degrees_of_freedom")  # in calibration.json
 
 RunModel = Callable[[Sequence[Path], Sequence[Sequence[Sequence[Setting]]], bool, float], "list[list[Observation]]"]
 
@@ -64,7 +65,7 @@ class Calibrator:
         self.noise = noise_of([path.of_noise for path in (paths if alone else self.fitted)], calibration.noise)
         record["noise"] = {key: value for key, value in asdict(self.noise).items() if key in KEYS_OF_NOISE}
         self.data = FittedData(self.noise, [path.data for path in self.fitted], [path.left_out for path in self.fitted])
-        record["n_observables"] = int((self.data.weights > 0).sum())
+        record["n_observables"] = int(self.data.used.sum())
         if record["n_observables"] == 0:
             raise NotConverged("no observable is left to fit; check targets, quantities and bins")
         self.difference = GRAINS_DIFFERENCE if calibration.of_grains else DIFFERENCE
@@ -179,7 +180,7 @@ class Calibrator:
 
     def _sample(self, fit: Fit) -> Draws:
         """The posterior by an emulator of all runs. A first, short sampling tells where more coarse runs improve it."""
-        n = min(MORE_RUNS, 3 * len(fit.point))
+        n = self.calibration.more_runs or min(MORE_RUNS, 3 * len(fit.point))
         first = self._posterior().sample(fit.point, fit.jacobian, self.calibration.seed, SHORT)
         more = first.points[np.linspace(0, len(first.points) - 1, n).astype(int)]
         failed = sum(any(one.failure for one in runs) for runs in self._runs(more, self.fitted, False, "coarse_runs"))
@@ -206,13 +207,13 @@ class Calibrator:
         before, after = self.run(self.paths, [[path.target.before for path in self.paths], calibrated], True,
                                  self.calibration.load_step)
         halved = self.run(self.paths, [calibrated], True, 0.5 * self.calibration.load_step)[0]
-        weights = iter(self.data.weights)
+        used = iter(self.data.used)
         for path, *runs in zip(self.paths, before, after, halved):
             here = self._jacobian_on(path, best, jacobian)
             deviations = np.sqrt(np.diag(here @ spread @ here.T))
             self.record["paths"].append(path_record(path, self.noise, runs, deviations))
             for one in self.record["paths"][-1]["observables"] if path.target.is_fitted else ():
-                one["counts"], (one["discrepancy"], one["discrepancy_deviation"]) = bool(next(weights) > 0), next(curve)
+                one["counts"], (one["discrepancy"], one["discrepancy_deviation"]) = bool(next(used)), next(curve)
         for key, runs in (("chi2_before", before), ("chi2", after)):
             values = [one.values for path, one in zip(self.paths, runs) if path.target.is_fitted]
             self.record[key] = self._chi2(self.data.residual(np.concatenate(values)))
@@ -245,18 +246,21 @@ def _check_target(calibration: Calibration, coordinates: Coordinates, target: Ta
         scene = read_target(target, [*calibration.fixed, *coordinates.settings(coordinates.start, target.name)])
     except SceneError as error:
         raise SceneError(f"{calibration.file}: with every parameter at its start: {error}; change start or set") from error
-    if not calibration.of_grains:
+    if not calibration.of_grains and not is_element(scene):
         importlib.import_module("diptych._continuum").require_continuum(scene)
     if not calibration.of_grains and scene.dict()["continuum"]["initial_stress"] == "mapped":
         raise SceneError(f"{target.scene}: continuum/initial_stress = mapped has no place in a calibration: one mesh serves "
                          "all samples")
     place = f"{calibration.file}: target '{target.name}': "
+    law = scene.dict()["continuum"]["law"]
+    if PROFILE in calibration.kinds and not is_element(scene) and not law.startswith("cosserat"):
+        raise SceneError(f"{place}{PROFILE} needs a law with rotations; continuum/law = {law} has none; use ln_width")
     try:
         observables = calibration.observables_of(scene, bool(target.curve))
     except ValueError as error:
         raise SceneError(place + str(error)) from error
     for kind in calibration.kinds:
-        if target.is_fitted and not target.curve and kind not in [one.kind for one in observables]:
+        if target.is_fitted and not (target.curve or is_element(scene)) and kind not in [one.kind for one in observables]:
             raise SceneError(f"{place}no bin or window of {kind} lies within its loading")
     for p in coordinates.parameters:
         if p.is_of(target.name) and p.key in (unused := scene.unused_keys()):
@@ -296,7 +300,7 @@ def _check_data(calibration: Calibration, paths: Sequence[Path], runs: Calibrati
                 record["words"].append(f"target '{target.name}' is a measured curve: nothing was run again")
         elif path.scene.dict()["discrete"]["method"] == "imported":
             stages = path.scene.stages()  # between frames nothing is known of the grains
-            path.left_out = ["" if one.kind == "ln_width" or any(one.low <= at <= one.high for at in stages)
+            path.left_out = ["" if one.kind in OF_BANDS or any(one.low <= at <= one.high for at in stages)
                              else "no frame lies in it" for one in path.data.observables]
             record["words"].append(f"target '{target.name}' is imported: nothing was run again, and only bins that hold a "
                                    "frame count")
@@ -306,6 +310,9 @@ def _check_data(calibration: Calibration, paths: Sequence[Path], runs: Calibrati
             path.left_out = runs.unsteady(path, noise)
             record["words"] += [f"left out: {target.name}, {one.kind} from {one.low:.3g} to {one.high:.3g}: {why}"
                                 for one, why in zip(path.data.observables, path.left_out) if why]
+        if PROFILE in calibration.kinds:
+            path.left_out = [why or ("the profile shows it" if one.kind == "ln_width" else "")
+                             for one, why in zip(path.data.observables, path.left_out)]
 
 
 def _inputs(calibration: Calibration) -> list[tuple[str, str]]:

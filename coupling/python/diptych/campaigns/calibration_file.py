@@ -19,19 +19,25 @@ from ..errors import SceneError
 from ..importers import read_table
 from .calibration_coordinates import COORDINATES, USUAL, Parameter
 from .calibration_noise import KINDS, Noise, Observable
+from .calibration_profiles import PROFILE, STRIPS
 from .histories import is_beyond
 from .input_file import Part, Setting, is_number, name_of, value_text
 
 FAR = 1e12
+OF_BANDS = ("ln_width", PROFILE)  # taken in the windows of the comparison
 MOST_PARAMETERS = 12  # the starts are spread over at most so many directions
 KEYS_OF_THE_SEARCH = ("mesh", "element_size", "rectangle_width", "rectangle_height", "initial_step", "max_step")
 CURVE_COLUMNS = {"stress_ratio": "stress_ratio_deviation", "volumetric_strain": "volumetric_strain_deviation"}
+# The same in element.csv: means of samples of grains, and standard errors.
+OTHER_NAMES = {f"{name}{ending}": f"grains_{name}{other}" for name in CURVE_COLUMNS
+               for ending, other in (("", ""), ("_deviation", "_error"))}
+PRESCRIBED = 1e-9  # a smaller deviation: the path prescribes the quantity
 
 
 @dataclass
 class Target:
     """A loading path: one scene on several samples, on finished result folders, or with a measured curve instead of grains. A
-    curve and seeds: parameters of the grains are fitted to the curve."""
+    curve and seeds: parameters of the grains are fitted to the curve. An element test is a scene with loading/mode = path."""
 
     name: str
     scene: str
@@ -68,6 +74,7 @@ class Calibration:
     load_step: float = 0.001
     coarse_element_size: float = 4.0
     check_samples: int = 2
+    more_runs: int = 0  # for the emulator; 0: three per parameter, at most 20
     seed: int = 1
 
     @property
@@ -76,25 +83,38 @@ class Calibration:
         return self.parameters[0].setting[0] == "discrete"
 
     def observables_of(self, scene: _diptych.Scene, is_curve: bool = False) -> list[Observable]:
-        """Bins up to the end of the scene's loading, and windows of its comparison; a measured curve has no windows."""
+        """Bins up to the end of the scene's loading, and windows of its comparison; curves and element tests have no windows."""
         keys, found = scene.dict(), []
         for kind in self.kinds:
-            edges = keys["comparison"]["window_edges"] if kind == "ln_width" else self.bins
+            if kind in OF_BANDS and (is_curve or is_element(scene)):
+                continue
+            edges = keys["comparison"]["window_edges"] if kind in OF_BANDS else self.bins
             edges = [float(edge) for edge in (edges.split(",") if isinstance(edges, str) else edges)]
-            found += [Observable(kind, low, high) for low, high in zip(edges, edges[1:])
-                      if not is_beyond(high, keys["loading"]["axial_strain"]) and not (is_curve and kind == "ln_width")]
+            found += [Observable(kind, low, high, *strip) for low, high in zip(edges, edges[1:])
+                      if not is_beyond(high, keys["loading"]["axial_strain"])
+                      for strip in (zip(STRIPS, STRIPS[1:]) if kind == PROFILE else [()])]
         if not found:
             raise ValueError("no bin and no window lies within the loading; check bins and comparison/window_edges")
         return found
 
 
+def is_element(scene: _diptych.Scene) -> bool:
+    """True if the law's point follows the path, and not a boundary value problem."""
+    return scene.dict()["loading"]["mode"] == "path"
+
+
 def read_curve(file: str, bins: Sequence[tuple[float, float]] = ()) -> pd.DataFrame:
-    """A measured curve: axial_strain, stress_ratio (t/s), volumetric_strain and, where given, their deviations; compression
-    positive. Other columns are ignored. Warns of `bins` (low, high) in which nothing was measured. Raises SceneError with file,
-    line and column."""
+    """A measured curve: axial_strain or the progress of a path, stress_ratio (t/s), volumetric_strain and, where given, their
+    deviations; compression positive. Also element.csv, whose grains count; a quantity that its path prescribes is left out.
+    Other columns are ignored. Warns of `bins` (low, high) in which nothing was measured. Raises SceneError with file, line and
+    column."""
     rows = read_table(file)
     allowed = ["axial_strain", *CURVE_COLUMNS, *CURVE_COLUMNS.values()]
-    table = pd.DataFrame({name: rows.numbers(name) for name in allowed if rows.has(name)})
+    names = {"axial_strain": ("progress", "axial_strain"), **{one[0]: one for one in OTHER_NAMES.items()}}
+    table = pd.DataFrame({name: rows.numbers(*both) for name, both in names.items() if rows.find(*both) is not None})
+    for name, deviation in CURVE_COLUMNS.items():
+        if rows.has(OTHER_NAMES[deviation]) and table[deviation].max() < PRESCRIBED:
+            table = table.drop(columns=[name, deviation])
     if not {"axial_strain", *CURVE_COLUMNS} & set(table) > {"axial_strain"}:
         raise SceneError(f"{file}: its columns are {', '.join(rows.columns)}; the line above the numbers must name "
                          f"axial_strain and stress_ratio or volumetric_strain; used are {', '.join(allowed)}")
@@ -102,7 +122,8 @@ def read_curve(file: str, bins: Sequence[tuple[float, float]] = ()) -> pd.DataFr
         rows.refuse(table[name] <= 0, lambda k: f"{name} = {table[name][k]:g} must be positive")
     strain = table["axial_strain"].to_numpy()
     rows.refuse(np.diff(strain, prepend=-np.inf) <= 0, lambda k: f"axial_strain = {strain[k]:g} must be larger than above it")
-    rows.refuse(strain >= 1, lambda k: f"axial_strain = {strain[k]:g}; give strains below 1, not per cent")
+    if not rows.has("progress"):
+        rows.refuse(strain >= 1, lambda k: f"axial_strain = {strain[k]:g}; give strains below 1, not per cent")
     if len(table) < 2:
         raise SceneError(f"{file}: a curve needs at least two rows of numbers")
     if "stress_ratio" in table and (table["stress_ratio"].mean() < 0 or table["stress_ratio"].abs().max() >= 1):
@@ -241,7 +262,7 @@ def read_calibration(file: str, contents: Mapping[str, Any] | None = None) -> Ca
     value and the allowed values."""
     root = Part(file, {}, contents) if contents else Part.read(file, "targets, quantities, bins and parameters")
     root.allow("title", "targets", "quantities", "bins", "set", "parameters", "noise", "starts", "jacobians", "fine_jacobians",
-               "start_jacobians", "load_step", "coarse_element_size", "check_samples", "seed")
+               "start_jacobians", "load_step", "coarse_element_size", "check_samples", "more_runs", "seed")
     name = name_of(file, "calibration")
     targets = [_target(part) for part in root.list("targets")]
     if not any(target.is_fitted for target in targets):
@@ -252,12 +273,13 @@ def read_calibration(file: str, contents: Mapping[str, Any] | None = None) -> Ca
         root.refuse(f" = '{', '.join(kinds)}' is not allowed; use some of {', '.join(KINDS)}", "quantities")
     root.demand_distinct("quantities", kinds)
     bins = [part.value for part in root.list("bins")]
+    has_bins = not set(kinds) <= set(OF_BANDS)
     ascend = len(bins) > 1 and all(map(is_number, bins)) and bins[0] >= 0 and np.all(np.diff(bins) > 0)
-    if kinds != ["ln_width"] and not ascend:
+    if has_bins and not ascend:
         root.refuse(f" = {bins} is not allowed; give at least two edges that ascend from 0 or above", "bins")
     for target in targets:
         if target.curve:
-            read_curve(target.curve, list(zip(bins, bins[1:])) if kinds != ["ln_width"] else [])
+            read_curve(target.curve, list(zip(bins, bins[1:])) if has_bins else [])
     parameters = [_parameter(part, targets) for part in root.list("parameters")]
     if not 0 < len(parameters) <= MOST_PARAMETERS:
         root.refuse(f" is missing or empty; name 1 to {MOST_PARAMETERS} keys to be fitted", "parameters")
@@ -272,7 +294,8 @@ def read_calibration(file: str, contents: Mapping[str, Any] | None = None) -> Ca
         for name in filter(part.has, names):
             setattr(c.noise, name, part.number(name, 1e-9 if name in ("correlation_strain", "early_strain") else 0, FAR))
     for key, low, high in (("starts", 1, 20), ("jacobians", 1, 100), ("fine_jacobians", 1, 100), ("start_jacobians", 1, 20),
-                           ("check_samples", 0, 1000), ("seed", 0, 1_000_000), ("load_step", 1e-9, 1), ("coarse_element_size", 0.01, 1e3)):
+                           ("check_samples", 0, 1000), ("more_runs", 0, 1000), ("seed", 0, 1_000_000), ("load_step", 1e-9, 1),
+                           ("coarse_element_size", 0.01, 1e3)):
         if root.has(key):
             setattr(c, key, root.number(key, low, high, isinstance(getattr(c, key), int)))
     return c

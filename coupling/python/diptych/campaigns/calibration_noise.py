@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A few samples cannot give a full covariance, so the scatter of one sample has a fixed form. The curve t/s is shifted as a
 whole (level) and varies locally, correlated in strain (shape). Volume has a constant scatter and one in proportion to strain.
-Widths scatter independently. A measured curve may bring deviations of its own, which replace this form."""
+Widths scatter independently, the profile as calibration_profiles.py says. A measured curve may bring deviations of its own, which
+replace this form."""
 
 from __future__ import annotations
 
@@ -13,20 +14,23 @@ import numpy as np
 import scipy.linalg
 
 from ..arrays import Array
+from .calibration_profiles import FLOOR, MISFIT_LENGTH, NOISE_LENGTH, PROFILE, shape
 
-KINDS = ("stress_ratio", "volumetric_strain", "ln_width")
+KINDS = ("stress_ratio", "volumetric_strain", "ln_width", PROFILE)
 ESTIMATED = {"stress_ratio": ("stress_level", "stress_shape"), "volumetric_strain": ("volume_start", "volume_growth"),
-             "ln_width": ("ln_width",)}
+             "ln_width": ("ln_width",), PROFILE: ("profile_stretch", "profile_noise")}
 
 
 @dataclass(frozen=True)
 class Observable:
-    """One number by which grains and continuum are compared: a mean over a bin of the progress, or ln of a width in a
-    window."""
+    """One number by which grains and continuum are compared: a mean over a bin of the progress, or ln of a width or a strip of
+    a profile in a window. near, far: edges of the strip [mean diameters]."""
 
     kind: str
     low: float
     high: float
+    near: float = 0.0
+    far: float = 0.0
 
 
 @dataclass
@@ -39,6 +43,8 @@ class Noise:
     volume_start: float | None = None
     volume_growth: float | None = None
     ln_width: float | None = None
+    profile_stretch: float | None = None  # of ln of the width of a band, in all its windows
+    profile_noise: float | None = None
     correlation_strain: float = 0.005
     stress_discrepancy: float = 0.008
     early_stress_discrepancy: float = 0.03
@@ -53,12 +59,13 @@ class Noise:
 class Data:
     """The samples of one path. values: (samples, observables), NaN if a sample has none. given: (observables) deviations that a
     measured curve brings, NaN where it brings none. runs: number of samples of grains that are compared with the data in their
-    mean; 0: a continuum without scatter."""
+    mean; 0: a continuum without scatter. own: the scatter of one sample of this path; None: that of the calibration."""
 
     observables: Sequence[Observable]
     values: Array
     given: Array | None = None
     runs: int = 0
+    own: Noise | None = None
     mean: Array = field(init=False)  # over the samples that have it; NaN if less than half do
     count: Array = field(init=False)
 
@@ -78,6 +85,33 @@ class Data:
     @property
     def middles(self) -> Array:
         return np.array([0.5 * (one.low + one.high) for one in self.observables])
+
+    @property
+    def distances(self) -> Array:
+        """(observables): of the middle of a strip from the middle of the band [mean diameters]; else 0."""
+        return np.array([0.5 * (one.near + one.far) for one in self.observables])
+
+    def windows(self) -> list[list[int]]:
+        """The strips of each window's profile, as indices of observables."""
+        found: dict[float, list[int]] = {}
+        for k, one in enumerate(self.observables):
+            if one.far:
+                found.setdefault(one.low, []).append(k)
+        return list(found.values())
+
+    def shapes(self) -> Array:
+        """(3, observables): of profiles, as shape() has them; 0 elsewhere and without a mean."""
+        found = np.zeros((3, len(self.observables)))
+        for at in self.windows():
+            if np.isfinite(self.mean[at]).all():
+                breadth = np.array([self.observables[k].far - self.observables[k].near for k in at])
+                found[:, at] = shape(self.distances[at], breadth, self.mean[at])
+        return found
+
+    def beside(self, length: float) -> Array:
+        """(observables, observables): exp(-distance / length) of strips of one window; else 0."""
+        y, x = self.distances, self.middles
+        return np.exp(-np.abs(y[:, None] - y) / length) * np.equal.outer(x, x) * np.outer(y > 0, y > 0)
 
 
 def _stress_squares(paths: Iterable[Data]) -> tuple[float, float]:
@@ -117,11 +151,31 @@ def _width_square(paths: Iterable[Data]) -> float:
     return square / freedom if freedom else np.nan
 
 
+def _profile_squares(paths: Iterable[Data]) -> tuple[float, float]:
+    """Variance of ln(width), from the mean stretch of all windows of a sample; and the factor of the noise, from the rest."""
+    stretch = left = freedom = strips = 0.0
+    for path in paths:
+        (_, mode, variance), common = path.shapes(), []
+        for at in path.windows():
+            n = path.count[at].min() - 1
+            if n < 1 or not variance[at].all():
+                continue
+            off, filter_ = np.nan_to_num(path.values[:, at] - path.mean[at]), mode[at] / variance[at]
+            common.append(off @ filter_ / (mode[at] @ filter_))
+            left += ((off - np.outer(common[-1], mode[at])) ** 2 / variance[at]).sum()
+            strips += n * (len(at) - 1)
+        if common:
+            stretch, freedom = stretch + (np.mean(common, axis=0) ** 2).sum(), freedom + len(path.values) - 1
+    return (stretch / freedom, left / strips) if freedom else (np.nan, np.nan)
+
+
 def noise_of(paths: Sequence[Data], given: Noise) -> Noise:
     """Fills in the deviations that are not given: the scatter within every path, pooled. Raises ValueError if some are needed
     and cannot be estimated."""
+    paths = [path for path in paths if path.own is None]
     squares = dict(zip(("stress_level", "stress_shape"), _stress_squares(paths)))
     squares.update(zip(("volume_start", "volume_growth"), _volume_squares(paths)), ln_width=_width_square(paths))
+    squares.update(zip(("profile_stretch", "profile_noise"), _profile_squares(paths)))
     needed = [key for kind, keys in ESTIMATED.items() for key in keys  # else this kind is measured with deviations, or missing
               if any((path.of(kind) & np.isnan(path.given) & np.isfinite(path.mean)).any() for path in paths)]
     estimated = [key for key in needed if getattr(given, key) is None]
@@ -135,12 +189,14 @@ def noise_of(paths: Sequence[Data], given: Noise) -> Noise:
 
 def covariance(noise: Noise, data: Data) -> Array:
     """(observables, observables): covariance of one sample."""
-    x = data.middles
+    x, noise = data.middles, data.own or noise
     near = np.exp(-np.abs(x[:, None] - x) / noise.correlation_strain)
-    result = np.zeros_like(near)
+    result, (_, mode, variance) = np.zeros_like(near), data.shapes()
     for kind, form in (("stress_ratio", noise.stress_level**2 + noise.stress_shape**2 * near),
                        ("volumetric_strain", noise.volume_start**2 * near + noise.volume_growth**2 * np.outer(x, x)),
-                       ("ln_width", noise.ln_width**2 * np.eye(len(x)))):
+                       ("ln_width", noise.ln_width**2 * np.eye(len(x))),
+                       (PROFILE, noise.profile_stretch**2 * np.outer(mode, mode)
+                        + noise.profile_noise**2 * np.sqrt(np.outer(variance, variance)) * data.beside(NOISE_LENGTH))):
         at = data.of(kind)
         block, measured = np.outer(at, at), np.outer(at, at) & np.isfinite(np.outer(data.given, data.given))
         result[block] = form[block]
@@ -156,18 +212,31 @@ def covariance_of_mean(noise: Noise, data: Data) -> Array:
 
 
 def discrepancy(noise: Noise, data: Data) -> Array:
-    """(observables): variance of the model tolerance."""
+    """(observables): variance of the model tolerance. That of a profile has the floor of its noise."""
     early = noise.early_stress_discrepancy * np.exp(-data.middles / noise.early_strain)
-    return np.select([data.of("stress_ratio"), data.of("volumetric_strain")],
-                     [noise.stress_discrepancy + early, np.full_like(early, noise.volume_discrepancy)],
+    profile = data.shapes()[0]  # a relative tolerance
+    for at in data.windows():
+        profile[at] += FLOOR * profile[at].max()
+    return np.select([data.of("stress_ratio"), data.of("volumetric_strain"), data.distances > 0],
+                     [noise.stress_discrepancy + early, np.full_like(early, noise.volume_discrepancy),
+                      noise.width_discrepancy * profile],
                      noise.width_discrepancy) ** 2
 
 
-def working_weights(noise: Noise, data: Data) -> Array:
-    """(observables): 1 / (scatter of the mean + model tolerance), or 0 if the mean is NaN. The scatter common to all bins is
-    left out of the weights: a fit with it can lie below every data point (Peelle's puzzle)."""
-    variance = discrepancy(noise, data) + np.diag(covariance_of_mean(replace(noise, stress_level=0.0), data))
-    return np.where(np.isfinite(data.mean) & (variance > 0), 1 / np.where(variance > 0, variance, 1), 0.0)
+def working_covariance(noise: Noise, data: Data) -> Array:
+    """(observables, observables): scatter of the mean + model tolerance, for the search. Neighbouring strips of a profile are
+    correlated; other observables count as independent. The scatter common to all bins or strips is left out: a fit with it can
+    lie below every data point (Peelle's puzzle)."""
+    common = {"stress_level": 0.0, "profile_stretch": 0.0}
+    scatter = covariance_of_mean(replace(noise, **common), replace(data, own=data.own and replace(data.own, **common)))
+    tolerance = discrepancy(noise, data)
+    counts = np.eye(len(tolerance), dtype=bool) | (data.beside(1) > 0)
+    return np.where(counts, scatter, 0) + tolerance_covariance(data, tolerance)
+
+
+def tolerance_covariance(data: Data, variance: Array) -> Array:
+    """(observables, observables): of the model tolerance; strips of one window are correlated."""
+    return np.sqrt(np.outer(variance, variance)) * np.maximum(np.eye(len(variance)), data.beside(MISFIT_LENGTH))
 
 
 class FittedData:
@@ -175,18 +244,20 @@ class FittedData:
     path; one with a reason has no weight."""
 
     def __init__(self, noise: Noise, paths: Sequence[Data], left_out: Sequence[Sequence[str]]) -> None:
-        self.noise, self.paths = noise, paths
-        self.weights = np.concatenate([np.where([bool(why) for why in reasons], 0, working_weights(noise, path))
-                                       for path, reasons in zip(paths, left_out)])
-        self.mean = np.concatenate([path.mean for path in paths])
+        self.noise, self.paths, self.mean = noise, paths, np.concatenate([path.mean for path in paths])
+        working = scipy.linalg.block_diag(*[working_covariance(noise, path) for path in paths])
+        self.used = np.isfinite(self.mean) & (np.diag(working) > 0) & ~np.concatenate([np.array(why, bool) for why in left_out])
+        self.root = np.eye(len(self.mean))  # root^T root = inverse of the working covariance
+        square = np.ix_(self.used, self.used)
+        self.root[square] = np.linalg.inv(np.linalg.cholesky(working[square]))
 
     def residual(self, values: Array) -> Array:
-        """sqrt(weight) (values - mean); NaN where a weighted value is missing."""
-        return np.where(self.weights > 0, np.sqrt(self.weights) * (values - np.nan_to_num(self.mean)), 0.0)
+        """root (values - mean), 0 for unused observables; all NaN if a used value is missing."""
+        return self.root @ np.where(self.used, values - np.nan_to_num(self.mean), 0.0)
 
     def unweighted(self, jacobian: Array) -> Array:
         """Turns the Jacobian of the residuals into that of the observables."""
-        return jacobian / np.sqrt(np.where(self.weights > 0, self.weights, 1))[:, None]
+        return np.linalg.solve(self.root, jacobian)
 
     def of_means(self) -> Array:
         """(n, n): covariance of the means."""
@@ -195,5 +266,6 @@ class FittedData:
     def of_scatter(self, keys: Sequence[str]) -> Array:
         """(n, n): the part of it due to these deviations of one sample."""
         noise = replace(self.noise, **{key: 0.0 for of_kind in ESTIMATED.values() for key in of_kind if key not in keys})
-        known = [replace(path, given=np.where(np.isfinite(path.given), 0.0, np.nan)) for path in self.paths]  # not scatter
+        known = [replace(path, given=np.where(np.isfinite(path.given), 0.0, np.nan), own=path.own and Noise(*[0] * 7))
+                 for path in self.paths]  # not this scatter
         return scipy.linalg.block_diag(*[covariance_of_mean(noise, path) for path in known])

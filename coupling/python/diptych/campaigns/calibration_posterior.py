@@ -21,12 +21,12 @@ except ImportError as error:
 from ..arrays import Array
 from .calibration_coordinates import Coordinates
 from .calibration_emulator import Emulator
-from .calibration_noise import KINDS, Data, FittedData, discrepancy
+from .calibration_noise import KINDS, Data, FittedData, discrepancy, tolerance_covariance
 from .calibration_search import PRIOR
 
 SPREAD = 0.7  # deviation of ln(size) and of ln(correlation strain) before the data: a factor of two
 SHARE_OF_STRAIN = 0.25  # correlation strain of the discrepancy before the data / largest strain
-SCALED = (("stress_level",), ("volume_start", "volume_growth"))  # deviations with a sampled factor if samples gave them
+SCALED = (("stress_level",), ("volume_start", "volume_growth"), ("profile_stretch",))  # with a sampled factor if samples gave them
 WALKERS, DRAWS = 48, 1000
 CANDIDATES, HEAT = 1000, 3.0  # for the starts of the walkers; they are drawn with the posterior^(1 / heat)
 FARTHEST, LARGE = 6.0, 1e30  # ln of a factor of a variance: two samples bound it nowhere; a number without effect
@@ -47,12 +47,12 @@ class Draws:
 
 
 class Posterior:
-    """Log-probability of points (n, parameters + 3 + 2): logarithms of the factors of t/s and volume, of the correlation strain
-    / its value before, and of two variances of the scatter follow the parameters. It is zero where the nearest run failed."""
+    """Log-probability of points (n, parameters + 3 + 3): logarithms of the factors of t/s and volume, of the correlation strain
+    / its value before, and of three variances of the scatter follow the parameters. It is zero where the nearest run failed."""
 
     def __init__(self, data: FittedData, coordinates: Coordinates, points: Array, is_fine: Array, values: Array) -> None:
         """points, is_fine, values: of all runs; a value is NaN if its run failed."""
-        self.start, self.used = coordinates.start, data.weights > 0
+        self.start, self.used = coordinates.start, data.used
         good = np.isfinite(values[:, self.used]).all(1)
         self.emulator = emulator = Emulator(points[good], is_fine[good], values[good][:, self.used])
         self._failed, self._nearest = ~good, scipy.spatial.KDTree(points / emulator.lengths)
@@ -70,7 +70,9 @@ class Posterior:
         self._scatter = [data.of_scatter([key for key in keys if key in noise.estimated])[square] for keys in SCALED]
         self.freedom = np.array([noise.degrees_of_freedom if part.any() else 0 for part in self._scatter])
         everything = data.of_means()[square]
-        self._fixed = everything - sum(self._scatter) + np.diag(variance * ~(stress | volume) + 1e-9 * np.diag(everything))
+        tolerance = scipy.linalg.block_diag(*[tolerance_covariance(path, discrepancy(data.noise, path)) for path in data.paths])
+        tolerance = tolerance[square] * np.outer(~(stress | volume), ~(stress | volume))
+        self._fixed = everything - sum(self._scatter) + tolerance + np.diag(1e-9 * np.diag(everything))
         self.left_out = emulator.left_out / np.sqrt(np.diag(everything) + variance)  # in deviations of the data
 
     def _discrepancy(self, logs: Array) -> Array:
@@ -83,7 +85,7 @@ class Posterior:
         n = len(self.start)
         values, factor = self.emulator.predict(z[:, :n])
         of_law, q = self._discrepancy(z[:, n:n + 3]), np.exp(z[:, n + 3:, None, None])
-        everything = self._fixed + of_law + q[:, 0] * self._scatter[0] + q[:, 1] * self._scatter[1]
+        everything = self._fixed + of_law + sum(q[:, k] * part for k, part in enumerate(self._scatter))
         return values - self.mean, everything + factor[:, None, None] * self.emulator.covariance, of_law
 
     def prior(self, z: Array) -> Array:
@@ -114,9 +116,9 @@ class Posterior:
         random, n = np.random.RandomState(seed), len(best)
         points = np.vstack([random.multivariate_normal(best, np.linalg.inv(jacobian.T @ jacobian), CANDIDATES),
                             random.normal(self.start, PRIOR, (CANDIDATES, n))])
-        start = np.hstack([np.clip(points, 0.001, 0.999), 0.2 * random.normal(size=(len(points), 5))])
+        start = np.hstack([np.clip(points, 0.001, 0.999), 0.2 * random.normal(size=(len(points), 3 + len(SCALED)))])
         start = start[np.argsort(self(start) / HEAT + random.gumbel(size=len(start)))[-WALKERS:]]
-        sampler = emcee.EnsembleSampler(WALKERS, n + 5, self, vectorize=True,
+        sampler = emcee.EnsembleSampler(WALKERS, start.shape[1], self, vectorize=True,
                                         moves=[(emcee.moves.DEMove(), 0.8), (emcee.moves.DESnookerMove(), 0.2)])
         sampler.run_mcmc(emcee.State(start, random_state=random.get_state()), steps)
         flat = sampler.get_chain(discard=steps // 2, flat=True)

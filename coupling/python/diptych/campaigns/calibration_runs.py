@@ -1,7 +1,7 @@
 # diptych: the runs of a calibration and their observables
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Grains of every target are run or read; a measured curve stands instead of them. The continuum runs on one outline per
-path."""
+path. The law's point follows the path of an element test."""
 
 from __future__ import annotations
 
@@ -15,10 +15,11 @@ import numpy as np
 import pandas as pd
 
 from .. import _diptych, operators
-from ..arrays import Array
+from ..arrays import Array, Band
 from ..errors import NotConverged, SceneError, Stopped
-from .calibration_file import CURVE_COLUMNS, Calibration, Target, read_curve
-from .calibration_noise import Data, Noise, Observable, covariance
+from .calibration_file import CURVE_COLUMNS, OF_BANDS, Calibration, Target, is_element, read_curve
+from .calibration_noise import Data, Noise, Observable, covariance, noise_of
+from .calibration_profiles import PROFILE, profile
 from .calibration_search import NORMAL
 from .engine import Options
 from .folders import Runs, SceneRun, read_json
@@ -38,6 +39,7 @@ class Observation:
     values: Array  # (observables), NaN: not reached, or no band
     peak_stress_ratio: float = np.nan  # largest running mean
     angle_deg: float = np.nan  # of the first band of the last window; without its sign if chance decides between left and right
+    bands: list[Band | None] = field(default_factory=list)  # the first of every window
     progress: Array = field(default_factory=NO_CURVE.copy)  # of the curve
     stress_ratio: Array = field(default_factory=NO_CURVE.copy)
     volumetric_strain: Array = field(default_factory=NO_CURVE.copy)
@@ -53,6 +55,7 @@ class Outline:
     height: float  # [length]
     solid_fraction: float
     frames: list[dict[str, Any]]  # mean_diameter, platen_increment, centre, width and height of every window
+    bands: list[Band | None]  # of its first sample: where a profile is taken if the continuum shows no band
     mesh: str  # file; empty: the rectangle of the scene
 
 
@@ -93,22 +96,32 @@ def observe_history(scene: _diptych.Scene, observables: Sequence[Observable], ta
 
 
 def add_bands(o: Observation, scene: _diptych.Scene, observables: Sequence[Observable], snapshots: Sequence[Any],
-              frames: Sequence[dict[str, Any]], of_grains: bool) -> Observation:
-    """Adds ln(width / d) of the first band of every window. The continuum's bands are searched in the grains' frames, so that
-    both panels are measured alike. A continuum without a band counts as half the sample's height wide, which cannot be told
-    from a homogeneous deformation."""
-    d = scene.dict()["sample"]["mean_diameter"]
-    for frame, k in zip(frames, [k for k, one in enumerate(observables) if one.kind == "ln_width"]):
-        pair = snapshots_at(snapshots, observables[k].low, observables[k].high)
-        if pair is None:
-            continue
-        found = bands_between(scene, pair, {} if of_grains else frame)
+              outline: Outline, of_grains: bool) -> Observation:
+    """Adds ln(width / d) of the first band of every window, and the profiles across it. The continuum's bands are searched in
+    the grains' frames, so that both panels are measured alike. A continuum without a band counts as half the sample's height wide,
+    which cannot be told from a homogeneous deformation; its profile is taken across the band of the first sample."""
+    d, windows = scene.dict()["sample"]["mean_diameter"], windows_of(observables)
+    for n, (window, frame) in enumerate(zip(windows, outline.frames)):
+        pair = snapshots_at(snapshots, *window)
+        found = bands_between(scene, pair, {} if of_grains else frame) if pair else []
+        o.bands.append(found[0] if found else None)
         if found:
-            o.values[k] = np.log(found[0].width_10_90 / d)
             o.angle_deg = abs(found[0].angle_deg) if scene.is_mirror_symmetric() else found[0].angle_deg
-        elif not of_grains:
-            o.values[k] = np.log(0.5 * frame["height"] / d)
+        band = o.bands[-1] if of_grains or found else outline.bands[n]
+        for kind in {one.kind for one in observables} if pair else ():
+            at = [k for k, one in enumerate(observables) if (one.kind, one.low, one.high) == (kind, *window)]
+            if kind == "ln_width" and (found or not of_grains):
+                o.values[at] = np.log((found[0].width_10_90 if found else 0.5 * frame["height"]) / d)
+            elif kind == PROFILE and band:
+                strips = [(d * observables[k].near, d * observables[k].far) for k in at]
+                o.values[at] = profile(pair, operators.increment(*pair)["weight"], band, strips,
+                                       d / float(np.hypot(*frame["platen_increment"])))
     return o
+
+
+def windows_of(observables: Sequence[Observable]) -> list[tuple[float, float]]:
+    """The windows in which bands are searched, in their order."""
+    return list(dict.fromkeys((one.low, one.high) for one in observables if one.kind in OF_BANDS))
 
 
 def observe_curve(scene: _diptych.Scene, observables: Sequence[Observable], file: str) -> tuple[Observation, Array]:
@@ -150,7 +163,8 @@ class CalibrationRuns:
             record = self.runs.path(run, "/provenance.json")
             if run.name not in self._counted and os.path.exists(record):
                 self._counted.add(run.name)
-                self.cpu_s[run.command] += sum(phase["cpu_s"] for phase in read_json(record)["phases"])
+                panel = "discrete" if run.command == "discrete" else "continuum"
+                self.cpu_s[panel] += sum(phase["cpu_s"] for phase in read_json(record)["phases"])
         return [self._failure_of(run) for run in runs]
 
     def _failure_of(self, run: SceneRun) -> str:
@@ -175,7 +189,7 @@ class CalibrationRuns:
         for other in self.calibration.targets:
             if other.name in self.outlines and other.is_same_path(target):
                 return self.outlines[other.name]
-        pairs = [snapshots_at(snapshots, one.low, one.high) for one in observables if one.kind == "ln_width"]
+        pairs = [snapshots_at(snapshots, *window) for window in windows_of(observables)]
         if None in pairs:
             raise ValueError("an edge of comparison/window_edges is not a stage of the grains")
         frames = [{key: value for key, value in operators.increment(*pair).items()
@@ -187,7 +201,7 @@ class CalibrationRuns:
             os.makedirs(self.runs.directory + "/meshes", exist_ok=True)
             mesh = os.path.abspath(f"{self.runs.directory}/meshes/path_{1 + len(self.outlines)}.msh")
             importlib.import_module("diptych._continuum").write_mesh(scene, first, mesh)  # loads deal.II only now
-        return Outline(*np.ptp(sides, axis=0), float(np.pi * (first.radius**2).sum() / first.area), frames, mesh)
+        return Outline(*np.ptp(sides, axis=0), float(np.pi * (first.radius**2).sum() / first.area), frames, [], mesh)
 
     def _path(self, target: Target) -> Path:
         scene = read_target(target)
@@ -195,25 +209,33 @@ class CalibrationRuns:
         if target.curve:
             keys = scene.dict()
             self.outlines[target.name] = Outline(keys["continuum"]["rectangle_width"], keys["continuum"]["rectangle_height"],
-                                                 keys["sample"]["solid_fraction"], [], "")
+                                                 keys["sample"]["solid_fraction"], [], [], "")
             sample, deviations = observe_curve(scene, observables, target.curve)
             return Path(target, scene, Data(observables, sample.values, deviations), [sample], [""] * len(observables))
         samples = [self._observed(target, scene, observables, folder)
                    for folder in target.results or self._grains(target, target.seeds)]
-        return Path(target, scene, Data(observables, [s.values for s in samples]), samples, [""] * len(observables))
+        data = Data(observables, [s.values for s in samples])
+        if is_element(scene) and len(samples) > 1:  # a cell scatters more or less than the samples of other targets
+            data.own = noise_of([data], Noise())
+        return Path(target, scene, data, samples, [""] * len(observables))
 
     def _observed(self, target: Target, scene: _diptych.Scene, observables: Sequence[Observable], folder: str) -> Observation:
         table = panel_table(folder, "discrete")
         reached = 0.0 if table is None else float(table["progress"].iloc[-1])
         if is_beyond(observables[0].high, reached) or is_beyond(scene.dict()["loading"]["axial_strain"], reached):
             raise SceneError(f"{self.calibration.file}: target '{target.name}': {folder} ends at {reached:g}, before the end "
-                             "of its "
-                             "loading")
+                             "of its loading")
+        o = observe_history(scene, observables, table)
+        if is_element(scene):
+            self.outlines.setdefault(target.name, Outline(np.nan, np.nan, float(table["solid_fraction"].iloc[0]), [], [], ""))
+            return o
         snapshots = _diptych.read_grains(folder).snapshots
         if target.name not in self.outlines:
             self.outlines[target.name] = self._outline(target, scene, observables, snapshots)
-        frames = self.outlines[target.name].frames
-        return add_bands(observe_history(scene, observables, table), scene, observables, snapshots, frames, True)
+        outline = self.outlines[target.name]
+        add_bands(o, scene, observables, snapshots, outline, True)
+        outline.bands = outline.bands or o.bands
+        return o
 
     def paths(self) -> list[Path]:
         """The grains of every target, run or read, with what they show."""
@@ -237,13 +259,15 @@ class CalibrationRuns:
         def add(section: str, **keys: Any) -> None:
             here.extend(Setting(section, key, str(value), "the calibration") for key, value in keys.items())
 
-        if not fine:
+        is_point = is_element(path.scene)
+        if not fine and not is_point:
             add("continuum", mesh="rectangle", rectangle_width=outline.width, rectangle_height=outline.height,
                 element_size=self.calibration.coarse_element_size)
         elif outline.mesh:
             add("continuum", mesh=outline.mesh)
         add("continuum", initial_step=load_step, max_step=load_step)
-        add("comparison", coarse_element_size=0)
+        if not is_point:
+            add("comparison", coarse_element_size=0)
         here.extend(point)
         material = path.scene.dict()["continuum"]
         hardening = next((one.value for one in reversed(point) if one.key == "hardening"), material["hardening"])
@@ -256,14 +280,17 @@ class CalibrationRuns:
         if failure:
             return Observation(np.full(len(observables), np.nan), failure=failure)
         folder = self.runs.path(run)
+        if is_element(path.scene):
+            return observe_history(path.scene, observables, panel_table(folder, "material_point"))
         o = observe_history(path.scene, observables, panel_table(folder, "continuum"))
         return add_bands(o, path.scene, observables, _diptych.read_nodes(folder).snapshots,
-                         self.outlines[path.target.name].frames, False)
+                         self.outlines[path.target.name], False)
 
     def evaluate(self, paths: Sequence[Path], points: Sequence[Sequence[Sequence[Setting]]], fine: bool,
                   load_step: float) -> list[list[Observation]]:
         """Runs the continuum with points[point][path]; returns [point][path]."""
-        runs = [scene_run(path.target.scene, "continuum", self._settings(path, settings, fine, load_step))
+        runs = [scene_run(path.target.scene, "material-point" if is_element(path.scene) else "continuum",
+                          self._settings(path, settings, fine, load_step))
                 for point in points for path, settings in zip(paths, point)]
         seen = [self._observed_continuum(path, run, failure)
                 for path, run, failure in zip(list(paths) * len(points), runs, self._do(runs))]
@@ -272,7 +299,11 @@ class CalibrationRuns:
 
 def read_target(target: Target, more: Sequence[Setting] = ()) -> _diptych.Scene:
     """The scene of a target with its settings and more. Raises SceneError."""
-    scene = _diptych.read_changed_scene(target.scene, [*target.settings, *more], not target.curve)
+    scene = _diptych.read_changed_scene(target.scene, [*target.settings, *more], False)
+    if is_element(scene):
+        return scene
+    if not target.curve:
+        scene = _diptych.read_changed_scene(target.scene, [*target.settings, *more], True)
     mesh, mode = scene.dict()["continuum"]["mesh"], scene.dict()["loading"]["mode"]
     if target.curve and not target.seeds and mesh != "rectangle":
         raise SceneError(f"{target.scene}: continuum/mesh = {mesh}: a measured curve has no grains with an outline; set "

@@ -8,8 +8,8 @@ from diptych_report.charts.style import CONTINUUM, FAINT, GRAINS, INK, ruled, sv
 from diptych_report.data.calibration import label, numbers
 
 CURVES = {"stress_ratio": ("stress_ratio", "stress ratio t/s", 1), "volumetric_strain": ("volume", "volumetric strain, %", 100)}
-KINDS = {"stress_ratio": "t/s", "volumetric_strain": "volume", "ln_width": "ln width"}
-MARKS = {"stress_ratio": "o", "volumetric_strain": "s", "ln_width": "D"}
+KINDS = {"stress_ratio": "t/s", "volumetric_strain": "volume", "ln_width": "ln width", "rotation_profile": "rotation profile"}
+MARKS = {"stress_ratio": "o", "volumetric_strain": "s", "ln_width": "D", "rotation_profile": "^"}
 
 
 def curve(path, kind, model):

@@ -8,7 +8,8 @@ from diptych_report.data.calibration import label, numbers
 QUANTITIES = {"peak_stress_ratio": "peak t/s", "volumetric_strain": "volumetric strain, last bin", "width_10_90": "width 10–90, last window, d",
               "angle_deg": "inclination, last window, degrees"}
 COORDINATES = {"value": "", "logarithm": "", "share_of": "share of ", "drop_from": "drop from "}
-KINDS = {"stress_ratio": "rms of t/s", "volumetric_strain": "rms of volume", "ln_width": "rms of ln width"}
+KINDS = {"stress_ratio": "rms of t/s", "volumetric_strain": "rms of volume", "ln_width": "rms of ln width",
+         "rotation_profile": "rms of rotation profile"}
 
 
 def text(value, digits=4):
