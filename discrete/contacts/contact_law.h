@@ -61,10 +61,11 @@ namespace diptych::discrete
   // velocity that these leave: a tangential impulse changes the spins, and W_tm = (1 - a) k_j - a k_i is not 0. This order is
   // a Gauss-Seidel step within the contact. At a solution the other two parts do not change, so the residual is exactly 0 there.
   //   r_m' = r_m - omega w/W_mm clamped to +-mu_r (l/R) r_n', i.e. |couple| <= mu_r l r_n'.
-  // Two discs have l = 2R, the harmonic mean of their radii; a disc on a plane has l = R = r. Equal discs thus have l = r. Then
-  // mu_r = tan(pi/n)/4 dissipates as much as a regular polygon of n sides that rolls over its sides, the relation of Estrada,
-  // Azema, Radjai & Taboada (Phys. Rev. E 84, 011306, 2011). A disc stays on a slope whose tangent is below mu_r. In codes
-  // that bound the couple by mu R r_n (LAMMPS `rolling sds`, PFC), mu is 2 mu_r between discs and mu_r at planes.
+  // Two discs have l = 2R, the harmonic mean of their radii; a disc on a plane has l = R = r. Equal discs thus have l = r, and a
+  // disc stays on a slope whose tangent is below mu_r. A regular polygon of n sides that rolls over a plane lifts its centre by
+  // R (1 - cos(pi/n)) per side and loses that energy, as a disc with mu_r = pi/(4n) does. Estrada, Azema, Radjai & Taboada (Phys.
+  // Rev. E 84, 011306, 2011) compare discs with polygons so. Codes that bound the couple by mu R r_n (LAMMPS `rolling sds`, PFC)
+  // have mu = 2 mu_r between discs and mu = mu_r at planes.
   template <class Number> struct RollingTerms
   {
     Number friction, arm, inverse_wmm;

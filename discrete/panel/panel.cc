@@ -64,10 +64,9 @@ namespace diptych::discrete
                                                grains_ ? &*grains_ : nullptr);
       if (prepared.state.grains.size() == 0)
         return fail(""); // stopped while the file was read
-      now.state                = std::move(prepared.state);
-      report.preparation       = prepared.report;
-      const bool quiet         = prepared.report.quiet || fail(unrest_text(report.preparation));
-      const bool ready         = quiet && (!presses() || press(prepared));
+      now.state          = std::move(prepared.state);
+      report.preparation = prepared.report;
+      const bool ready   = (prepared.report.quiet || fail(unrest_text(report.preparation))) && (!presses() || press(prepared));
       report.preparation_cpu_s = cpu_seconds() - start;
       report.initial_height    = sample_height(now.state);
       report.platen_speed      = loading_.mode == LoadingMode::time ? 0 : rate_ * report.initial_height;
