@@ -132,14 +132,17 @@ def test_two_levels_replace_one_if_they_are_cheaper_and_keep_to_the_accuracy(mon
     assert plan.quantities[0].method == 0 and 0.015 < plan.quantities[0].total <= 0.02
 
 
-@pytest.mark.parametrize("cpu_s, used", [(3, True), (60, False)])
-def test_springs_replace_contact_dynamics_where_they_are_cheaper(cpu_s, used):
-    """Eight samples of 10 CPU s each; with springs 1 % of the accuracy of 3 % is taken, and more samples are needed."""
+@pytest.mark.parametrize("method, cpu_s, used", [("penalty", 3, True), ("penalty", 60, False), ("compliant", 1, True),
+                                                 ("compliant", 6, False)])
+def test_springs_replace_contact_dynamics_where_they_are_cheaper(method, cpu_s, used):
+    """Eight samples of 10 CPU s each; with springs 1 % of the accuracy of 3 % is taken, and more samples are needed. Implicit
+    springs keep the error of the step, too."""
     asked = [quantity("strength", step_error="strength")]
     plan = PanelPlan("discrete", "discrete", [planned("discrete/accuracy", 0.01)], list(range(1, 9)), 10.0,
                      quantities=[Budget("strength", 0.3, 0.02, [Part("step, tolerance", 0.01), Part("samples", 0.0167)])])
-    try_springs(plan, question(0.03), lambda task: Pilot(values=[[0.3]], sample_cpu_s=[cpu_s], cpu_s=cpu_s), asked)
-    assert (last(plan.settings, "discrete/method", "") == "penalty") == used
+    try_springs(plan, question(0.03), lambda task: Pilot(values=[[0.3]], sample_cpu_s=[cpu_s], cpu_s=cpu_s), asked, method)
+    assert (last(plan.settings, "discrete/method", "") == method) == used
+    assert (method, used) != ("compliant", True) or plan.quantities[0].method == pytest.approx(0.02)
     assert plan.quantities[0].total <= 0.03 and plan.total_cpu_s <= 80
 
 

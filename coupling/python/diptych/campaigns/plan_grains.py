@@ -22,6 +22,7 @@ from .plan_springs import try_springs
 from .statistics import Statistics
 
 PILOT_SAMPLES, PAIRED_SAMPLES = 8, 4
+GRAINS_FOR_IMPLICIT_SPRINGS = 4000  # as discrete/method = auto
 LARGEST_FIRST_SEED = 2_140_000_000  # leaves room for more seeds
 FINER = 0.5  # second level of the pilot / first level
 RULE, NO_RULE = Estimate(1, 0.5), Estimate(0, 1)
@@ -71,6 +72,7 @@ class GrainsPlan:
         self.corrects = keys["discrete"]["penetration_correction"] != "none"
         self.preparation_steps = keys["sample"]["preparation_steps"]
         self.cost_over_springs = scene.cost_over_springs
+        self.method, self.grains = keys["discrete"]["method"], keys["sample"]["grains"]
         self.levels: list[Level] = []
         self.cheaper: dict[str, list[float]] = {}  # cheaper settings in use: effect on each quantity, with sign
         self.one_run = [0.0] * len(self.quantities)  # half an interval of a single run, for a single sample
@@ -94,8 +96,10 @@ class GrainsPlan:
                 choice = self._choose()
             two = self._two_levels(choice)
             self._conclude(*choice, two)
+            if self.method == "nscd" and self.grains >= GRAINS_FOR_IMPLICIT_SPRINGS:
+                try_springs(self.plan, self.question, self.run, self.quantities, "compliant")
             if self.cost_over_springs(choice[0]) > 0.5:
-                try_springs(self.plan, self.question, self.run, self.quantities)
+                try_springs(self.plan, self.question, self.run, self.quantities, "penalty")
         except _Unfinished:
             self.plan.reaches = False
         return self.plan
