@@ -25,6 +25,7 @@ CASES = (("dense_biaxial", 1000, 1.13e-3, 0.015, range(1, 13), (1, 2.83, 8)),
          ("dense_biaxial", 4000, 1.13e-3, 0.015, range(1, 7), (1, 2.83, 8)),
          ("dense_biaxial", 8000, 1.13e-3, 0.015, range(1, 5), (1, 2.83, 4.76, 8)),
          ("dense_biaxial", 8000, 2.83e-4, 0.01, range(1, 5), (1, 2.83, 8)),
+         ("dense_biaxial", 16000, 5.65e-4, 0.012, range(1, 4), (1, 2.83, 4.76, 8)),
          ("moreau_1997", 4000, 2e-4, 0.01, range(1, 5), (1, 2.83, 8)),
          ("moreau_1997", 16000, 2e-4, 0.01, range(1, 2), (1, 2.83, 8)))
 KEYS = ["scene", "grains", "inertial_number"]

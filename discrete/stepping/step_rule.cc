@@ -60,7 +60,7 @@ namespace diptych::discrete
     constexpr double strength_of_root = 0.06, strength_of_strain = 55;
     constexpr double dilation_of_noise = 0.2, dilation_of_noise_and_step = 0.8;
     // Residuals add up along extended chains, so larger samples lose more, until all contacts of a region approach together.
-    constexpr double grains_of_rule = 1000, power_of_grains = 0.75, grains_that_lose_most = 4000;
+    constexpr double grains_of_rule = 1000, power_of_grains = 0.75, grains_that_lose_most = 8000;
     // Beyond these limits the rule fails: half of the dilation is lost.
     constexpr double longest_loading_step = 0.4, coarsest_accuracy = 0.05;
     // The residual of a looser solve says nothing about its error.

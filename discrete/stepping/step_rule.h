@@ -73,8 +73,8 @@ namespace diptych::discrete
   // pressure. Measured in straight and oblique biaxial compression of 1000 and 2000 discs.
   //   strength  the larger of 0.06 sqrt(h) and 55 x (strain per step); against the limit of short steps, at inertial numbers of
   //             1e-4 to 1e-2 (benchmarks/rigid_limit). Order 1/2 is proved for Moreau's scheme (Bernicot & Venel 2013)
-  //   loss      (0.2 + 0.8 h) x tolerance x h / I x (grains / 1000)^0.75, with grains between 1000 and 4000: what the residual
-  //             takes from the dilation (benchmarks/studies/step_tolerance; the size from 1000 to 32000 grains:
+  //   loss      (0.2 + 0.8 h) x tolerance x h / I x (grains / 1000)^0.75, with grains between 1000 and 8000: what the residual
+  //             takes from the dilation (benchmarks/studies/step_tolerance; the size from 1000 to 16000 grains:
   //             benchmarks/rigid_limit)
   struct ExpectedErrors
   {

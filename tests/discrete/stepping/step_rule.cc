@@ -137,9 +137,9 @@ namespace
     s.setting.solver.tolerance = small;
     EXPECT_NEAR(expected_errors(s.state, s.setting, {9, 1e-3, s.accuracy}).dilation_loss, 1.25 * 0.02 * std::pow(4., 0.75),
                 1e-14);
-    while (s.state.grains.size() < 5000)
+    while (s.state.grains.size() < 9000)
       add_grain(s.state.grains, {0, 1}, 1, 4.);
-    EXPECT_NEAR(s.tolerance(9, 1e-3), small / std::pow(4., 0.75), 1e-16) << "the loss grows no further";
+    EXPECT_NEAR(s.tolerance(9, 1e-3), small / std::pow(8., 0.75), 1e-16) << "the loss grows no further";
   }
 
   TEST(StepRule, TheErrorsOfGivenSettingsAreReported)
