@@ -126,8 +126,10 @@ namespace diptych::coupling
       for (const discrete::HistoryRow &row : rows)
         penetration = std::max(penetration, row.max_penetration);
       if (penetration > doubtful_penetration)
-        out << "grains interpenetrate by up to " << penetration
-            << " mean diameters; a shorter step or a smaller tolerance is needed\n";
+        out << "grains interpenetrate by up to " << penetration << " mean diameters; "
+            << (options.method.method == discrete::Method::nscd ? "a shorter step or a smaller tolerance"
+                                                                : "a larger discrete/penalty_stiffness")
+            << " is needed\n";
       if (!rows.empty() && rows.back().impact_dissipation < -doubtful_gain * std::abs(rows.back().external_work))
         out << "contacts gave " << -rows.back().impact_dissipation << " of energy against an external work of "
             << rows.back().external_work << "; the step is too long\n";

@@ -243,6 +243,8 @@ namespace diptych::coupling
     {
       using discrete::Method;
       discrete::Options &o = scene.discrete;
+      if (o.method.method == Method::compliant && given.count("discrete/penalty_stiffness") == 0)
+        o.penalty.stiffness = 1e4;
       if (o.method.method != Method::automatic)
         return;
       const double accuracy = o.accuracy.accuracy, cost = cost_over_springs(scene, accuracy);
@@ -288,7 +290,10 @@ namespace diptych::coupling
   {
     if (!obstacle_to_springs(scene).empty())
       return 0;
-    return 0.35 * std::pow(discrete::expected_grains(scene.sample) / 4000, 0.2) * std::pow(1e-3 / inertial_number(scene), 0.15) *
+    // Explicit springs also take up the pressure before the loading.
+    const double loading = scene.loading.axial_strain / inertial_number(scene);
+    return loading / (loading + scene.discrete.penalty.preload) * 0.35 *
+           std::pow(discrete::expected_grains(scene.sample) / 4000, 0.2) * std::pow(1e-3 / inertial_number(scene), 0.15) *
            std::pow(0.02 / accuracy, 1.5);
   }
 

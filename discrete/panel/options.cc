@@ -94,7 +94,8 @@ namespace diptych::discrete
       if (const double end = loading.path.progress.back(); std::abs(loading.stages.back() - end) > 1e-9 * std::abs(end))
         throw WrongKeys({"loading/axial_strain", "loading/stages", "loading/path"},
                         "the last stage is at " + exact_text(loading.stages.back()) +
-                          ", but the progress of loading/path ends at " + exact_text(end));
+                          ", but the progress of loading/path ends at " + exact_text(end) +
+                          ": leave out loading/axial_strain, or end there; without a column progress the rows count 0, 1, ...");
       if (!sample.file.empty())
         throw WrongKeys({"sample/file", "discrete/lateral"}, "sample/file: a cell cannot be read from a file");
       if (sample.rough_platens)

@@ -77,6 +77,9 @@ def run_element(line: argparse.Namespace, options: Options) -> int:
     of the path, or stopped on request."""
     settings = settings_of(line.set, line.set_file)
     scene = _diptych.read_changed_scene(line.target, settings, False)
+    if scene.dict()["discrete"]["lateral"] != "cell":
+        raise SceneError(f"{line.target}: discrete/lateral = {scene.dict()['discrete']['lateral']}; an element test needs "
+                         "discrete/lateral = cell and loading/mode = path")
     seeds = read_seeds(line.seeds) if line.seeds else [scene.dict()["sample"]["seed"]]
     grains = [_read(scene_run(line.target, "discrete", on_sample(settings, seed, line.target))) for seed in seeds]
     _read(scene_run(line.target, "material-point", settings))  # a wrong law is refused before the grains run

@@ -48,7 +48,7 @@ def _curves_of(table: pd.DataFrame, edges: np.ndarray, pressure: float) -> dict[
     x = table["progress"].to_numpy()
     found = {name: _means(x, table[name].to_numpy(), edges) for name in (*QUANTITIES, "cosine", "sine") if name in table}
     half, shear, s = 0.5 * (found["sxx"] - found["syy"]), found["sxy"], 0.5 * (found["sxx"] + found["syy"])
-    found |= {"stress_ratio": np.hypot(half, shear) / s, "mean_stress": s / pressure,
+    found |= {"stress_ratio": np.hypot(half, shear) / np.where(s > 0, s, np.nan), "mean_stress": s / pressure,
               "stress_direction": 0.5 * np.degrees(np.arctan2(shear, half))}
     if "sine" in found:
         found |= {"fabric_anisotropy": np.hypot(found["sine"], found["cosine"]),

@@ -73,7 +73,7 @@ def _panel(panel, curves, numbers, limits, title):
         axes.yaxis.set_label_coords(-0.17, 0.5)
         axes.tick_params(labelbottom=axes is every[-1])
         if axes.get_legend_handles_labels()[0]:
-            axes.legend(loc="upper left", handlelength=1.6)
+            axes.legend(loc="upper left", handlelength=1.2, fontsize=6.5)
     every[0].set_title(PANEL_NAMES[panel], loc="left", fontweight="bold")
     every[-1].set_xlabel("distance from the band / d")
     return svg(figure, f"{PANEL_NAMES[panel]}: rotation minus spin, couple stress, solid fraction and fluctuation of velocity over the "
