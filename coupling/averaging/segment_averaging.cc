@@ -83,8 +83,7 @@ namespace diptych::coupling
     }
 
     // Both sides of the nodal identities of the half branches' forces and couples (README.md). They are summed while the half
-    // branches are cut. `moment_sides` holds the two sides of
-    // the balance of moment as the components of one vector per node.
+    // branches are cut. `moment_sides` has one vector per node; its components are the two sides of the balance of moment.
     class NodalIdentity
     {
     public:

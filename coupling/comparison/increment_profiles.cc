@@ -104,25 +104,6 @@ namespace diptych::coupling
       return middles;
     }
 
-    // Spin and relative rotation of a displacement field at the middles of the cells.
-    struct Rotations
-    {
-      std::vector<double> spin, relative;
-    };
-
-    Rotations rotations_of(const DisplacementField &field, const QuadMesh &mesh, const double radius)
-    {
-      const std::vector<Eigen::Vector2d> centres = cell_centres(mesh);
-      Rotations                          result{{}, mean_rotation(field, centres, radius)};
-      const std::vector<Eigen::Matrix2d> gradient = displacement_gradient(field, centres, radius);
-      for (std::size_t k = 0; k < centres.size(); ++k)
-        {
-          result.spin.push_back(0.5 * (gradient[k](1, 0) - gradient[k](0, 1)));
-          result.relative[k] -= result.spin[k];
-        }
-      return result;
-    }
-
     // -1 or 1: factor that makes anticlockwise rotations positive in the sense of the band's shear.
     double sense(const Band &band)
     {
@@ -143,17 +124,17 @@ namespace diptych::coupling
 
     ProfileBlocks blocks_of(const StripMesh       &strips,
                             const Band            &band,
-                            const Rotations       &r,
+                            const LocalMotion     &m,
                             const ContinuumFields &f,
                             const double           start_solid_fraction)
     {
       const double turn = sense(band);
       return {distances(),
-              blocks_of(strips, [&](const std::size_t c) { return turn * r.relative[c]; }),
-              blocks_of(strips, [&](const std::size_t c) { return turn * r.spin[c]; }),
+              blocks_of(strips, [&](const std::size_t c) { return turn * m.relative_rotation[c]; }),
+              blocks_of(strips, [&](const std::size_t c) { return turn * m.spin[c]; }),
               blocks_of(strips,
                         [&](const std::size_t c) {
-                          return std::isnan(r.relative[c]) ? NAN : turn * f.couple_stress[c].dot(band.normal());
+                          return std::isnan(m.relative_rotation[c]) ? NAN : turn * f.couple_stress[c].dot(band.normal());
                         }),
               blocks_of(strips, [&](const std::size_t c) { return start_solid_fraction * f.volume_ratio[c]; }),
               blocks_of(strips, [&](const std::size_t) { return NAN; })};
@@ -189,7 +170,7 @@ namespace diptych::coupling
     const StripMesh       across   = strip_mesh(outline, increment.frame, second, bootstrap.block);
     const ContinuumFields own      = continuum_fields(pair.nodes_from, pair.nodes_to);
     const ContinuumFields averaged = averaged_continuum({increment.mesh, own}, across.mesh, {d, 0}, options.averaging);
-    const Rotations       turned   = rotations_of(increment.continuum.field, across.mesh, strain_radius(d));
-    increment.continuum.profile    = finished(blocks_of(across, second, turned, averaged, start_solid_fraction), second);
+    const LocalMotion     moved    = local_motion(increment.continuum.field, cell_centres(across.mesh), strain_radius(d));
+    increment.continuum.profile    = finished(blocks_of(across, second, moved, averaged, start_solid_fraction), second);
   }
 } // namespace diptych::coupling

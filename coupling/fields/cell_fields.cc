@@ -15,18 +15,12 @@ namespace diptych::coupling
     // Adds the continuum's affine fit at the cells' centres, which GrainFields has for the grains.
     void add_kinematics(const StagePair &stage, CellFields &fields)
     {
-      const double                       radius  = strain_radius(stage.grains_to.mean_diameter);
-      const std::vector<Eigen::Vector2d> centres = cell_centres(fields.mesh);
-      const DisplacementField            moved   = displacement_field(stage.nodes_from, stage.nodes_to);
-      fields.continuum_gradient                  = displacement_gradient(moved, centres, radius);
-      fields.continuum_relative                  = mean_rotation(moved, centres, radius);
-      for (const Eigen::Matrix2d &g : fields.continuum_gradient)
-        {
-          fields.continuum_shear.push_back(std::hypot(g(0, 0) - g(1, 1), g(0, 1) + g(1, 0)));
-          fields.continuum_spin.push_back(0.5 * (g(1, 0) - g(0, 1)));
-        }
-      for (std::size_t k = 0; k < centres.size(); ++k)
-        fields.continuum_relative[k] -= fields.continuum_spin[k];
+      LocalMotion moved         = local_motion(displacement_field(stage.nodes_from, stage.nodes_to), cell_centres(fields.mesh),
+                                               strain_radius(stage.grains_to.mean_diameter));
+      fields.continuum_gradient = std::move(moved.gradient);
+      fields.continuum_shear    = std::move(moved.shear);
+      fields.continuum_spin     = std::move(moved.spin);
+      fields.continuum_relative = std::move(moved.relative_rotation);
     }
 
     QuadMesh grid_over(const QuadMesh &mesh, const double size)

@@ -202,18 +202,12 @@ namespace diptych::coupling
                         const discrete::Snapshot &to,
                         GrainFields              &fields)
     {
-      const double                       radius  = strain_radius(to.mean_diameter);
-      const std::vector<Eigen::Vector2d> centres = cell_centres(target.mesh);
-      const DisplacementField            moved   = periodic_displacement_field(target, from, to, radius);
-      fields.displacement_gradient               = displacement_gradient(moved, centres, radius);
-      fields.relative_rotation                   = mean_rotation(moved, centres, radius);
-      for (std::size_t k = 0; k < centres.size(); ++k)
-        {
-          const Eigen::Matrix2d &g = fields.displacement_gradient[k];
-          fields.shear_strain_increment.push_back(std::hypot(g(0, 0) - g(1, 1), g(0, 1) + g(1, 0)));
-          fields.spin_increment.push_back(0.5 * (g(1, 0) - g(0, 1)));
-          fields.relative_rotation[k] -= fields.spin_increment[k];
-        }
+      const double radius = strain_radius(to.mean_diameter);
+      LocalMotion  moved = local_motion(periodic_displacement_field(target, from, to, radius), cell_centres(target.mesh), radius);
+      fields.displacement_gradient  = std::move(moved.gradient);
+      fields.shear_strain_increment = std::move(moved.shear);
+      fields.spin_increment         = std::move(moved.spin);
+      fields.relative_rotation      = std::move(moved.relative_rotation);
     }
 
     double relative_error(const discrete::Snapshot &s, const std::vector<double> &area, const GrainFields &fields)

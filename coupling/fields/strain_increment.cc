@@ -139,6 +139,19 @@ namespace diptych::coupling
     return means;
   }
 
+  LocalMotion local_motion(const DisplacementField &field, const std::vector<Eigen::Vector2d> &sample_points, const double radius)
+  {
+    LocalMotion motion{displacement_gradient(field, sample_points, radius), {}, {}, mean_rotation(field, sample_points, radius)};
+    for (std::size_t k = 0; k < sample_points.size(); ++k)
+      {
+        const Eigen::Matrix2d &g = motion.gradient[k];
+        motion.shear.push_back(std::hypot(g(0, 0) - g(1, 1), g(0, 1) + g(1, 0)));
+        motion.spin.push_back(0.5 * (g(1, 0) - g(0, 1)));
+        motion.relative_rotation[k] -= motion.spin[k];
+      }
+    return motion;
+  }
+
   std::vector<double> shear_strain_increment(const DisplacementField            &field,
                                              const std::vector<Eigen::Vector2d> &sample_points,
                                              const double                        radius)

@@ -46,6 +46,16 @@ namespace diptych::coupling
                                     const std::vector<Eigen::Vector2d> &sample_points,
                                     double                              radius);
 
+  // The affine fit at each point and what follows from it.
+  struct LocalMotion
+  {
+    std::vector<Eigen::Matrix2d> gradient;          // displacement_gradient()
+    std::vector<double>          shear;             // eps_1 - eps_2 of the strain increment
+    std::vector<double>          spin;              // of the medium: half the curl, anticlockwise [radians]
+    std::vector<double>          relative_rotation; // mean_rotation() - spin [radians]; NaN without rotations
+  };
+  LocalMotion local_motion(const DisplacementField &field, const std::vector<Eigen::Vector2d> &sample_points, double radius);
+
   // eps_1 - eps_2 >= 0 of the symmetric part of this gradient.
   std::vector<double> shear_strain_increment(const DisplacementField            &field,
                                              const std::vector<Eigen::Vector2d> &sample_points,

@@ -13,9 +13,9 @@
 
 namespace diptych::discrete
 {
-  // Some of the grains, sorted by the cell of their centre. With a period the columns wrap around, in a lattice
-  // the rows too; cells are then parallelograms. If grains are so far apart
-  // that most cells would be empty, cells share bins. Time and memory therefore depend only on the number of grains.
+  // Some of the grains, sorted by the cell of their centre. With a period the columns wrap around. In a lattice the rows wrap,
+  // too, and cells are parallelograms. If grains are so far apart that most cells would be empty, cells share bins. Time and
+  // memory therefore depend only on the number of grains.
   class CellGrid
   {
   public:

@@ -163,6 +163,12 @@ namespace diptych::discrete
     return rolling_velocity(c.rolling_arm, v[c.i].surface, v[c.j].surface);
   }
 
+  // w + c_m + C r_m, with the rolling velocity w that is given.
+  inline double rolling_with_give(const ContactRow &c, const double w, const Impulse &r)
+  {
+    return c.normal_compliance == 0 ? w : w + (c.rolling_term + c.tangential_compliance * r.rolling);
+  }
+
   // Normal and tangential part of the next impulse, and below it the couple.
   inline Parts<double> signorini_coulomb(const ContactRow                &c,
                                          const std::vector<BodyVelocity> &v,
@@ -181,8 +187,7 @@ namespace diptych::discrete
                                    const double      normal,
                                    const Relaxation  omega)
   {
-    const double give = c.normal_compliance == 0 ? 0 : c.rolling_term + c.tangential_compliance * r.rolling;
-    return rolling_resistance({c.rolling_friction, c.rolling_arm, c.inverse_wmm}, w + give, r.rolling, normal,
+    return rolling_resistance({c.rolling_friction, c.rolling_arm, c.inverse_wmm}, rolling_with_give(c, w, r), r.rolling, normal,
                               relaxation(c.rolling_friction, r.normal, r.rolling, omega));
   }
 

@@ -85,7 +85,7 @@ namespace diptych::discrete
     Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
     for (std::size_t k = 0; k < impulses.size(); ++k)
       if (const ContactRow &c = problem.contacts[k]; c.cell >= 0)
-        sum += vector_of(c, impulses[k]) * shift_of(c, *problem.lattice).transpose();
+        sum += crossing_of(c, impulses[k], *problem.lattice);
     return sum;
   }
 

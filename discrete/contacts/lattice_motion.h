@@ -66,6 +66,11 @@ namespace diptych::discrete
     return {c.nx * r.normal - c.ny * r.tangential, c.ny * r.normal + c.nx * r.tangential};
   }
 
+  inline Eigen::Matrix2d crossing_of(const ContactRow &c, const Impulse &r, const LatticeProblem &lattice)
+  {
+    return vector_of(c, r) * shift_of(c, lattice).transpose();
+  }
+
   // Sum of impulse x shift^T over all rows.
   Eigen::Matrix2d crossing_sum(const ContactProblem &problem, const std::vector<Impulse> &impulses);
 

@@ -35,7 +35,7 @@ namespace diptych::discrete
             continue;
           const Contact         c     = make_contact(state, result.contacts[k].i, result.contacts[k].j);
           const Eigen::Vector2d force = impulse_vector(result.contacts[k], result.impulses[k]) / step;
-          const double          turn  = result.impulses[k].rolling * effective_radius(g, c.i, c.j) / step;
+          const double          turn  = couple_impulse(g, c, result.impulses[k]) / step;
           const auto            add   = [&](const int body, const double sign) {
             if (const int platen = g.platen(body); platen >= 0)
               on_platens += sign * (c.point.y() - state.walls[platen].point.y()) * force.transpose();

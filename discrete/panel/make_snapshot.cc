@@ -23,7 +23,7 @@ namespace diptych::discrete
       for (std::size_t k = 0; k < result.contacts.size(); ++k)
         {
           const Contact c      = make_contact(state, result.contacts[k].i, result.contacts[k].j);
-          const double  couple = result.impulses[k].rolling * effective_radius(state.grains, c.i, c.j) / setting.step;
+          const double  couple = couple_impulse(state.grains, c, result.impulses[k]) / setting.step;
           s.contacts.push_back({c.i, c.j, c.point, c.normal,
                                 impulse_vector(result.contacts[k], result.impulses[k]) / setting.step, c.image.shift.x(), couple,
                                 c.image.shift.y()});

@@ -242,7 +242,8 @@ namespace diptych::discrete
                                      const std::function<bool(int, int)> &progress)
     {
       constexpr double tolerance = 0.002, loosest_friction = 1;
-      const double     target = options.target_solid_fraction;
+      constexpr int    most_tries = 12;
+      const double     target     = options.target_solid_fraction;
       // The box must be looser than the target; below 0.6 soft discs carry nothing.
       double low = 0, high = loosest_friction, densest = 0, loosest = 1;
       bool   bracketed = false;
@@ -265,7 +266,7 @@ namespace diptych::discrete
         throw std::invalid_argument("sample/target_solid_fraction = " + three_digits(target) +
                                     " is out of reach: " + three_digits(loosest) + " to " + three_digits(densest) +
                                     " is the range for preparation friction between 0 and 1");
-      for (int k = 0; k < 12; ++k)
+      for (int k = 0; k < most_tries; ++k)
         {
           const double   middle = k == 0 ? 0.2 : 0.5 * (low + high); // half of the range of solid fractions lies below 0.2
           PreparedSample sample = relaxed_and_compacted(options, preparation, middle, progress);

@@ -137,10 +137,7 @@ namespace diptych::discrete
       return;
     Eigen::Matrix2d crossing = Eigen::Matrix2d::Zero();
     for (std::size_t k = 0; k < rest_.size(); ++k)
-      {
-        const ContactRow &c = problem_.contacts[rest_[k]];
-        crossing += vector_of(c, rest_impulses_[k]) * shift_of(c, *problem_.lattice).transpose();
-      }
+      crossing += crossing_of(problem_.contacts[rest_[k]], rest_impulses_[k], *problem_.lattice);
     follow_impulses(*problem_.lattice, problem_.free_velocity, crossing, v_);
   }
 

@@ -18,9 +18,8 @@ namespace diptych::discrete
   template <class Visitor> void visit_parameters(PenaltyOptions &o, Visitor &&visitor)
   {
     visitor("penalty_stiffness", o.stiffness, "-", {1., 1e12},
-            "normal contact stiffness kn / P of penalty and compliant; overlaps are about d / penalty_stiffness; method "
-            "compliant: 1e4 unless given; the tangential "
-            "stiffness is half of it. compliant: 1e4 is near to rigid and cheap");
+            "normal contact stiffness kn / P of penalty and compliant (there 1e4 unless given, which is near to rigid); overlaps "
+            "are about d / penalty_stiffness; the tangential stiffness is half of it");
     visitor("penalty_step_fraction", o.step_fraction, "-", {1e-6, 10.},
             "step / sqrt(m_min/kn); frictionless samples blow up from 0.9-1.0 on, sticking ones from 0.75; energy errors grow "
             "unnoticed "

@@ -147,6 +147,7 @@ namespace diptych::discrete
         if (const ContactRow &c = s.problem.contacts[k]; c.cell >= 0)
           e.external_work += c.image.along * vector_of(c, s.impulses[k]).x() * mean;
     }
+
     // The drive balances contacts and inertia, and works with the rate of strain.
     void add_lattice(const SolvedStep &s, StepLedger &ledger)
     {

@@ -178,6 +178,11 @@ namespace diptych::discrete
     return std::size_t(j) < grains.size() ? ri * grains.radius[j] / (ri + grains.radius[j]) : ri;
   }
 
+  double couple_impulse(const Grains &grains, const Contact &c, const Impulse &r)
+  {
+    return r.rolling * effective_radius(grains, c.i, c.j);
+  }
+
   ContactProblem make_problem(const State                     &state,
                               const StepSetting               &setting,
                               const std::vector<Contact>      &contacts,
@@ -240,7 +245,7 @@ namespace diptych::discrete
         const Impulse    &r = impulses[k];
         work[k].sliding     = 0 - r.tangential * (velocity_with_give(c, v, r).tangential + c.tangential_term);
         if (c.rolling_friction != 0)
-          work[k].rolling = 0 - r.rolling * (rolling_velocity(c, v) + c.rolling_term + c.tangential_compliance * r.rolling);
+          work[k].rolling = 0 - r.rolling * rolling_with_give(c, rolling_velocity(c, v), r);
       }
     return work;
   }

@@ -64,4 +64,7 @@ namespace diptych::discrete
 
   // R of a contact: 1/R = 1/r_i + 1/r_j, or the radius of a grain on a wall. [length]
   double effective_radius(const Grains &grains, int i, int j);
+
+  // Impulse of the couple on the first body, counter-clockwise. [pressure x length^2 x time]
+  double couple_impulse(const Grains &grains, const Contact &c, const Impulse &r);
 } // namespace diptych::discrete

@@ -61,13 +61,12 @@ namespace diptych::discrete
         change_of_work += changes[k].normal * du.normal + tangential * du.tangential;
         if (c.rolling_friction == 0)
           continue;
-        const double give    = c.tangential_compliance;
-        const double turning = rolling_velocity(c, v) + c.rolling_term + give * impulses[k].rolling,
+        const double turning = rolling_with_give(c, rolling_velocity(c, v), impulses[k]),
                      bound   = coulomb_margin * c.rolling_friction * impulses[k].normal;
         const bool   rolls   = std::abs(impulses[k].rolling) > bound && impulses[k].rolling * turning < 0;
         const double rolling = rolls ? 0 : changes[k].rolling;
         work += rolling * turning;
-        change_of_work += rolling * (rolling_velocity(c, w) + give * changes[k].rolling);
+        change_of_work += rolling * (rolling_velocity(c, w) + c.tangential_compliance * changes[k].rolling);
       }
     if (!(change_of_work > 0))
       return;
