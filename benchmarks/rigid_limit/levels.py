@@ -13,7 +13,7 @@ import numpy
 import pandas
 
 import order
-from diptych.campaigns import levels
+from diptych.campaigns.studies import levels
 from order import SPRINGS
 
 HERE = os.path.dirname(os.path.abspath(__file__))

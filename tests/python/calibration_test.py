@@ -11,19 +11,19 @@ from conftest import QUICK
 
 import diptych
 from diptych import scenes
-from diptych.campaigns import calibration_noise as noise
-from diptych.campaigns.calibration import Calibrator, empty_record
-from diptych.campaigns.calibration_coordinates import Coordinates, Parameter
-from diptych.campaigns.calibration_file import Calibration, Target, read_calibration, read_curve
-from diptych.campaigns.calibration_findings import predictions
-from diptych.campaigns.calibration_grains import mean_of
-from diptych.campaigns.calibration_noise import Data, Noise, Observable
-from diptych.campaigns.calibration_profiles import PROFILE, STRIPS
-from diptych.campaigns.calibration_runs import Observation, Path, observe_curve
-from diptych.campaigns.calibration_search import least_squares
-from diptych.campaigns.calibration_standard import standard_calibration
-from diptych.campaigns.histories import mean_over
-from diptych.campaigns.input_file import Setting
+from diptych.campaigns.calibration import noise
+from diptych.campaigns.calibration.calibration import Calibrator, empty_record
+from diptych.campaigns.runs.coordinates import Coordinates, Parameter
+from diptych.campaigns.calibration.calibration_file import Calibration, Target, read_calibration, read_curve
+from diptych.campaigns.calibration.findings import predictions
+from diptych.campaigns.calibration.grains import mean_of
+from diptych.campaigns.calibration.noise import Data, Noise, Observable
+from diptych.campaigns.calibration.profiles import PROFILE, STRIPS
+from diptych.campaigns.calibration.calibration_runs import Observation, Path, observe_curve
+from diptych.campaigns.calibration.search import least_squares
+from diptych.campaigns.calibration.standard import standard_calibration
+from diptych.campaigns.runs.histories import mean_over
+from diptych.campaigns.runs.input_file import Setting
 
 BINS = [0, 0.001, 0.002, 0.004, 0.006, 0.008, 0.01, 0.0125, 0.015, 0.02, 0.025, 0.03]
 SIX = [Parameter("friction_angle_peak", "logarithm", 30, 12, 45),
@@ -63,8 +63,8 @@ def calibration(parameters=SIX, targets=("only",), fixed=(), **options):
 
 @pytest.fixture(autouse=True)
 def few_steps(monkeypatch):
-    monkeypatch.setattr("diptych.campaigns.calibration.STEPS", 500)
-    monkeypatch.setattr("diptych.campaigns.calibration.SHORT", 200)
+    monkeypatch.setattr("diptych.campaigns.calibration.calibration.STEPS", 500)
+    monkeypatch.setattr("diptych.campaigns.calibration.calibration.SHORT", 200)
 
 
 EXACT = {"stress_level": 1e-5, "stress_shape": 1e-5, "volume_start": 1e-6, "volume_growth": 1e-6}

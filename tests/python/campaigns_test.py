@@ -11,11 +11,13 @@ import pytest
 from scipy import stats
 
 import diptych
-from diptych.campaigns import ensemble, histories, statistics
-from diptych.campaigns.ensemble_profiles import profile_arrays
-from diptych.campaigns.input_file import read_seeds
-from diptych.campaigns.members import member_of_record
-from diptych.campaigns.study_file import quantity
+from diptych.campaigns.ensembles import ensemble
+from diptych.campaigns.runs import histories
+from diptych.campaigns.runs import statistics
+from diptych.campaigns.ensembles.profiles import profile_arrays
+from diptych.campaigns.runs.input_file import read_seeds
+from diptych.campaigns.runs.members import member_of_record
+from diptych.campaigns.studies.study_file import quantity
 
 FOUR = [1, 2, 3, 4]  # mean 2.5, deviation sqrt(5/3): the standard error of the mean is half of that
 

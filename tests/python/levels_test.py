@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 
 from diptych import Campaign, SceneError, benchmarks_dir
-from diptych.campaigns import levels
-from diptych.campaigns.level_runs import PairedPoint, add_summary, read_levels
-from diptych.campaigns.points import RunResult
-from diptych.campaigns.statistics import paired
-from diptych.campaigns.study_file import quantity
+from diptych.campaigns.studies import levels
+from diptych.campaigns.studies.level_runs import PairedPoint, add_summary, read_levels
+from diptych.campaigns.studies.points import RunResult
+from diptych.campaigns.runs.statistics import paired
+from diptych.campaigns.studies.study_file import quantity
 
 TRUTH, BIAS, RATIO, SCATTER, NOISE = 0.37, 0.013, 0.25, 0.012, 0.004  # as measured in benchmarks/rigid_limit
 

@@ -9,15 +9,15 @@ import pytest
 
 import diptych
 from diptych import scenes
-from diptych.campaigns import plan_errors as errors
-from diptych.campaigns import plan_grains
-from diptych.campaigns.levels import limit_of
-from diptych.campaigns.plan_continuum import ContinuumPlan
-from diptych.campaigns.plan_errors import Estimate, GrainErrors
-from diptych.campaigns.plan_grains import GrainsPlan
-from diptych.campaigns.plan_question import Budget, PanelPlan, Part, Pilot, Question, planned, read_accuracy
-from diptych.campaigns.plan_springs import try_springs
-from diptych.campaigns.study_file import quantity
+from diptych.campaigns.plans import errors
+from diptych.campaigns.plans import grains as plan_grains
+from diptych.campaigns.studies.levels import limit_of
+from diptych.campaigns.plans.continuum import ContinuumPlan
+from diptych.campaigns.plans.errors import Estimate, GrainErrors
+from diptych.campaigns.plans.grains import GrainsPlan
+from diptych.campaigns.plans.question import Budget, PanelPlan, Part, Pilot, Question, planned, read_accuracy
+from diptych.campaigns.plans.springs import try_springs
+from diptych.campaigns.studies.study_file import quantity
 
 RULE = Estimate(1, 0.5)
 

@@ -16,9 +16,9 @@ from studies_test import expect_explained
 
 import diptych
 from diptych.campaigns import __main__ as program
-from diptych.campaigns.points import points_of
-from diptych.campaigns.sensitivity import sobol_indices
-from diptych.campaigns.study_file import read_study
+from diptych.campaigns.studies.points import points_of
+from diptych.campaigns.studies.sensitivity import sobol_indices
+from diptych.campaigns.studies.study_file import read_study
 
 pytestmark = pytest.mark.skipif(importlib.util.find_spec("openturns") is None, reason="openturns is missing")
 

@@ -15,10 +15,12 @@ import pytest
 from conftest import SMALL
 
 import diptych
-from diptych.campaigns import effects, evaluation, statistics
-from diptych.campaigns.folders import SceneRun
-from diptych.campaigns.points import Point, RunResult, points_of
-from diptych.campaigns.study_file import Axis, AxisPoint, Family, Study, quantity, read_study
+from diptych.campaigns.studies import effects
+from diptych.campaigns.studies import evaluation
+from diptych.campaigns.runs import statistics
+from diptych.campaigns.runs.folders import SceneRun
+from diptych.campaigns.studies.points import Point, RunResult, points_of
+from diptych.campaigns.studies.study_file import Axis, AxisPoint, Family, Study, quantity, read_study
 
 
 def study_of(n, **changes):
@@ -276,7 +278,7 @@ def test_ctrl_c_keeps_an_ensemble_of_a_dict_and_the_same_call_goes_on(tmp_path, 
 
 
 def expect_explained(found):
-    explained = pd.read_csv(os.path.join(os.path.dirname(statistics.__file__), "result_entries.tsv"), sep="\t", keep_default_na=False)
+    explained = pd.read_csv(os.path.join(os.path.dirname(diptych.campaigns.__file__), "result_entries.tsv"), sep="\t", keep_default_na=False)
 
     def keys(record, place=""):
         for key, value in record.items():

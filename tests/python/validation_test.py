@@ -9,10 +9,11 @@ import pytest
 from conftest import QUICK, SMALL, options, program
 
 import diptych
-from diptych.campaigns import ensemble, validation
-from diptych.campaigns.input_file import settings_of
-from diptych.campaigns.members import Member
-from diptych.campaigns.statistics import paired
+from diptych.campaigns.ensembles import ensemble
+from diptych.campaigns.ensembles import validation
+from diptych.campaigns.runs.input_file import settings_of
+from diptych.campaigns.runs.members import Member
+from diptych.campaigns.runs.statistics import paired
 
 MARGINS = {"margin_angle": 3, "margin_thickness": 0.2, "margin_peak_stress_ratio": 0.005, "margin_volumetric_strain": 0.002}
 NAMES = ("discrete_summary peak_stress_ratio", "continuum_summary peak_stress_ratio")

@@ -12,8 +12,8 @@ import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "tests", "python"))
 from calibration_test import SCENE, SIX, USUAL, calibrated, calibration, drawn, path_of, truth_of  # noqa: E402
-from diptych.campaigns.calibration_coordinates import Coordinates  # noqa: E402
-from diptych.campaigns.calibration_noise import Data, Noise, discrepancy  # noqa: E402
+from diptych.campaigns.runs.coordinates import Coordinates  # noqa: E402
+from diptych.campaigns.calibration.noise import Data, Noise, discrepancy  # noqa: E402
 
 CORRELATION_STRAIN = 0.005  # of the discrepancy in the data; the calibration assumes 0.7 % before
 

@@ -10,7 +10,7 @@ import diptych
 import numpy as np
 import pandas as pd
 from diptych import scenes
-from diptych.campaigns.input_file import read_seeds
+from diptych.campaigns.runs.input_file import read_seeds
 
 STRAIN = np.linspace(0.00025, 0.01, 40)
 SCENE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "scene.prm")

@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 
 import diptych
 from diptych import _diptych, operators, scenes
-from diptych.campaigns.calibration_profiles import STRIPS, profile
-from diptych.campaigns.key_numbers import bands_between, snapshots_at
+from diptych.campaigns.calibration.profiles import STRIPS, profile
+from diptych.campaigns.runs.key_numbers import bands_between, snapshots_at
 
 SCENE = scenes.read(os.path.join(diptych.benchmarks_dir(), "moreau_1997", "scene.prm"))
 WINDOWS = ((0, 0.01), (0.01, 0.02), (0.02, 0.04))

@@ -11,12 +11,13 @@ from collections.abc import Sequence
 
 from .. import _diptych
 from ..errors import Stopped
-from .engine import NOT_CONVERGED, SYSTEM_FAILURE, WRONG_INPUT, Options, complain, on_first_process
+from .runs.engine import NOT_CONVERGED, SYSTEM_FAILURE, WRONG_INPUT, Options, complain, on_first_process
 
 
-COMMANDS = {"run": ("ensemble", "run_ensemble"), "compare": ("ensemble", "compare_again"), "study": ("study", "run_study"),
-            "plan": ("plan", "main_plan"), "calibrate": ("calibration", "run_calibration"),
-            "element": ("element", "run_element"), "homogenise": ("homogenise", "run_homogenise")}
+COMMANDS = {"run": ("ensembles.ensemble", "run_ensemble"), "compare": ("ensembles.ensemble", "compare_again"),
+            "study": ("studies.study", "run_study"), "plan": ("plans.plan", "main_plan"),
+            "calibrate": ("calibration.calibration", "run_calibration"), "element": ("element.element", "run_element"),
+            "homogenise": ("element.homogenise", "run_homogenise")}
 
 
 def parsed(words: Sequence[str]) -> argparse.Namespace:

@@ -19,8 +19,8 @@ import pandas as pd
 
 from ..errors import NotConverged, SceneError, Stopped
 from ..scenes import SceneLike, changes, text_of
-from .engine import DONE, NOT_CONVERGED, WRONG_INPUT, environment, program
-from .folders import read_json
+from .runs.engine import DONE, NOT_CONVERGED, WRONG_INPUT, environment, program
+from .runs.folders import read_json
 
 PathLike = str | os.PathLike[str]
 

@@ -1,0 +1,301 @@
+# diptych: reads and checks calibration files
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A calibration file names targets, quantities and parameters. Paths in it are relative to its folder. A scene with seeds
+stands for a file with standard contents."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from ... import _diptych
+from ...errors import SceneError
+from ...importers import read_table
+from ..runs.coordinates import COORDINATES, USUAL, Parameter
+from .noise import KINDS, Noise, Observable
+from .profiles import PROFILE, STRIPS
+from ..runs.histories import is_beyond
+from ..runs.input_file import Part, Setting, is_number, name_of, value_text
+
+FAR = 1e12
+OF_BANDS = ("ln_width", PROFILE)  # taken in the windows of the comparison
+MOST_PARAMETERS = 12  # the starts are spread over at most so many directions
+KEYS_OF_THE_SEARCH = ("mesh", "element_size", "rectangle_width", "rectangle_height", "initial_step", "max_step")
+CURVE_COLUMNS = {"stress_ratio": "stress_ratio_deviation", "volumetric_strain": "volumetric_strain_deviation"}
+# The same in element.csv: means of samples of grains, and standard errors.
+OTHER_NAMES = {f"{name}{ending}": f"grains_{name}{other}" for name in CURVE_COLUMNS
+               for ending, other in (("", ""), ("_deviation", "_error"))}
+PRESCRIBED = 1e-9  # a smaller deviation: the path prescribes the quantity
+
+
+@dataclass
+class Target:
+    """A loading path: one scene on several samples, on finished result folders, or with a measured curve instead of grains. A
+    curve and seeds: parameters of the grains are fitted to the curve. An element test is a scene with loading/mode = path."""
+
+    name: str
+    scene: str
+    settings: list[Setting]
+    seeds: list[int] = field(default_factory=list)
+    results: list[str] = field(default_factory=list)  # result folders, one per seed, instead of runs
+    curve: str = ""  # .csv file
+    is_fitted: bool = True  # False: predicted
+    before: list[Setting] = field(default_factory=list)  # parameters to compare with; empty: those of the scene
+
+    def is_same_path(self, other: Target) -> bool:
+        """True if the paths differ in their samples only."""
+        here, there = ([one.text() for one in target.settings] for target in (self, other))
+        return (self.scene, self.curve) == (other.scene, other.curve) and here == there
+
+
+@dataclass
+class Calibration:
+    """The contents of a calibration file; keys as in the README."""
+
+    name: str
+    file: str
+    title: str
+    targets: list[Target]
+    kinds: list[str]
+    bins: list[float]
+    parameters: list[Parameter]
+    fixed: list[Setting]
+    noise: Noise
+    starts: int = 2
+    jacobians: int = 4
+    fine_jacobians: int = 1
+    start_jacobians: int = 1
+    load_step: float = 0.001
+    coarse_element_size: float = 4.0
+    check_samples: int = 2
+    more_runs: int = 0  # for the emulator; 0: three per parameter, at most 20
+    seed: int = 1
+
+    @property
+    def of_grains(self) -> bool:
+        """True if keys of the grains are fitted, not of the continuum."""
+        return self.parameters[0].setting[0] == "discrete"
+
+    def observables_of(self, scene: _diptych.Scene, is_curve: bool = False) -> list[Observable]:
+        """Bins up to the end of the scene's loading, and windows of its comparison; curves and element tests have no windows."""
+        keys, found = scene.dict(), []
+        for kind in self.kinds:
+            if kind in OF_BANDS and (is_curve or is_element(scene)):
+                continue
+            edges = keys["comparison"]["window_edges"] if kind in OF_BANDS else self.bins
+            edges = [float(edge) for edge in (edges.split(",") if isinstance(edges, str) else edges)]
+            found += [Observable(kind, low, high, *strip) for low, high in zip(edges, edges[1:])
+                      if not is_beyond(high, keys["loading"]["axial_strain"])
+                      for strip in (zip(STRIPS, STRIPS[1:]) if kind == PROFILE else [()])]
+        if not found:
+            raise ValueError("no bin and no window lies within the loading; check bins and comparison/window_edges")
+        return found
+
+
+def is_element(scene: _diptych.Scene) -> bool:
+    """True if the law's point follows the path, and not a boundary value problem."""
+    return scene.dict()["loading"]["mode"] == "path"
+
+
+def read_curve(file: str, bins: Sequence[tuple[float, float]] = ()) -> pd.DataFrame:
+    """A measured curve: axial_strain or the progress of a path, stress_ratio (t/s), volumetric_strain and, where given, their
+    deviations; compression positive. Also element.csv, whose grains count; a quantity that its path prescribes is left out.
+    Other columns are ignored. Warns of `bins` (low, high) in which nothing was measured. Raises SceneError with file, line and
+    column."""
+    rows = read_table(file)
+    allowed = ["axial_strain", *CURVE_COLUMNS, *CURVE_COLUMNS.values()]
+    names = {"axial_strain": ("progress", "axial_strain"), **{one[0]: one for one in OTHER_NAMES.items()}}
+    table = pd.DataFrame({name: rows.numbers(*both) for name, both in names.items() if rows.find(*both) is not None})
+    for name, deviation in CURVE_COLUMNS.items():
+        if rows.has(OTHER_NAMES[deviation]) and table[deviation].max() < PRESCRIBED:
+            table = table.drop(columns=[name, deviation])
+    if not {"axial_strain", *CURVE_COLUMNS} & set(table) > {"axial_strain"}:
+        raise SceneError(f"{file}: its columns are {', '.join(rows.columns)}; the line above the numbers must name "
+                         f"axial_strain and stress_ratio or volumetric_strain; used are {', '.join(allowed)}")
+    for name in table.filter(like="deviation"):
+        rows.refuse(table[name] <= 0, lambda k: f"{name} = {table[name][k]:g} must be positive")
+    strain = table["axial_strain"].to_numpy()
+    rows.refuse(np.diff(strain, prepend=-np.inf) <= 0, lambda k: f"axial_strain = {strain[k]:g} must be larger than above it")
+    if not rows.has("progress"):
+        rows.refuse(strain >= 1, lambda k: f"axial_strain = {strain[k]:g}; give strains below 1, not per cent")
+    if len(table) < 2:
+        raise SceneError(f"{file}: a curve needs at least two rows of numbers")
+    if "stress_ratio" in table and (table["stress_ratio"].mean() < 0 or table["stress_ratio"].abs().max() >= 1):
+        raise SceneError(f"{file}: stress_ratio must be t/s = (s1 - s2) / (s1 + s2), positive in compression and below 1")
+    for low, high in bins:
+        if not np.any((strain >= low) & (strain <= high)):
+            print(f"diptych: warning: {file}: no row lies in the bin from {low:g} to {high:g}; its mean is interpolated between "
+                  "the rows beside it, or it does not count", file=sys.stderr)
+    return table.rename(columns={"axial_strain": "progress"})
+
+
+def _results(part: Part) -> tuple[list[str], list[int]]:
+    """Finished result folders and their seeds. They must come from one scene and differ in their samples only."""
+    if part.has("scene") or part.has("seeds"):
+        part.refuse(" replaces scene and seeds; give one or the other", "results")
+    folders, seeds, samples, first = [], [], [], None
+    for one in part.list("results"):
+        folder = os.path.join(os.path.dirname(one.file), value_text(one.value))
+        scene = _diptych.resolved_scene(folder + "/scene.prm")
+        if scene is None or not all(os.path.exists(f"{folder}/discrete.{ending}") for ending in ("csv", "h5")):
+            one.refuse(f"results: '{folder}' is not a result folder; scene.prm, discrete.csv and discrete.h5 are needed")
+        try:
+            _diptych.check_part(folder, "discrete")  # a file that changed since its run would be fitted as if it were measured
+        except ValueError as error:
+            one.refuse(f"results: {error}")
+        folders.append(folder)
+        identity, imported = dict(scene.identity("sample")), scene.dict()["discrete"]["method"] == "imported"
+        seeds.append(scene.dict()["sample"]["seed"])
+        samples.append(str(scene.dict()["discrete"]["file"] if imported else seeds[-1]))
+        for key in ("sample/seed", *(("discrete/file", "loading/pressure") if imported else ())):
+            del identity[key]
+        first = first or identity
+        for key in identity:
+            if identity[key] != first.get(key):
+                part.refuse(f": '{folder}' and '{folders[0]}' come from different scenes: {key} = '{identity[key]}' and "
+                            f"'{first.get(key)}'", "results")
+    if not folders:
+        part.refuse(" is empty; name at least one result folder", "results")
+    part.demand_distinct("results", samples)
+    return folders, seeds
+
+
+def _target(part: Part) -> Target:
+    part.allow("name", "scene", "set", "seeds", "results", "curve", "use", "before")
+    part.at("name")
+    target = Target(part.word("name"), "", part.settings("set"),
+                    is_fitted=part.choice("use", ("fit", "predict"), "fit") == "fit")
+    if part.has("results"):
+        target.results, target.seeds = _results(part)
+        target.scene = target.results[0] + "/scene.prm"
+    else:
+        if part.has("curve") and not part.has("scene"):
+            part.refuse(" needs 'scene': this scene loads the continuum, which is compared with the curve", "curve")
+        target.scene = part.existing_file("scene")
+        if not part.has("curve"):
+            part.at("seeds")
+        target.seeds = part.seeds("seeds")
+    if part.has("curve"):
+        if part.has("results"):
+            part.refuse(" stands instead of grains; leave out results", "curve")
+        target.curve = part.existing_file("curve")
+    if part.has("before"):
+        fragment = part.existing_file("before")
+        section = "discrete" if target.curve and target.seeds else "continuum"
+        entries = [Setting(*entry) for entry in _diptych.read_fragment(fragment)]
+        target.before = [entry for entry in entries if entry.key != "parameters_from"]
+        for entry in target.before:
+            if entry.section != section:
+                part.refuse(f" = '{fragment}' sets {entry.section}/{entry.key}, which is not a key of the section {section}",
+                            "before")
+    return target
+
+
+def _parameter(part: Part, targets: Sequence[Target]) -> Parameter:
+    part.allow("key", "coordinate", "of", "start", "low", "high", "targets")
+    for name in ("key", "start", "low", "high"):
+        part.at(name)
+    key, fitted = part.word("key"), {target.name: target.is_fitted for target in targets}
+    names = [value_text(one.value) for one in part.list("targets")]
+    if part.has("targets") and not (set(names) <= set(fitted) and any(fitted[name] for name in names)):
+        part.refuse(f" = '{', '.join(names)}' is not allowed; name some of {', '.join(fitted)}, one of them fitted", "targets")
+    section = key.rpartition("/")[0] or "continuum"
+    if section not in ("continuum", "discrete"):
+        part.refuse(f" = {key} is not allowed; name a key of the section continuum, or of the grains as discrete/KEY", "key")
+    path = key if "/" in key else "continuum/" + key
+    coordinate = part.choice("coordinate", COORDINATES[:4 if section == "continuum" else 2], USUAL.get(key, "logarithm"))
+    is_ratio = coordinate in ("share_of", "drop_from")
+    if not is_ratio and part.has("of"):
+        part.refuse(" is only allowed with coordinate = share_of or drop_from", "of")
+    part.setting("key", path, 0.3)  # checks that the key exists
+    if key in KEYS_OF_THE_SEARCH:
+        part.refuse(f" = {key} is set by the calibration itself and cannot be a parameter", "key")
+    p = Parameter(key, coordinate, *(part.number(name, -FAR, FAR) for name in ("start", "low", "high")),
+                  part.word("of", "friction_angle_peak") if is_ratio else "", tuple(names))
+    if not p.low < p.high:
+        part.refuse(f" = {p.low:g} and high = {p.high:g}: bounds must ascend", "low")
+    if not p.low <= p.start <= p.high:
+        part.refuse(f" = {p.start:g} lies outside its bounds [{p.low:g}, {p.high:g}]", "start")
+    if is_ratio and not (p.low >= 0 and p.high <= 1):
+        part.refuse(f" = {p.low:g} and high = {p.high:g}: shares and drops lie between 0 and 1", "low")
+    if coordinate == "logarithm" and not p.low > 0:
+        part.refuse(f" = {p.low:g}: a logarithm needs bounds above 0", "low")
+    for name in () if is_ratio else ("low", "high"):  # both must lie in the range of the key
+        part.setting(name, path, part.value[name])
+    return p
+
+
+def _fixed(root: Part, parameters: Sequence[Parameter]) -> list[Setting]:
+    fixed = root.settings("set")
+    for entry in fixed:
+        if entry.section != "continuum":
+            root.refuse(f": {entry.section}/{entry.key} is not a key of the continuum; set keys of the grains in the targets",
+                        "set")
+        if entry.key in KEYS_OF_THE_SEARCH:
+            root.refuse(f": continuum/{entry.key} is set by the calibration itself; set it in a target, or use load_step and "
+                        "coarse_element_size", "set")
+        if any(p.key == entry.key for p in parameters):
+            root.refuse(f": continuum/{entry.key} is already one of the parameters", "set")
+    return fixed
+
+
+def _check_curves(root: Part, targets: Sequence[Target], parameters: Sequence[Parameter]) -> None:
+    """Grains are fitted to curves, a continuum to grains or curves."""
+    sections = {p.setting[0] for p in parameters}
+    if len(sections) > 1:
+        root.refuse(": a file has either keys of the continuum or discrete/ keys of the grains; use two files", "parameters")
+    for part, target in zip(root.list("targets"), targets):
+        if sections == {"discrete"} and not (target.curve and target.seeds):
+            part.refuse(": parameters of the grains are fitted to a measured curve; a target needs scene, curve and seeds")
+        if sections == {"continuum"} and target.curve and target.seeds:
+            part.refuse(" stands instead of grains; leave out seeds, or name parameters of the grains as discrete/KEY", "curve")
+
+
+def read_calibration(file: str, contents: Mapping[str, Any] | None = None) -> Calibration:
+    """Reads a .json file, or its contents, whose paths begin at the folder of `file`. Raises SceneError naming file, line, key,
+    value and the allowed values."""
+    root = Part(file, {}, contents) if contents else Part.read(file, "targets, quantities, bins and parameters")
+    root.allow("title", "targets", "quantities", "bins", "set", "parameters", "noise", "starts", "jacobians", "fine_jacobians",
+               "start_jacobians", "load_step", "coarse_element_size", "check_samples", "more_runs", "seed")
+    name = name_of(file, "calibration")
+    targets = [_target(part) for part in root.list("targets")]
+    if not any(target.is_fitted for target in targets):
+        root.refuse(" is missing, or none of the targets is fitted", "targets")
+    root.demand_distinct("targets", [target.name for target in targets])
+    kinds = [value_text(part.value) for part in root.list("quantities")]
+    if not kinds or not set(kinds) <= set(KINDS):
+        root.refuse(f" = '{', '.join(kinds)}' is not allowed; use some of {', '.join(KINDS)}", "quantities")
+    root.demand_distinct("quantities", kinds)
+    bins = [part.value for part in root.list("bins")]
+    has_bins = not set(kinds) <= set(OF_BANDS)
+    ascend = len(bins) > 1 and all(map(is_number, bins)) and bins[0] >= 0 and np.all(np.diff(bins) > 0)
+    if has_bins and not ascend:
+        root.refuse(f" = {bins} is not allowed; give at least two edges that ascend from 0 or above", "bins")
+    for target in targets:
+        if target.curve:
+            read_curve(target.curve, list(zip(bins, bins[1:])) if has_bins else [])
+    parameters = [_parameter(part, targets) for part in root.list("parameters")]
+    if not 0 < len(parameters) <= MOST_PARAMETERS:
+        root.refuse(f" is missing or empty; name 1 to {MOST_PARAMETERS} keys to be fitted", "parameters")
+    _check_curves(root, targets, parameters)
+    for target in targets:  # each target uses a key once
+        root.demand_distinct("parameters", [p.key for p in parameters if p.is_of(target.name)])
+    c = Calibration(name, file, root.word("title", name), targets, kinds, [float(edge) for edge in bins], parameters,
+                    _fixed(root, parameters), Noise())
+    if root.has("noise"):
+        part, names = root.at("noise"), [one.name for one in fields(Noise)[:-2]]
+        part.allow(*names)
+        for name in filter(part.has, names):
+            setattr(c.noise, name, part.number(name, 1e-9 if name in ("correlation_strain", "early_strain") else 0, FAR))
+    for key, low, high in (("starts", 1, 20), ("jacobians", 1, 100), ("fine_jacobians", 1, 100), ("start_jacobians", 1, 20),
+                           ("check_samples", 0, 1000), ("more_runs", 0, 1000), ("seed", 0, 1_000_000), ("load_step", 1e-9, 1),
+                           ("coarse_element_size", 0.01, 1e3)):
+        if root.has(key):
+            setattr(c, key, root.number(key, low, high, isinstance(getattr(c, key), int)))
+    return c

@@ -1,0 +1,314 @@
+# diptych: the runs of a calibration and their observables
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Grains of every target are run or read; a measured curve stands instead of them. The continuum runs on one outline per
+path. The law's point follows the path of an element test."""
+
+from __future__ import annotations
+
+import importlib
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from ... import _diptych, operators
+from ...arrays import Array, Band
+from ...errors import NotConverged, SceneError, Stopped
+from .calibration_file import CURVE_COLUMNS, OF_BANDS, Calibration, Target, is_element, read_curve
+from .noise import Data, Noise, Observable, covariance, noise_of
+from .profiles import PROFILE, profile
+from .search import NORMAL
+from ..runs.engine import Options
+from ..runs.folders import Runs, SceneRun, read_json
+from ..runs.histories import is_beyond, mean_over, panel_table, running_mean
+from ..runs.input_file import Setting
+from ..runs.key_numbers import bands_between, snapshots_at
+from ..studies.points import on_sample, scene_run
+
+CURVE_POINTS = 120
+NO_CURVE = np.full(CURVE_POINTS, np.nan)
+
+
+@dataclass
+class Observation:
+    """Results of one run of a panel, or a measured curve."""
+
+    values: Array  # (observables), NaN: not reached, or no band
+    peak_stress_ratio: float = np.nan  # largest running mean
+    angle_deg: float = np.nan  # of the first band of the last window; without its sign if chance decides between left and right
+    bands: list[Band | None] = field(default_factory=list)  # the first of every window
+    progress: Array = field(default_factory=NO_CURVE.copy)  # of the curve
+    stress_ratio: Array = field(default_factory=NO_CURVE.copy)
+    volumetric_strain: Array = field(default_factory=NO_CURVE.copy)
+    failure: str = ""  # reason if the run did not finish
+    samples: list[Observation] = field(default_factory=list)  # of a mean over seeds
+
+
+@dataclass
+class Outline:
+    """Box, mesh and bands of a path's sample: one for all samples of the path."""
+
+    width: float  # [length]
+    height: float  # [length]
+    solid_fraction: float
+    frames: list[dict[str, Any]]  # mean_diameter, platen_increment, centre, width and height of every window
+    bands: list[Band | None]  # of its first sample: where a profile is taken if the continuum shows no band
+    mesh: str  # file; empty: the rectangle of the scene
+
+
+@dataclass
+class Path:
+    """A target with what its samples or its curve show. left_out: a reason per observable; empty: it counts. scatter: the
+    samples that give the noise, if others than the data."""
+
+    target: Target
+    scene: _diptych.Scene
+    data: Data
+    samples: list[Observation]
+    left_out: list[str]
+    scatter: Data | None = None
+
+    @property
+    def of_noise(self) -> Data:
+        return self.scatter or self.data
+
+
+def observe_history(scene: _diptych.Scene, observables: Sequence[Observable], table: pd.DataFrame | None) -> Observation:
+    """Everything but the bands."""
+    o = Observation(np.full(len(observables), np.nan))
+    if table is None:
+        return o
+    progress, end = table["progress"].to_numpy(), float(table["progress"].iloc[-1])
+    columns = {name: table[name].to_numpy() for name in CURVE_COLUMNS if name in table}
+    for k, one in enumerate(observables):
+        if one.kind in columns and not is_beyond(one.high, end):
+            o.values[k] = mean_over(progress, columns[one.kind], one.low, one.high)
+    if "stress_ratio" in columns:
+        o.peak_stress_ratio = float(pd.Series(running_mean(table, "stress_ratio", scene.averaging_width())).max())
+    edges = np.linspace(0, min(end, scene.dict()["loading"]["axial_strain"]), CURVE_POINTS + 1)
+    o.progress = 0.5 * (edges[1:] + edges[:-1])
+    for name, column in columns.items():
+        setattr(o, name, np.array([mean_over(progress, column, a, b) for a, b in zip(edges, edges[1:])]))
+    return o
+
+
+def add_bands(o: Observation, scene: _diptych.Scene, observables: Sequence[Observable], snapshots: Sequence[Any],
+              outline: Outline, of_grains: bool) -> Observation:
+    """Adds ln(width / d) of the first band of every window, and the profiles across it. The continuum's bands are searched in
+    the grains' frames, so that both panels are measured alike. A continuum without a band counts as half the sample's height wide,
+    which cannot be told from a homogeneous deformation; its profile is taken across the band of the first sample."""
+    d, windows = scene.dict()["sample"]["mean_diameter"], windows_of(observables)
+    for n, (window, frame) in enumerate(zip(windows, outline.frames)):
+        pair = snapshots_at(snapshots, *window)
+        found = bands_between(scene, pair, {} if of_grains else frame) if pair else []
+        o.bands.append(found[0] if found else None)
+        if found:
+            o.angle_deg = abs(found[0].angle_deg) if scene.is_mirror_symmetric() else found[0].angle_deg
+        band = o.bands[-1] if of_grains or found else outline.bands[n]
+        for kind in {one.kind for one in observables} if pair else ():
+            at = [k for k, one in enumerate(observables) if (one.kind, one.low, one.high) == (kind, *window)]
+            if kind == "ln_width" and (found or not of_grains):
+                o.values[at] = np.log((found[0].width_10_90 if found else 0.5 * frame["height"]) / d)
+            elif kind == PROFILE and band:
+                strips = [(d * observables[k].near, d * observables[k].far) for k in at]
+                o.values[at] = profile(pair, operators.increment(*pair)["weight"], band, strips,
+                                       d / float(np.hypot(*frame["platen_increment"])))
+    return o
+
+
+def windows_of(observables: Sequence[Observable]) -> list[tuple[float, float]]:
+    """The windows in which bands are searched, in their order."""
+    return list(dict.fromkeys((one.low, one.high) for one in observables if one.kind in OF_BANDS))
+
+
+def observe_curve(scene: _diptych.Scene, observables: Sequence[Observable], file: str) -> tuple[Observation, Array]:
+    """A measured curve and the deviations (observables) that it brings, NaN where it brings none. Bins that begin before its
+    first row have no value. The deviation of a bin is its mean, as the error of one test is common to neighbouring readings."""
+    table = read_curve(file)
+    o, deviations = observe_history(scene, observables, table), np.full(len(observables), np.nan)
+    x = table["progress"].to_numpy()
+    for k, one in enumerate(observables):
+        if is_beyond(x[0], one.low):
+            o.values[k] = np.nan
+        if CURVE_COLUMNS[one.kind] in table and np.isfinite(o.values[k]):
+            deviations[k] = mean_over(x, table[CURVE_COLUMNS[one.kind]].to_numpy(), one.low, one.high)
+    return o, deviations
+
+
+def half_step(scene: _diptych.Scene) -> list[Setting]:
+    """Halves the step of the grains, or the accuracy that chooses it."""
+    keys = scene.dict()["discrete"]
+    key = "accuracy" if keys["step"] == "auto" else "step"
+    return [Setting("discrete", key, repr(0.5 * keys[key]), "the calibration")]
+
+
+class CalibrationRuns:
+    """Functions that run something raise Stopped after a stop signal, and NotConverged where grains do not come to their
+    end."""
+
+    def __init__(self, calibration: Calibration, directory: str, options: Options) -> None:
+        self.calibration, self.runs, self.options = calibration, Runs(directory), replace(options, resume=False)
+        self.outlines: dict[str, Outline] = {}
+        self.cpu_s = {"continuum": 0.0, "discrete": 0.0}
+        self._counted: set[str] = set()
+
+    def _do(self, runs: Sequence[SceneRun]) -> list[str]:
+        """Does the runs, adds their CPU time once, and returns for each why it has no result."""
+        if any(outcome.interrupted for outcome in self.runs.do(runs, self.options)):
+            raise Stopped("stopped on request")
+        for run in runs:
+            record = self.runs.path(run, "/provenance.json")
+            if run.name not in self._counted and os.path.exists(record):
+                self._counted.add(run.name)
+                panel = "discrete" if run.command == "discrete" else "continuum"
+                self.cpu_s[panel] += sum(phase["cpu_s"] for phase in read_json(record)["phases"])
+        return [self._failure_of(run) for run in runs]
+
+    def _failure_of(self, run: SceneRun) -> str:
+        """Why a run has no result; empty: it has one."""
+        end = self.runs.found_end(run) if run.scene else None
+        if run.refusal or (end and end["exit_code"] == 0):
+            return run.refusal
+        return (self.runs.last_words(run) if end else "") or "the run was lost"
+
+    def _grains(self, target: Target, seeds: Sequence[int], more: Sequence[Setting] = (), note: str = "") -> list[str]:
+        """Runs samples of a target and returns their folders."""
+        runs = [scene_run(target.scene, "discrete", on_sample([*target.settings, *more], seed, self.calibration.file))
+                for seed in seeds]
+        for seed, failure in zip(seeds, self._do(runs)):
+            if failure:
+                raise NotConverged(f"{self.calibration.file}: target '{target.name}', seed {seed}{note}: "
+                                   f"the grains did not come to their end: {failure}")
+        return [self.runs.path(run) for run in runs]
+
+    def _outline(self, target: Target, scene: _diptych.Scene, observables: Sequence[Observable],
+                 snapshots: Sequence[Any]) -> Outline:
+        for other in self.calibration.targets:
+            if other.name in self.outlines and other.is_same_path(target):
+                return self.outlines[other.name]
+        pairs = [snapshots_at(snapshots, *window) for window in windows_of(observables)]
+        if None in pairs:
+            raise ValueError("an edge of comparison/window_edges is not a stage of the grains")
+        frames = [{key: value for key, value in operators.increment(*pair).items()
+                   if key not in ("points", "displacement", "weight")} for pair in pairs]
+        keys, first = scene.dict(), snapshots[0]
+        sides = np.concatenate([first.outline_left, first.outline_right])
+        mesh = str(keys["continuum"]["mesh"])
+        if mesh in ("outline", "rectangle"):
+            os.makedirs(self.runs.directory + "/meshes", exist_ok=True)
+            mesh = os.path.abspath(f"{self.runs.directory}/meshes/path_{1 + len(self.outlines)}.msh")
+            importlib.import_module("diptych._continuum").write_mesh(scene, first, mesh)  # loads deal.II only now
+        return Outline(*np.ptp(sides, axis=0), float(np.pi * (first.radius**2).sum() / first.area), frames, [], mesh)
+
+    def _path(self, target: Target) -> Path:
+        scene = read_target(target)
+        observables = self.calibration.observables_of(scene, bool(target.curve))
+        if target.curve:
+            keys = scene.dict()
+            self.outlines[target.name] = Outline(keys["continuum"]["rectangle_width"], keys["continuum"]["rectangle_height"],
+                                                 keys["sample"]["solid_fraction"], [], [], "")
+            sample, deviations = observe_curve(scene, observables, target.curve)
+            return Path(target, scene, Data(observables, sample.values, deviations), [sample], [""] * len(observables))
+        samples = [self._observed(target, scene, observables, folder)
+                   for folder in target.results or self._grains(target, target.seeds)]
+        data = Data(observables, [s.values for s in samples])
+        if is_element(scene) and len(samples) > 1:  # a cell scatters more or less than the samples of other targets
+            data.own = noise_of([data], Noise())
+        return Path(target, scene, data, samples, [""] * len(observables))
+
+    def _observed(self, target: Target, scene: _diptych.Scene, observables: Sequence[Observable], folder: str) -> Observation:
+        table = panel_table(folder, "discrete")
+        reached = 0.0 if table is None else float(table["progress"].iloc[-1])
+        if is_beyond(observables[0].high, reached) or is_beyond(scene.dict()["loading"]["axial_strain"], reached):
+            raise SceneError(f"{self.calibration.file}: target '{target.name}': {folder} ends at {reached:g}, before the end "
+                             "of its loading")
+        o = observe_history(scene, observables, table)
+        if is_element(scene):
+            self.outlines.setdefault(target.name, Outline(np.nan, np.nan, float(table["solid_fraction"].iloc[0]), [], [], ""))
+            return o
+        snapshots = _diptych.read_grains(folder).snapshots
+        if target.name not in self.outlines:
+            self.outlines[target.name] = self._outline(target, scene, observables, snapshots)
+        outline = self.outlines[target.name]
+        add_bands(o, scene, observables, snapshots, outline, True)
+        outline.bands = outline.bands or o.bands
+        return o
+
+    def paths(self) -> list[Path]:
+        """The grains of every target, run or read, with what they show."""
+        return [self._path(target) for target in self.calibration.targets]
+
+    def unsteady(self, path: Path, noise: Noise) -> list[str]:
+        """Runs the first samples with half the step. Why an observable is left out: it moves by more than samples scatter, and
+        by more than two runs of a sample differ by chance."""
+        seeds = path.target.seeds[:self.calibration.check_samples]
+        finer = [self._observed(path.target, path.scene, path.data.observables, folder).values
+                 for folder in self._grains(path.target, seeds, half_step(path.scene), ", with half the grains' step")]
+        moved = np.mean([a - b.values for a, b in zip(finer, path.samples)], axis=0)
+        scatter = np.sqrt(np.diag(covariance(noise, path.data)))
+        allowed = max(1.0, NORMAL * np.sqrt(2 / len(seeds)))
+        return [f"half the step of the grains moves it by {a:.3g}, samples scatter by {b:.3g}" if abs(a) > allowed * b else ""
+                for a, b in zip(moved, scatter)]
+
+    def _settings(self, path: Path, point: Sequence[Setting], fine: bool, load_step: float) -> list[Setting]:
+        outline, here = self.outlines[path.target.name], list(path.target.settings)
+
+        def add(section: str, **keys: Any) -> None:
+            here.extend(Setting(section, key, str(value), "the calibration") for key, value in keys.items())
+
+        is_point = is_element(path.scene)
+        if not fine and not is_point:
+            add("continuum", mesh="rectangle", rectangle_width=outline.width, rectangle_height=outline.height,
+                element_size=self.calibration.coarse_element_size)
+        elif outline.mesh:
+            add("continuum", mesh=outline.mesh)
+        add("continuum", initial_step=load_step, max_step=load_step)
+        if not is_point:
+            add("comparison", coarse_element_size=0)
+        here.extend(point)
+        material = path.scene.dict()["continuum"]
+        hardening = next((one.value for one in reversed(point) if one.key == "hardening"), material["hardening"])
+        if hardening in ("critical_state", "kinematic") and material["solid_fraction_start"] == "auto":
+            add("continuum", solid_fraction_start=outline.solid_fraction)  # the mean density: the meshes here have no grains
+        return here
+
+    def _observed_continuum(self, path: Path, run: SceneRun, failure: str) -> Observation:
+        observables = path.data.observables
+        if failure:
+            return Observation(np.full(len(observables), np.nan), failure=failure)
+        folder = self.runs.path(run)
+        if is_element(path.scene):
+            return observe_history(path.scene, observables, panel_table(folder, "material_point"))
+        o = observe_history(path.scene, observables, panel_table(folder, "continuum"))
+        return add_bands(o, path.scene, observables, _diptych.read_nodes(folder).snapshots,
+                         self.outlines[path.target.name], False)
+
+    def evaluate(self, paths: Sequence[Path], points: Sequence[Sequence[Sequence[Setting]]], fine: bool,
+                  load_step: float) -> list[list[Observation]]:
+        """Runs the continuum with points[point][path]; returns [point][path]."""
+        runs = [scene_run(path.target.scene, "material-point" if is_element(path.scene) else "continuum",
+                          self._settings(path, settings, fine, load_step))
+                for point in points for path, settings in zip(paths, point)]
+        seen = [self._observed_continuum(path, run, failure)
+                for path, run, failure in zip(list(paths) * len(points), runs, self._do(runs))]
+        return [seen[k:k + len(paths)] for k in range(0, len(seen), len(paths))]
+
+
+def read_target(target: Target, more: Sequence[Setting] = ()) -> _diptych.Scene:
+    """The scene of a target with its settings and more. Raises SceneError."""
+    scene = _diptych.read_changed_scene(target.scene, [*target.settings, *more], False)
+    if is_element(scene):
+        return scene
+    if not target.curve:
+        scene = _diptych.read_changed_scene(target.scene, [*target.settings, *more], True)
+    mesh, mode = scene.dict()["continuum"]["mesh"], scene.dict()["loading"]["mode"]
+    if target.curve and not target.seeds and mesh != "rectangle":
+        raise SceneError(f"{target.scene}: continuum/mesh = {mesh}: a measured curve has no grains with an outline; set "
+                         "mesh = rectangle, rectangle_width and rectangle_height")
+    if target.curve and scene.loading_variable() != "axial_strain":
+        raise SceneError(f"{target.scene}: loading/mode = {mode}: a measured curve needs mode = descent, whose progress is the "
+                         "axial strain")
+    return scene

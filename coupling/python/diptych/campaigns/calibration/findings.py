@@ -1,0 +1,236 @@
+# diptych: the results of a calibration as records, text and files
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""calibration.json holds a dict: its keys are listed here, their meanings in README_calibration.md."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import scipy.stats
+
+from ... import _diptych
+from ...arrays import Array, Interval
+from ..runs.coordinates import Coordinates
+from .noise import Noise, covariance, covariance_of_mean
+from .posterior import Draws
+from .calibration_runs import Observation, Path
+from .search import NORMAL, PRIOR
+from ..runs.folders import write_json, write_text
+from ..runs.input_file import seeds_text
+from ..runs.statistics import Difference, line_statistics, paired, statistics
+
+NORMAL_95 = 1.6448536269514722  # 95 % quantile
+CUT = 0.04  # to a bound, in the unit cube: an interval ends there
+LARGEST_SHARE = 2 / 3  # of the prior deviation that an identified parameter keeps
+COLUMNS = ("kind", "from", "to", "count", "mean", "deviation", "deviation_of_mean", "before", "after", "parameter_deviation",
+           "half_step", "counts", "discrepancy", "discrepancy_deviation")
+
+
+def parameter_records(coordinates: Coordinates, draws: Array, best: Array) -> list[dict[str, Any]]:
+    """Values of the best point, medians and 95 % intervals of the draws; numbers are those of the coordinates."""
+    inner = np.quantile(draws, [0.025, 0.5, 0.975], axis=0)
+    ends, numbers = [coordinates.numbers(one) for one in (*inner, best)], np.transpose([coordinates.numbers(one) for one in draws])
+    prior = scipy.stats.truncnorm(-coordinates.start / PRIOR, (1 - coordinates.start) / PRIOR, scale=PRIOR).std()
+    share = draws.std(0, ddof=1) / prior
+    return [{"key": p.key, "targets": list(p.targets), "coordinate": p.coordinate, "of": p.other, "low": p.low, "high": p.high,
+             "start": p.start, "number": ends[3][k], "number_low": ends[0][k], "number_median": ends[1][k],
+             "number_high": ends[2][k], "value": value, "is_outside": bool(not inner[0, k] <= best[k] <= inner[2, k]),
+             "share_known": share[k], "is_identified": bool(share[k] < LARGEST_SHARE),
+             "is_cut": bool(inner[0, k] < CUT or inner[2, k] > 1 - CUT), "draws": numbers[k]}
+            for k, (p, value) in enumerate(zip(coordinates.parameters, coordinates.values(best)))]
+
+
+def parameter_words(parameters: Sequence[dict[str, Any]]) -> list[str]:
+    """Findings on parameters that are not identified or reach a bound."""
+    words = []
+    for p in parameters:
+        name = p["key"] + (f" ({', '.join(p['targets'])})" if p["targets"] else "")
+        if not p["is_identified"]:
+            words.append(f"{name} is not identified: its posterior deviation is {p['share_known']:.2f} times the prior one")
+        if p["is_outside"]:
+            words.append(f"{name}: the best point of the search lies outside the interval of the posterior, whose median is "
+                         f"{p['number_median']:.4g}")
+        if p["is_cut"]:
+            words.append(f"the interval of {name} ends at its bound, so this end comes from the bound and not from the data")
+    return words
+
+
+def discrepancy_record(noise: Noise, draws: Draws, paths: int) -> dict[str, Any]:
+    """Sizes of the discrepancy after the first strains and its correlation strain: medians with intervals; before the data."""
+    before = [noise.stress_discrepancy, noise.volume_discrepancy, draws.strain]
+    found = np.quantile(draws.sizes, [0.5, 0.025, 0.975], axis=0) * [noise.stress_discrepancy, noise.volume_discrepancy, 1]
+    return {"paths": paths, **{key: {"before": value, "found": Interval(*three)} for key, value, three in
+                               zip(("stress_ratio", "volumetric_strain", "correlation_strain"), before, found.T)}}
+
+
+def discrepancy_words(record: dict[str, Any]) -> list[str]:
+    """Findings on the misfit of the law."""
+    parts = []
+    for key, name, unit in (("stress_ratio", "t/s", 1), ("volumetric_strain", "volume, %", 100),
+                            ("correlation_strain", "correlation over strain, %", 100)):
+        value, low, high = (unit * number for number in record[key]["found"])
+        parts.append(f"{name} {value:.2g} [{low:.2g}, {high:.2g}] (before {unit * record[key]['before']:.2g})")
+    rests = "one path alone" if record["paths"] == 1 else f"{record['paths']} paths"
+    return [f"discrepancy of the law, deviation: {', '.join(parts)}; it rests on {rests}"]
+
+
+def widened(test: Difference, deviation: float) -> Difference:
+    """The same if its second part has an independent deviation. The squares of the half widths are added."""
+    def wide(interval: Interval, half: float) -> Interval:
+        value, low, high = interval
+        return Interval(value, value - np.hypot(value - low, half), value + np.hypot(high - value, half))
+
+    return Difference(test.n, wide(test.difference, NORMAL * deviation),
+                      wide(test.difference_90, NORMAL_95 * deviation))
+
+
+def measured(mean: float, deviation: float, now: float, kind: str) -> Difference:
+    """now minus a measured mean with a known normal deviation, "relative" or "absolute". An end is NaN if the interval of a
+    mean that is divided by reaches zero."""
+    def interval(quantile: float) -> Interval:
+        ends = np.array([mean, mean + quantile * deviation, mean - quantile * deviation])
+        return Interval(*(now / np.where(ends > 0, ends, np.nan) - 1 if kind == "relative" else now - ends))
+
+    return Difference(1, interval(NORMAL), interval(NORMAL_95))
+
+
+def predictions(path: Path, runs: Sequence[Observation], deviations: Array) -> list[dict[str, Any]]:
+    """Single numbers of a path with verdicts: two one-sided tests against the margins of the scene.
+
+    deviations: (observables), of `after`: from the parameters if the path was not fitted, and from runs of grains; they widen
+    the intervals. That of the angle is unknown, because the
+    fit has no derivative of it. Near a flat peak the largest running mean moves as the largest mean over a bin does. The given
+    deviation of a measured curve replaces the scatter of samples; that of its peak is the one of its largest bin.
+    """
+    margins, (before, after) = path.scene.dict()["comparison"], runs
+    places = {one.kind: k for k, one in enumerate(path.data.observables)}  # the last of each kind
+    of_stress = [k for k, one in enumerate(path.data.observables) if one.kind == "stress_ratio"]
+    found = []
+
+    def add(quantity: str, values: Sequence[float], margin: str, kind: str, k: int | None, given: float = np.nan) -> None:
+        """values: before, after, and those of the samples. k: the observable whose deviation counts. given: of the data."""
+        earlier, now, *grains = values
+        mean, deviation = (line_statistics if kind == "line" else statistics)(grains).mean, np.nan
+        test = measured(mean, given, now, kind) if np.isfinite(given) else paired(grains, [now] * len(grains), kind)
+        if k is not None and deviations[k] > 0:
+            deviation = deviations[k] * {"peak_stress_ratio": 1 / mean, "width_10_90": now / mean}.get(quantity, 1)
+            test = widened(test, deviation)
+        found.append({"quantity": quantity, "data": mean, "before": earlier, "after": now, "difference": test.difference,
+                      "margin": margins[margin], "verdict": test.verdict(margins[margin]), "parameter_deviation": deviation})
+
+    everything = [before, after, *path.samples]
+    if np.isfinite([s.peak_stress_ratio for s in path.samples]).any():
+        add("peak_stress_ratio", [s.peak_stress_ratio for s in everything], "margin_peak_stress_ratio", "relative",
+            max(of_stress, key=lambda k: after.values[k], default=None),
+            max([(path.data.mean[k], path.data.given[k]) for k in of_stress if np.isfinite(path.data.mean[k])],
+                default=(np.nan, np.nan))[1])
+    if "volumetric_strain" in places:
+        k = places["volumetric_strain"]
+        add("volumetric_strain", [s.values[k] for s in everything], "margin_volumetric_strain", "absolute", k,
+            path.data.given[k])
+    if "ln_width" in places:  # in the fit only, half the height replaces a missing band
+        k = places["ln_width"]
+        widths = [float(np.exp(s.values[k])) for s in everything]
+        widths[:2] = [width if np.isfinite(s.angle_deg) else np.nan for width, s in zip(widths, runs)]
+        add("width_10_90", widths, "margin_thickness", "relative", k)
+        add("angle_deg", [s.angle_deg for s in everything], "margin_angle", "line", None)
+    return found
+
+
+def path_record(path: Path, noise: Noise, runs: Sequence[Observation], deviations: Array) -> dict[str, Any]:
+    """runs: before, calibrated, and calibrated with half the load step. deviations: (observables), from the parameters. Curves:
+    mean of the samples, plus and minus two deviations of one sample, and of the model."""
+    before, after, halved = runs
+    data = path.data
+    deviation, of_mean = (np.sqrt(np.diag(of(noise, data))) for of in (covariance, covariance_of_mean))
+    own = np.hypot(np.zeros_like(deviations) if path.target.is_fitted else deviations,  # of `after`
+                   np.sqrt(np.diag(covariance(noise, path.of_noise)) / data.runs) if data.runs else 0)
+    observables = [
+        {"kind": one.kind, "from": one.low, "to": one.high, "count": int(data.count[k]), "mean": data.mean[k],
+         "deviation": deviation[k], "deviation_of_mean": of_mean[k],
+         "before": before.values[k], "after": after.values[k], "parameter_deviation": deviations[k],
+         "half_step": halved.values[k] - after.values[k], "counts": False, "discrepancy": np.nan,
+         "discrepancy_deviation": np.nan, "left_out": path.left_out[k]}
+        for k, one in enumerate(data.observables)]
+    record = {"name": path.target.name, "use": "fit" if path.target.is_fitted else "predict", "seeds": path.target.seeds,
+              "curve": os.path.basename(path.target.curve),
+              "failed": after.failure, "observables": observables, "progress": path.samples[0].progress,
+              "predictions": predictions(path, (before, after), own)}
+    for name, key in (("stress_ratio", "stress_ratio"), ("volumetric_strain", "volume")):
+        record |= with_scatter(key, np.array([getattr(s, name) for s in path.samples]))
+        record |= {key + end: [] if o.failure else getattr(o, name) for end, o in (("_before", before), ("_after", after))}
+        if after.samples:
+            record |= with_scatter(key + "_after", np.array([getattr(s, name) for s in after.samples]))
+    return record
+
+
+def with_scatter(key: str, curves: Array) -> dict[str, Array]:
+    """Mean of curves (sample, point), plus and minus two deviations of one sample; NaN for a single one."""
+    spread = 2 * curves.std(0, ddof=1) if len(curves) > 1 else np.full(curves.shape[1], np.nan)
+    return {key: curves.mean(0), key + "_low": curves.mean(0) - spread, key + "_high": curves.mean(0) + spread}
+
+
+def summary(record: dict[str, Any], cpu_s: float) -> str:
+    """The result for the terminal."""
+    runs = (f"{record['coarse_runs']} coarse and {record['fine_runs']} fine runs, " if record["model"] == "continuum"
+            else f"{record['coarse_runs']} runs of all seeds, ")
+    lines = [f"{record['title']}: chi^2 of {record['n_observables']} observables {record['chi2_before']:.4g} -> "
+             f"{record['chi2']:.4g}; {runs}{record['other_runs']} of predictions, {cpu_s:.4g} CPU s"]
+    for p in record["parameters"]:
+        share = f"{p['coordinate']} {p['of']} {p['number']:.3g} " if p["of"] else ""
+        lines.append(f"  {p['key']} = {p['value']:.4g} {share}[{p['number_low']:.4g}, {p['number_high']:.4g}]"
+                     f"{'' if p['is_identified'] else ', not identified'}")
+    for path in record["paths"]:
+        for one in path["predictions"]:
+            data, before, after = (f"{x:.4g}" if np.isfinite(x) else "-" for x in (one["data"], one["before"], one["after"]))
+            lines.append(f"  {path['name']} ({path['use']}): {one['quantity']} {data}, before {before}, "
+                         f"after {after}: {one['verdict']}")
+    return "\n".join(lines + ["  " + words for words in record["words"]])
+
+
+def _origin(record: dict[str, Any]) -> str:
+    """Paths, curves and seeds of the fit, in one line without the sign of a comment: a value in a scene file."""
+    fitted = [path for path in record["paths"] if path["use"] == "fit"]
+    paths = [", ".join(filter(None, [path["name"], path["curve"], path["seeds"] and f"seeds {seeds_text(path['seeds'])}"]))
+             for path in fitted]
+    status = "" if record["status"] == "finished" else f" ({record['status']})"
+    return " ".join(f"calibrated on {'; '.join(paths) or record['title']}{status}".replace("#", "").split())
+
+
+def _fragment(record: dict[str, Any]) -> str:
+    """calibrated.prm. A run that takes a continuum from it shows its origin."""
+    origin, section = _origin(record), "continuum" if record["model"] == "continuum" else "discrete"
+    lines = [f"# {origin}, by diptych {_diptych.git_revision}"]
+    if record["status"] == "finished":
+        lines += [f"# chi^2 of {record['n_observables']} observables: {record['chi2_before']:.4g} before, {record['chi2']:.4g} "
+                  "now; calibration.json holds intervals"]
+    lines += [f"subsection {section}", *("  set " + one.removeprefix(section + "/") for one in record["settings"])]
+    lines += [f"  # {own['target']}: set {own['key'].removeprefix(section + '/')} = {_diptych.text_of_number(own['value'])}"
+              for own in record["own"]]
+    if section == "continuum":
+        lines += ["end", "", "subsection comparison", f"  set parameters_from = {origin}"]
+    return "\n".join(lines + ["end", ""])
+
+
+def posterior_table(coordinates: Coordinates, draws: Array) -> pd.DataFrame:
+    """A row per draw, a column per parameter: the values of the keys. Targets of a value that is not common follow the key."""
+    names = [p.key + (f" ({', '.join(p.targets)})" if p.targets else "") for p in coordinates.parameters]
+    return pd.DataFrame([coordinates.values(point) for point in draws], columns=names)
+
+
+def write_calibration(directory: str, record: dict[str, Any], cpu_s: dict[str, float], posterior: pd.DataFrame | None) -> None:
+    """Writes calibration.json, calibration.csv (a row per observable), posterior.csv (a row per draw), calibration_cost.json
+    and calibrated.prm."""
+    rows = [{"path": path["name"], "use": path["use"], **one} for path in record["paths"] for one in path["observables"]]
+    table = pd.DataFrame(rows, columns=["path", "use", *COLUMNS]).astype({"counts": int})
+    write_json(directory + "/calibration.json", record)
+    write_json(directory + "/calibration_cost.json", {"continuum_cpu_s": cpu_s["continuum"], "grains_cpu_s": cpu_s["discrete"]})
+    write_text(directory + "/calibration.csv",
+               table.to_csv(index=False, float_format="%.10g", na_rep="nan", lineterminator="\n"))
+    if posterior is not None:
+        write_text(directory + "/posterior.csv", posterior.to_csv(index=False, float_format="%.10g", lineterminator="\n"))
+    write_text(directory + "/calibrated.prm", _fragment(record))

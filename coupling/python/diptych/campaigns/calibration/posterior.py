@@ -1,0 +1,132 @@
+# diptych: the posterior of a calibration: parameters, size and correlation of the discrepancy, scatter of the samples
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The data are emulator + discrepancy + scatter (Kennedy & O'Hagan, J. R. Stat. Soc. B 63 (2001) 425). The discrepancy of t/s
+and volume is a process over strain, independent between paths; the data of all paths tell its size and its correlation length.
+emcee samples them together with the parameters. Variances that a few samples gave are sampled as well."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg
+import scipy.spatial
+
+try:
+    import emcee
+except ImportError as error:
+    raise ImportError("diptych calibrate needs the Python package emcee; install python3-emcee (Debian)") from error
+
+from ...arrays import Array
+from ..runs.coordinates import Coordinates
+from .emulator import Emulator
+from .noise import KINDS, Data, FittedData, discrepancy, tolerance_covariance
+from .search import PRIOR
+
+SPREAD = 0.7  # deviation of ln(size) and of ln(correlation strain) before the data: a factor of two
+SHARE_OF_STRAIN = 0.25  # correlation strain of the discrepancy before the data / largest strain
+SCALED = (("stress_level",), ("volume_start", "volume_growth"), ("profile_stretch",))  # with a sampled factor if samples gave them
+WALKERS, DRAWS = 48, 1000
+CANDIDATES, HEAT = 1000, 3.0  # for the starts of the walkers; they are drawn with the posterior^(1 / heat)
+FARTHEST, LARGE = 6.0, 1e30  # ln of a factor of a variance: two samples bound it nowhere; a number without effect
+
+
+@dataclass
+class Draws:
+    """Thinned draws of the posterior. points: (draws, parameters). sizes: (draws, 3), the factors of the tolerance of t/s and of
+    volume, and the correlation strain. strain: correlation strain before the data. curve: (2, observables), the discrepancy
+    model - truth and its deviation; NaN where an observable does not count. autocorrelation: in steps."""
+
+    points: Array
+    sizes: Array
+    strain: float
+    curve: Array
+    acceptance: float
+    autocorrelation: float
+
+
+class Posterior:
+    """Log-probability of points (n, parameters + 3 + 3): logarithms of the factors of t/s and volume, of the correlation strain
+    / its value before, and of three variances of the scatter follow the parameters. It is zero where the nearest run failed."""
+
+    def __init__(self, data: FittedData, coordinates: Coordinates, points: Array, is_fine: Array, values: Array) -> None:
+        """points, is_fine, values: of all runs; a value is NaN if its run failed."""
+        self.start, self.used = coordinates.start, data.used
+        good = np.isfinite(values[:, self.used]).all(1)
+        self.emulator = emulator = Emulator(points[good], is_fine[good], values[good][:, self.used])
+        self._failed, self._nearest = ~good, scipy.spatial.KDTree(points / emulator.lengths)
+        square = np.ix_(self.used, self.used)
+
+        def of_all(values: Callable[[Data], Array]) -> Array:
+            return np.concatenate([values(path) for path in data.paths])[self.used]
+
+        x, variance, noise = of_all(lambda path: path.middles), of_all(lambda path: discrepancy(data.noise, path)), data.noise
+        self.mean, self.strain = data.mean[self.used], SHARE_OF_STRAIN * x.max()
+        self._far = np.abs(x[:, None] - x) / self.strain
+        stress, volume = (of_all(lambda path, kind=kind: path.of(kind)) for kind in KINDS[:2])
+        same_path = scipy.linalg.block_diag(*[np.ones((len(path.observables),) * 2) for path in data.paths])[square]
+        self._sizes = [same_path * np.outer(of, of) * np.sqrt(np.outer(variance, variance)) for of in (stress, volume)]
+        self._scatter = [data.of_scatter([key for key in keys if key in noise.estimated])[square] for keys in SCALED]
+        self.freedom = np.array([noise.degrees_of_freedom if part.any() else 0 for part in self._scatter])
+        everything = data.of_means()[square]
+        tolerance = scipy.linalg.block_diag(*[tolerance_covariance(path, discrepancy(data.noise, path)) for path in data.paths])
+        tolerance = tolerance[square] * np.outer(~(stress | volume), ~(stress | volume))
+        self._fixed = everything - sum(self._scatter) + tolerance + np.diag(1e-9 * np.diag(everything))
+        self.left_out = emulator.left_out / np.sqrt(np.diag(everything) + variance)  # in deviations of the data
+
+    def _discrepancy(self, logs: Array) -> Array:
+        """(n, observables, observables); logs: (n, 3)."""
+        stress, volume, strain = np.exp(logs.T)[..., None, None]
+        return (stress**2 * self._sizes[0] + volume**2 * self._sizes[1]) * np.exp(-self._far / strain)
+
+    def _parts(self, z: Array) -> tuple[Array, Array, Array]:
+        """Residual emulator - data (n, observables), its covariance, and the discrepancy's part of that."""
+        n = len(self.start)
+        values, factor = self.emulator.predict(z[:, :n])
+        of_law, q = self._discrepancy(z[:, n:n + 3]), np.exp(z[:, n + 3:, None, None])
+        everything = self._fixed + of_law + sum(q[:, k] * part for k, part in enumerate(self._scatter))
+        return values - self.mean, everything + factor[:, None, None] * self.emulator.covariance, of_law
+
+    def prior(self, z: Array) -> Array:
+        """Logarithm of the prior (n)."""
+        n = len(self.start)
+        found = -0.5 * (((z[:, :n] - self.start) / PRIOR) ** 2).sum(1) - 0.5 * (z[:, n:n + 3] ** 2).sum(1) / SPREAD**2
+        q, nu = z[:, n + 3:], self.freedom
+        # freedom / factor of a variance has a chi^2 distribution. A factor that scales nothing has a normal prior.
+        found += np.where(nu > 0, -0.5 * nu * (q + np.exp(-q)), -0.5 * q**2).sum(1)
+        outside = ((z[:, :n] < 0) | (z[:, :n] > 1)).any(1) | (np.abs(q) > FARTHEST).any(1)
+        return np.where(outside, -np.inf, found)
+
+    def __call__(self, z: Array) -> Array:
+        found = self.prior(z)
+        found[self._failed[self._nearest.query(z[:, :len(self.start)] / self.emulator.lengths)[1]]] = -np.inf
+        inside = np.isfinite(found)
+        residual, covariance, _ = self._parts(z[inside])
+        n, m = residual.shape
+        bordered = np.empty((n, m + 1, m + 1))  # the last row of its root is (root of covariance)^-1 residual
+        bordered[:, :m, :m], bordered[:, m, :m], bordered[:, :m, m], bordered[:, m, m] = covariance, residual, residual, LARGE
+        root = np.linalg.cholesky(bordered)
+        found[inside] -= 0.5 * (root[:, m, :m] ** 2).sum(1) + np.log(np.diagonal(root, axis1=1, axis2=2)[:, :m]).sum(1)
+        return found
+
+    def sample(self, best: Array, jacobian: Array, seed: int, steps: int) -> Draws:
+        """Walkers start at probable points, drawn around the best point of the search, as far as its Jacobian with the prior
+        tells, and from the prior, which may hold a better valley. The second half of their steps is kept."""
+        random, n = np.random.RandomState(seed), len(best)
+        points = np.vstack([random.multivariate_normal(best, np.linalg.inv(jacobian.T @ jacobian), CANDIDATES),
+                            random.normal(self.start, PRIOR, (CANDIDATES, n))])
+        start = np.hstack([np.clip(points, 0.001, 0.999), 0.2 * random.normal(size=(len(points), 3 + len(SCALED)))])
+        start = start[np.argsort(self(start) / HEAT + random.gumbel(size=len(start)))[-WALKERS:]]
+        sampler = emcee.EnsembleSampler(WALKERS, start.shape[1], self, vectorize=True,
+                                        moves=[(emcee.moves.DEMove(), 0.8), (emcee.moves.DESnookerMove(), 0.2)])
+        sampler.run_mcmc(emcee.State(start, random_state=random.get_state()), steps)
+        flat = sampler.get_chain(discard=steps // 2, flat=True)
+        z = flat[np.linspace(0, len(flat) - 1, DRAWS).astype(int)]
+        residual, covariance, of_law = self._parts(z)
+        gain = np.linalg.solve(covariance, of_law).swapaxes(1, 2)
+        means = (gain @ residual[..., None])[..., 0]
+        left, curve = np.diagonal(of_law - gain @ of_law, axis1=1, axis2=2), np.full((2, len(self.used)), np.nan)
+        curve[:, self.used] = means.mean(0), np.sqrt(means.var(0) + left.mean(0))
+        return Draws(z[:, :n], np.exp(z[:, n:n + 3]) * [1, 1, self.strain], self.strain, curve,
+                     float(sampler.acceptance_fraction.mean()), float(sampler.get_autocorr_time(tol=0, quiet=True)[:n].max()))

@@ -1,0 +1,116 @@
+# diptych: the command element: grains and the law's point along one path
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs the grains of every seed and the law's point, and writes element.csv, element.json and report.html."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shlex
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import pandas as pd
+
+from ... import _diptych
+from ...errors import SceneError
+from .curves import BINS, Curves, key_numbers, observed, rms_differences, table_of
+from ..runs.engine import DONE, NOT_CONVERGED, WRONG_INPUT, Options, complain, say
+from ..runs.folders import Folder, Runs, SceneRun, draw, write_json, write_text
+from ..runs.histories import panel_table
+from ..runs.input_file import Setting, read_seeds, settings_of
+from ..studies.points import on_sample, scene_run
+
+FOLLOW_DENSITY = ("critical_state", "kinematic")  # kinds of hardening that know the solid fraction
+
+
+def _read(run: SceneRun) -> SceneRun:
+    """The run, if the scene allows it. Raises SceneError."""
+    if run.refusal:
+        raise SceneError(run.refusal)
+    return run
+
+
+def _done(runs: Runs, wanted: Sequence[SceneRun], options: Options) -> list[str]:
+    """Does the runs and returns for each why it ended before its end; empty: it did not. Raises SceneError for wrong input and
+    NotConverged after a stop request."""
+    if any(outcome.interrupted for outcome in runs.do(wanted, options)):
+        return ["stopped on request"] * len(wanted)
+    ends = [(run, runs.found_end(run)) for run in wanted]
+    for run, end in ends:
+        if end and end["exit_code"] == WRONG_INPUT:
+            raise SceneError(runs.last_words(run))
+    return ["" if end and end["exit_code"] == DONE else runs.last_words(run) or "the run was lost" for run, end in ends]
+
+
+def _law_settings(settings: Sequence[Setting], scene: Any, tables: Sequence[pd.DataFrame]) -> list[Setting]:
+    """With the mean solid fraction of the prepared samples, if the law needs one and the scene leaves it to the grains."""
+    law = scene.dict()["continuum"]
+    if law["hardening"] not in FOLLOW_DENSITY or law["solid_fraction_start"] != "auto":
+        return list(settings)
+    start = sum(float(table["solid_fraction"].iloc[0]) for table in tables) / len(tables)
+    return [*settings, Setting("continuum", "solid_fraction_start", repr(start), "the grains")]
+
+
+def _text(numbers: Sequence[Mapping[str, Any]]) -> str:
+    """The table of a terminal."""
+    rows = [[one["quantity"], one["grains"], one["law"], one["difference"]] for one in numbers]
+
+    def shown(value: Any) -> str:
+        number, *ends = value if isinstance(value, tuple) else (value,)
+        known = f" [{ends[0]:.4g}, {ends[1]:.4g}]" if ends and ends[0] == ends[0] else ""
+        return f"{number:.4g}{known}" if number == number else "-"
+
+    table = [["", "grains [95 %]", "law", "law - grains [95 %]"], *([row[0], *map(shown, row[1:])] for row in rows)]
+    widths = [max(map(len, column)) for column in zip(*table)]
+    return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in table)
+
+
+def _write(directory: str, record: dict[str, Any], curves: Curves) -> None:
+    write_text(os.path.join(directory, "element.csv"),
+               table_of(curves).to_csv(index=False, float_format="%.10g", lineterminator="\n"))
+    write_json(os.path.join(directory, "element.json"), record)
+
+
+def run_element(line: argparse.Namespace, options: Options) -> int:
+    """diptych element SCENE. line: target, seeds, output, set, set_file. Returns the exit code; 3: a run ended before the end
+    of the path, or stopped on request."""
+    settings = settings_of(line.set, line.set_file)
+    scene = _diptych.read_changed_scene(line.target, settings, False)
+    if scene.dict()["discrete"]["lateral"] != "cell":
+        raise SceneError(f"{line.target}: discrete/lateral = {scene.dict()['discrete']['lateral']}; an element test needs "
+                         "discrete/lateral = cell and loading/mode = path")
+    seeds = read_seeds(line.seeds) if line.seeds else [scene.dict()["sample"]["seed"]]
+    grains = [_read(scene_run(line.target, "discrete", on_sample(settings, seed, line.target))) for seed in seeds]
+    _read(scene_run(line.target, "material-point", settings))  # a wrong law is refused before the grains run
+    directory = line.output or f"results/{scene.name}_element"
+    with Folder(directory) as folder:
+        folder.open_runs("element", line.target, options, lambda: [("the scene", line.target), *scene.input_files()])
+        runs = Runs(directory)
+        failures = _done(runs, grains, options)
+        found = {seed: panel_table(runs.path(run), "discrete") for seed, run in zip(seeds, grains)}
+        tables = {seed: table for seed, table in found.items() if table is not None}
+        law, failure = None, ""
+        if tables and "stopped on request" not in failures:
+            law = _read(scene_run(line.target, "material-point", _law_settings(settings, scene, list(tables.values()))))
+            [failure] = _done(runs, [law], options)
+        stopped = "stopped on request" in (failure, *failures)
+        if stopped or not tables:
+            complain(f"diptych: {'stopped on request' if stopped else failures[0]}; finished samples are kept in {directory}; "
+                     f"to go on: {options.again}")
+            return NOT_CONVERGED
+        point = panel_table(runs.path(law), "material_point")
+        end = max(float(table["progress"].iloc[-1]) for table in (*tables.values(), point) if table is not None)
+        curves = observed(list(tables.values()), point, end, scene.dict()["loading"]["pressure"])
+        record = {"format": 1, "scene": scene.name, "revision": _diptych.git_revision, "bins": BINS, "seeds": seeds,
+                  "done": list(tables), "walk": scene.loading_variable(), "law": {"failure": failure},
+                  "failed": [{"seed": seed, "message": text} for seed, text in zip(seeds, failures) if text],
+                  "quantities": key_numbers(curves), "rms": rms_differences(curves),
+                  "command": shlex.join(["diptych", *options.words])}
+        _write(directory, record, curves)
+        draw(options, "element", directory)
+        say(options, _text(record["quantities"]))
+        for name, text in [*((f"seed {one['seed']}", one["message"]) for one in record["failed"]), ("the law", failure)]:
+            if text:
+                complain(f"diptych: {name} ended before the end of the path: {text}")
+    return NOT_CONVERGED if record["failed"] or failure else DONE

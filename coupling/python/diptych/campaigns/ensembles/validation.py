@@ -1,0 +1,201 @@
+# diptych: validation of an ensemble as in ASME V&V 20: errors and their uncertainty
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""E = S - D is the continuum minus the grains, and u_val its standard uncertainty: u_val^2 = u_num^2 + u_input^2 + u_D^2. Source:
+ASME V&V 20-2009.
+
+Values are dicts by the names of member_of(). NaN marks a part that is not known: it does not count, and the record names it.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import shutil
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from ... import _diptych
+from ...errors import Stopped
+from ..runs.engine import Options, Run, execute
+from ..runs.folders import read_json, run_name, write_json, write_text
+from ..runs.histories import panel_table
+from ..runs.input_file import Setting
+from ..runs.key_numbers import FORCE, PEAK, STRENGTH, VOLUME, key_values
+from ..runs.members import Member, member_of
+from ..runs.statistics import Difference, line_statistics, line_turn, paired, statistics
+
+DRAWS = 12  # of the parameters; their deviation is then known to a fifth
+# 95 % bound / estimated numerical error, of which u_num is half. Roache (Verification and Validation in Computational Science and
+# Engineering, 1998) takes 3 for an assumed order and 1.25 for an observed one. README.md compares estimates with errors.
+SAFETY = 1.25
+_KEYS = {"peak_stress_ratio": PEAK, "strength": STRENGTH, "platen_force_pd": FORCE, "final_volumetric_strain": VOLUME}
+_PARTS = {"grains_step": "step of the grains", "mesh": "mesh", "load_step": "load step", "parameters": "parameters"}
+_FOLDER = "validation"  # of the runs; it is removed after they have been read
+NO_RUNS: dict[str, Any] = {"seed": None, "scenes": [], "quantities": [], "values": []}  # as respond() returns them
+
+
+@dataclass
+class Responses:
+    """How the continuum answers to changes. coarse: values of every member on the coarse mesh. The others are values of one sample
+    on that mesh. base: unchanged. half_step: with half the load step. draws: with draws of the parameters."""
+
+    coarse: Sequence[Mapping[str, float]] = ()
+    size_ratio: float = math.nan  # element size of the coarse mesh / that of the members
+    base: Mapping[str, float] = field(default_factory=dict)
+    half_step: Mapping[str, float] = field(default_factory=dict)
+    draws: Sequence[Mapping[str, float]] = ()
+
+
+def uncertainties(quantity: str, names: tuple[str, str], is_line: bool, members: Sequence[Member],
+                  responses: Responses) -> dict[str, float]:
+    """Standard uncertainties but that of the samples, in the unit of the quantity. names: of grains and continuum.
+
+    Estimated errors: grains_step by the rule of the step; mesh and load_step by order 1 from a change d: d / (r - 1) by a mesh
+    coarser by r, 2 d by half the step. parameters: deviation over the draws.
+    """
+    minus, average = (line_turn, line_statistics) if is_line else (np.subtract, statistics)
+    grains, fine = ([member.numbers.get(name, (math.nan,))[0] for member in members] for name in names)
+    rules = ["strength"] + ["dilation"] * (quantity == "final_volumetric_strain")  # its two parts may cancel by chance
+    expected = max(abs(statistics([member.numbers.get(f"discrete_summary expected_{rule}_error", (math.nan,))[0]
+                                   for member in members]).mean) for rule in rules)
+    coarse = [values.get(names[1], math.nan) for values in responses.coarse] or [math.nan] * len(fine)
+    half, base = (values.get(names[1], math.nan) for values in (responses.half_step, responses.base))
+    has_rule = quantity in _KEYS and expected != 0  # 0: a flow that the rule does not describe
+    errors = {"grains_step": expected * statistics(grains).mean if has_rule else math.nan,
+              "mesh": statistics(minus(coarse, fine)).mean / (responses.size_ratio - 1), "load_step": 2 * float(minus(half, base))}
+    return {**{name: SAFETY / 2 * abs(error) for name, error in errors.items()},
+            "parameters": average([values.get(names[1], math.nan) for values in responses.draws]).deviation}
+
+
+def validated(quantity: str, kind: str, pairs: tuple[Sequence[float], Sequence[float]], parts: Mapping[str, float],
+              n_draws: int) -> tuple[Difference, dict[str, Any]]:
+    """The difference as paired() has it, with all known parts in its intervals, and a row of ensemble.json without its verdict.
+
+    Half widths add in squares. Each is a standard uncertainty times Student's factor: n - 1 degrees of freedom of the samples,
+    n_draws - 1 of the parameters, infinitely many of the numerical parts.
+    """
+    first, second = np.array(pairs, float)[:, np.isfinite(pairs).all(axis=0)]
+    average = line_statistics if kind == "line" else statistics
+    found, error = paired(first, second, kind), average(line_turn(second, first) if kind == "line" else second - first)
+    of_samples = error.deviation / math.sqrt(error.n) if error.n > 1 else math.nan
+    grains = average(first).mean
+    errors = [(u, n_draws - 1 if name == "parameters" else math.inf) for name, u in parts.items() if math.isfinite(u)]
+    relative = [(u / abs(grains), f) for u, f in errors] if kind == "relative" else errors
+    numerical = [parts[name] for name in ("grains_step", "mesh", "load_step") if math.isfinite(parts[name])]
+    total = math.hypot(of_samples, *(u for u, _ in errors))
+    row = {"quantity": quantity, "n": error.n, "S": average(second).mean, "D": grains,
+           "E": paired(first, second, "line" if kind == "line" else "absolute").with_errors(errors).difference,
+           "u_num": math.hypot(*numerical) if numerical else math.nan, "u_input": parts["parameters"], "u_D": of_samples,
+           "u_val": total, "ratio": abs(error.mean) / total if total > 0 else math.nan,
+           "parts": {name: parts[name] for name in ("grains_step", "mesh", "load_step")},
+           "not_known": [words for name, words in _PARTS.items() if not math.isfinite(parts[name])]}
+    return found.with_errors(relative), row
+
+
+def coarse_values(folder: str, scene: Any, member: Member) -> dict[str, float]:
+    """Values of a member's continuum on the coarse mesh, by the names of the fine one; empty without that run."""
+    table = panel_table(os.path.join(folder, "coarse"), "continuum")
+    if table is None:
+        return {}
+    found = key_values(folder, scene, {"continuum": table})
+    bands = {name.removeprefix("continuum_coarse ").replace(" band ", " continuum band "): number[0]
+             for name, number in member.numbers.items() if name.startswith("continuum_coarse window")}
+    return {**{f"continuum_summary {key}": found["continuum", name] for key, name in _KEYS.items()}, **bands}
+
+
+def responses_of(scene: Any, seeds: Sequence[int], members: Sequence[Member], runs: Mapping[str, Any]) -> Responses:
+    """Of an ensemble whose members with these seeds are done. runs: the record of respond()."""
+    keys = scene.dict()
+    ratio = keys["comparison"]["coarse_element_size"] / keys["continuum"]["element_size"]
+    coarse = {seed: coarse_values(os.path.join(scene.directory, f"seed_{seed}"), scene, member)
+              for seed, member in zip(seeds, members)}
+    values = [{name: value for name, value in zip(runs["quantities"], row) if value is not None} for row in runs["values"]]
+    half, *draws = values or [{}]
+    return Responses(list(coarse.values()), ratio if ratio > 1 else math.nan, coarse.get(runs["seed"], {}), half, draws)
+
+
+def draws_of(set_files: Sequence[str], settings: Sequence[str]) -> list[list[Setting]]:
+    """Evenly chosen rows of the posterior of a calibration: posterior.csv beside a --set-file, with keys of the section
+    continuum as columns. A key of --set counts as exact. [] without such a file."""
+    beside = [os.path.join(os.path.dirname(file), "posterior.csv") for file in set_files]
+    path = next(filter(os.path.isfile, beside), "")
+    table = pd.read_csv(path, dtype=str, comment="#") if path else pd.DataFrame()
+    exact = [text.partition("=")[0].removeprefix("continuum/") for text in settings]
+    table = table[[key for key in table if key.isidentifier() and key not in exact]]  # "key (target)" is not in calibrated.prm
+    rows = np.unique(np.linspace(0, len(table) - 1, DRAWS).round().astype(int)) if table.size else ()
+    return [[Setting("continuum", key, value, path) for key, value in table.iloc[row].items()] for row in rows]
+
+
+def variations(scene_file: str, settings: Sequence[Setting], draws: Sequence[Sequence[Setting]]) -> list[Any]:
+    """Scenes of short runs of the continuum on the coarse mesh: half the load step, then the draws. [] without such a mesh.
+
+    Raises SceneError, with posterior.csv, for a draw that the scene refuses.
+    """
+    keys = _diptych.read_changed_scene(scene_file, list(settings), True).dict()
+    coarse, steps = keys["comparison"]["coarse_element_size"], keys["continuum"]
+    if not coarse:
+        return []
+    common = [Setting(section, key, value, "validation") for section, key, value in (
+        ("continuum", "element_size", repr(coarse)), ("comparison", "coarse_element_size", "0"), ("output", "report", "false"),
+        ("comparison", "band_resamples", "0"), ("comparison", "probe_resamples", "0"))]
+    halves = [Setting("continuum", key, repr(steps[key] / 2), "validation") for key in ("min_step", "initial_step", "max_step")]
+    return [_diptych.read_changed_scene(scene_file, [*settings, *common, *more], True) for more in (halves, *draws)]
+
+
+def respond(directory: str, seed: int, scenes: Sequence[Any], goes_on: bool, options: Options) -> dict[str, Any]:
+    """Runs the variations on the grains of a finished member. Returns its seed, hashes of the scenes, and values of quantities, a
+    row per run, None after a failure. goes_on: the member is an earlier one, whose runs stand.
+
+    Raises Stopped after a stop signal."""
+    source, here, record = (os.path.join(directory, name) for name in (f"seed_{seed}", _FOLDER, "ensemble.json"))
+    if not scenes or not os.path.isdir(os.path.join(source, "coarse")):
+        return NO_RUNS
+    names = [run_name(scene.in_folder(source, scene.name, seed), "run") for scene in scenes]
+    earlier = read_json(record).get("continuum_runs", NO_RUNS) if goes_on and os.path.exists(record) else NO_RUNS
+    if earlier["scenes"] == names:
+        return earlier
+    if not goes_on:
+        shutil.rmtree(here, ignore_errors=True)
+    folders = [os.path.join(here, name) for name in names]
+    scenes = [scene.in_folder(folder, scene.name, seed) for scene, folder in zip(scenes, folders)]
+    for scene, folder in zip(scenes, folders):
+        if not os.path.isdir(folder):
+            _copy_grains(source, folder)
+        write_text(folder + ".prm", scene.text())
+    pending = [k for k, scene in enumerate(scenes) if not _diptych.holds_finished_run(scene)]
+    tasks = [Run("run", folders[k] + ".prm", folders[k], folders[k] + ".log", ("--resume",)) for k in pending]
+    outcomes = execute(tasks, options, noun="runs for the uncertainty of the continuum")
+    if any(outcome.interrupted for outcome in outcomes):
+        raise Stopped(f"stopped on request; the seeds are done; to go on: {options.again}")
+    failed = {k for k, outcome in zip(pending, outcomes) if outcome.exit_code}
+    found = [{} if k in failed else _compared(member_of(folder + "/comparison.json", scene.is_mirror_symmetric()))
+             for k, (scene, folder) in enumerate(zip(scenes, folders))]
+    if not failed:
+        shutil.rmtree(here)
+    quantities = sorted(set().union(*found))
+    return {"seed": seed, "scenes": names, "quantities": quantities,
+            "values": [[values.get(name) for name in quantities] for values in found]}
+
+
+def _copy_grains(source: str, folder: str) -> None:
+    """A result folder with the grains of another, for --resume. A finished file is never written again, so links suffice."""
+    part = folder + ".part"
+    shutil.rmtree(part, ignore_errors=True)
+    os.makedirs(part)
+    for name in ("discrete.h5", "discrete.csv", "scene.prm"):
+        os.link(os.path.join(source, name), os.path.join(part, name))
+    record = read_json(os.path.join(source, "provenance.json"))
+    write_json(os.path.join(part, "provenance.json"),
+               {key: value for key, value in record.items() if not key.startswith(("continuum", "comparison"))})
+    os.rename(part, folder)
+
+
+def _compared(member: Member) -> dict[str, float]:
+    """The numbers of the continuum that verdicts compare."""
+    keys, of_bands = [f"continuum_summary {key}" for key in _KEYS], (" continuum band angle_deg", " continuum band width_10_90_d")
+    return {name: number[0] for name, number in member.numbers.items()
+            if name in keys or (name.startswith("window ") and name.endswith(of_bands))}

@@ -1,0 +1,170 @@
+# diptych: the command plan: settings and number of samples that a scene needs for an accuracy
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Pilot runs in DIR/runs, plan.json and planned.prm; with --run the planned samples, too. A plan is a rule on runs of a
+study."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import math
+import os
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ... import _diptych
+from ...errors import Stopped
+from ..runs.engine import DONE, NOT_CONVERGED, Options, complain, tell
+from ..runs.folders import Folder, Runs, write_json, write_text
+from ..studies.levels import limit_of
+from .continuum import ContinuumPlan
+from .errors import half_interval, samples_for, summary_of
+from .grains import GrainsPlan
+from .question import PanelPlan, Pilot, Plan, Question, Task, percent, planned, read_question, text_of
+from ..studies.points import RunResult, on_sample, result_of, scene_run
+
+LEAST_SHARE_THAT_FINISHES = 0.75  # other samples are left out, as long as they are few
+SHARED_SAMPLES = 4  # that give the cost of both panels together
+SPARE_SAMPLES = 8
+
+
+def _cpu_s(result: RunResult, name: str = "") -> float:
+    """CPU time of a phase, or of all [s]."""
+    return sum(phase["cpu_s"] for phase in result.phases if name in ("", phase["name"]))
+
+
+class PilotRuns:
+    """The runs of a plan, each done once."""
+
+    def __init__(self, question: Question, directory: str, options: Options) -> None:
+        self.question, self.runs, self.options = question, Runs(directory), replace(options, resume=False)
+        self.cpu_s, self._counted = 0.0, set()
+
+    def run(self, task: Task) -> Pilot:
+        """Raises Stopped on a stop signal."""
+        scene = self.question.scene
+        runs = [scene_run(scene, task.command, on_sample(task.settings, seed, scene)) for seed in task.seeds or [None]]
+        for run in runs:
+            if run.refusal:  # settings that contradict the scene
+                return Pilot(failure=run.refusal)
+        if any(outcome.interrupted for outcome in self.runs.do(runs, self.options)):
+            raise Stopped("stopped on request")
+        results = [result_of(self.runs, run, task.quantities) for run in runs]
+        new = {run.name: result for run, result in zip(runs, results) if run.name not in self._counted}
+        self.cpu_s += sum(map(_cpu_s, new.values()))
+        self._counted |= set(new)
+        return _pilot_of(results, task.quantities)
+
+
+def _pilot_of(results: Sequence[RunResult], quantities: Sequence[dict[str, Any]]) -> Pilot:
+    finished = [result for result in results if result.known and result.exit_code == 0]
+    words = [result.words or "the run was lost" for result in results if result not in finished]
+    pilot = Pilot(values=[[result.values[q] for result in results] for q in range(len(quantities))],
+                  peak_memory_mb=max((phase["peak_memory_mb"] for result in results for phase in result.phases), default=0.0))
+    if words and len(finished) >= LEAST_SHARE_THAT_FINISHES * len(results):
+        pilot.remark = words[-1]
+    elif words:
+        pilot.failure = words[-1]
+        return pilot
+    pilot.sample_cpu_s = [_cpu_s(result) for result in finished]
+    pilot.cpu_s = float(np.mean(pilot.sample_cpu_s))
+    pilot.preparation_cpu_s = float(np.mean([_cpu_s(result, "preparation") for result in finished]))
+    pilot.expected_error = {kind: float(np.mean([result.expected_error[kind] for result in finished]))
+                            for kind in ("strength", "dilation")}
+    for asked_for, values in zip(quantities, pilot.values):
+        if not np.isfinite(values).any():
+            pilot.failure = f"{asked_for['name']} has no value in any run: a window beyond the loading, or no band"
+    return pilot
+
+
+def _carry_out(question: Question, plan: Plan, panel: PanelPlan, pilot: PilotRuns) -> bool:
+    """Runs the planned samples of a panel, and more if they scatter more than the pilot's did. True: it is accurate."""
+    most, seeds, wanted = 2 * panel.n_samples + SPARE_SAMPLES, list(panel.seeds), question.quantities[panel.panel]
+    while True:
+        settings = [*question.changes, *plan.settings]
+        point, fine = pilot.run(Task(panel.command, settings, seeds, wanted)), None
+        panel.outcomes, panel.outcome_cpu_s = [], point.cpu_s
+        if panel.levels:
+            n_pairs = min(len(seeds), math.ceil(len(seeds) * panel.levels["pairs"] / panel.n_samples))
+            settings = [*settings, planned("discrete/accuracy", panel.levels["fine"])]
+            fine = pilot.run(Task(panel.command, settings, seeds[:n_pairs], wanted))
+        if point.failure or fine and fine.failure:
+            panel.decisions.append(f"--run: {point.failure or fine.failure}")
+            return False
+        for k, q in enumerate(wanted):
+            found, scatter = summary_of(point.values[k], q["line"])
+            half, mean = half_interval(scatter, found.n) if found.n > 1 else np.nan, found.mean
+            if fine:
+                ratio = fine.expected_error["strength"] / point.expected_error["strength"]
+                limit = limit_of(point.values[k], fine.values[k] + [np.nan] * (len(seeds) - n_pairs), ratio).limit
+                half, mean = (limit.high - limit.low) / 2 / abs(limit.value), limit.value
+            panel.outcomes.append({"name": q["name"], "n": found.n, "mean": mean, "scatter": scatter, "half_interval": half})
+        missing = _missing(question.accuracy, panel, len(seeds))
+        if missing == 0 or len(seeds) >= most:
+            return missing == 0
+        seeds += range(seeds[-1] + 1, seeds[-1] + 1 + min(missing, most - len(seeds)))
+
+
+def _missing(accuracy: float, panel: PanelPlan, n: int) -> int:
+    """How many samples more the intervals need. Some samples may have no value, such as the width of a band."""
+    missing = 0
+    for outcome, budget in zip(panel.outcomes if n > 1 else (), panel.quantities):
+        if panel.levels and not outcome["half_interval"] + budget.method <= accuracy:
+            missing = max(missing, math.ceil(n * (outcome["half_interval"] / (accuracy - budget.method))**2) - n)
+        elif not outcome["half_interval"] + budget.method <= accuracy:
+            needed, share = samples_for(outcome["scatter"], accuracy - budget.method), outcome["n"] / n
+            missing = max(missing, n if needed == 0 or share == 0 else max(1, int(needed / share) - n))
+    return missing
+
+
+def make_plan(question: Question, scene: _diptych.Scene, pilot: PilotRuns) -> Plan:
+    """The plans of all panels that the question asks for."""
+    makers = {"discrete": GrainsPlan, "continuum": ContinuumPlan}
+    panels = [makers[panel](question, scene, pilot.run).make() for panel, wanted in question.quantities.items() if wanted]
+    plan = Plan(os.path.basename(question.scene), question.accuracy, panels)
+    if plan.shares_samples:  # the cost of `diptych run` with the settings of both panels
+        seeds = max((panel.seeds for panel in panels), key=len)[:SHARED_SAMPLES]
+        point = pilot.run(Task("run", [*question.changes, *plan.settings], seeds, []))
+        for panel in panels if not point.failure else ():
+            panel.cpu_s, panel.peak_memory_mb = point.cpu_s, point.peak_memory_mb
+    plan.pilot_cpu_s = pilot.cpu_s
+    return plan
+
+
+def write_plan(directory: str, question: Question, plan: Plan) -> None:
+    """plan.json and planned.prm: the scene with the chosen settings."""
+    write_json(directory + "/plan.json", plan.record())
+    scene = _diptych.read_changed_scene(question.scene, [*question.changes, *plan.settings], False)
+    lines = [f"# The first of two levels. For both: diptych run planned.prm --seeds {panel.seeds[0]}-{panel.seeds[-1]} "
+             f"--levels {panel.levels['cheap']:g},{panel.levels['fine']:g}\n" for panel in plan.panels if panel.levels]
+    text = scene.in_folder("", scene.name, scene.dict()["sample"]["seed"]).text()
+    write_text(directory + "/planned.prm", "".join(lines) + text)
+
+
+def main_plan(args: argparse.Namespace, options: Options) -> int:
+    """The command `diptych plan SCENE --accuracy A`. args: target, accuracy, for, set, set_file, output and run."""
+    question = read_question(args.target, args.accuracy, getattr(args, "for"), args.set, args.set_file)
+    scene = _diptych.read_changed_scene(question.scene, question.changes, question.needs_comparison)
+    if question.quantities["continuum"]:
+        importlib.import_module("diptych._continuum").require_continuum(scene)  # loads deal.II only now
+    directory = args.output or f"results/{scene.name}_plan"
+    inputs = [*scene.input_files(), ("the scene", question.scene), *(("--set-file", file) for file in args.set_file)]
+    with Folder(directory) as folder:
+        folder.open_runs("plan", question.scene, options, lambda: inputs)
+        pilot = PilotRuns(question, directory, options)
+        try:
+            plan = make_plan(question, scene, pilot)
+            write_plan(directory, question, plan)
+            reached = all(panel.reaches for panel in plan.panels)
+            if args.run:
+                reached = all([_carry_out(question, plan, panel, pilot) for panel in plan.panels if panel.reaches]) and reached
+                write_plan(directory, question, plan)
+        except Stopped as stopped:
+            raise Stopped(f"{stopped}; to go on: {options.again}") from None
+    tell(f"{text_of(plan)}\n{directory}/planned.prm, plan.json")
+    if not reached:
+        complain(f"diptych: the accuracy of {percent(question.accuracy)} is not reached")
+    return DONE if reached else NOT_CONVERGED

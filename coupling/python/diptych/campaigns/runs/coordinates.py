@@ -1,0 +1,93 @@
+# diptych: values of keys as points of the unit cube, in which the search of a calibration works
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Strengths, stiffnesses and lengths are varied in their logarithm. A residual angle is varied by its drop, and a dilatancy
+angle by its share of a friction angle, so that no combination contradicts itself."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...arrays import Array
+from .input_file import Setting
+
+COORDINATES = ("value", "logarithm", "share_of", "drop_from")
+USUAL = {"friction_angle_residual": "drop_from", "dilatancy_angle_peak": "share_of", "friction_angle_start": "share_of",
+         "poisson_ratio": "value"}  # of a key if the file names none; else logarithm
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A key of the section continuum, or discrete/KEY. start, low, high: numbers of the coordinate, the value itself (also of
+    a logarithm), a share or a drop. targets: names of the targets that it belongs to; empty: one value for all."""
+
+    key: str
+    coordinate: str
+    start: float
+    low: float
+    high: float
+    other: str = ""
+    targets: tuple[str, ...] = ()
+
+    @property
+    def setting(self) -> tuple[str, str]:
+        """Section and key."""
+        section, _, key = self.key.rpartition("/")
+        return section or "continuum", key
+
+    def is_of(self, target: str) -> bool:
+        """An empty name means: common to all targets."""
+        return not self.targets or (target in self.targets)
+
+
+class Coordinates:
+    """others: values of fixed keys that shares and drops refer to. Raises ValueError if a parameter refers to an unknown key,
+    to one that belongs to other targets, or to itself in a circle."""
+
+    def __init__(self, parameters: Sequence[Parameter], others: Mapping[str, float]) -> None:
+        self.parameters, self.others = parameters, others
+        low, start, high = (np.array([np.log(getattr(p, name)) if p.coordinate == "logarithm" else getattr(p, name)
+                                      for p in parameters]) for name in ("low", "start", "high"))
+        self.low, self.span = low, high - low
+        self.start: Array = (start - low) / self.span  # (n): the point where the first search begins
+        for p in parameters:
+            referred = [q for q in parameters if q.key == p.other]
+            for target in p.targets or ("",):
+                if referred and not any(q.is_of(target) for q in referred):
+                    raise ValueError(f"parameters: {p.key} refers to {p.other}, which belongs to other targets")
+                self._value(p.key, target, [q.start for q in parameters], 0)
+
+    def __len__(self) -> int:
+        return len(self.parameters)
+
+    def numbers(self, point: Array) -> list[float]:
+        """Value, share or drop of every parameter, in 12 digits, so that the start is the number of the file."""
+        here = self.low + point * self.span
+        return [float(f"{np.exp(x) if p.coordinate == 'logarithm' else x:.12g}") for p, x in zip(self.parameters, here)]
+
+    def _value(self, key: str, target: str, numbers: Sequence[float], depth: int) -> float:
+        if depth > len(self):
+            raise ValueError(f"parameters: {key} refers to itself in a circle")
+        for p, number in zip(self.parameters, numbers):
+            if p.key == key and p.is_of(target):
+                if p.coordinate in ("value", "logarithm"):
+                    return number
+                share = number if p.coordinate == "share_of" else 1 - number
+                return share * self._value(p.other, target, numbers, depth + 1)
+        if key not in self.others:
+            raise ValueError(f"parameters: {key} is needed by a share or drop, but has no value")
+        return self.others[key]
+
+    def values(self, point: Array) -> list[float]:
+        """Values of the keys, in the order of the parameters."""
+        numbers = self.numbers(point)
+        return [self._value(p.key, p.targets[0] if p.targets else "", numbers, 0) for p in self.parameters]
+
+    def settings(self, point: Array, target: str) -> list[Setting]:
+        """Settings of one target. An empty name gives those that all targets share."""
+        numbers = self.numbers(point)
+        return [Setting(*p.setting, repr(self._value(p.key, target, numbers, 0)),
+                        f"{p.key} = {number:.4g}" + (f" ({p.coordinate} {p.other})" if p.other else ""))
+                for p, number in zip(self.parameters, numbers) if p.is_of(target)]

@@ -1,0 +1,318 @@
+# diptych: many runs of the program, on workers of this machine and of the other processes of mpirun
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A worker is a process of `diptych-panels` that does one command after another. It receives a line of JSON and answers with
+the exit code on a line. Threads hand the runs to workers; under mpirun each other process has a worker, too. Results depend
+neither on the number of workers nor on the order of the runs.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import queue
+import select
+import shlex
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
+from datetime import timedelta
+from typing import Any
+
+from ... import _diptych
+from ...errors import Stopped
+
+DONE, WRONG_INPUT, NOT_CONVERGED, SYSTEM_FAILURE = 0, 2, 3, 4  # exit codes of the program
+THREADED = ("discrete", "run")  # commands with --threads
+KEPT_OPEN: set[int] = set()  # descriptors that workers inherit: locks, which then hold until the last worker has ended
+_JOB_VARIABLES = ("OMPI_", "PMIX_", "PMI_", "PRTE_", "ORTE_")
+
+
+@dataclass
+class Options:
+    """Options that all campaigns share, with the meaning of `diptych study --help`."""
+
+    jobs: int = 0  # runs at once; 0: as many as the cores allow, under mpirun 1
+    threads: int = 1  # of the contact solver of each run
+    quiet: bool = False
+    resume: bool = False
+    overwrite: bool = False
+    words: Sequence[str] = ()  # the command line
+
+    @property
+    def again(self) -> str:
+        """The command that goes on with this one."""
+        job = f"mpirun -np {n_processes()} " if n_processes() > 1 else ""
+        return f"{job}diptych {shlex.join(word for word in self.words if word not in ('--overwrite', '--resume'))} --resume"
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run of the program."""
+
+    command: str
+    scene: str  # path of a .prm file
+    folder: str  # result folder
+    log: str  # output and errors are appended to this file
+    extra: tuple[str, ...] = ()
+
+    def line(self, threads: int) -> str:
+        """The task as a worker reads it."""
+        words = [self.command, self.scene, "--quiet", "--output", self.folder, *self.extra]
+        if self.command in THREADED:
+            words += ["--threads", str(threads)]
+        return json.dumps({"words": words, "log": self.log}) + "\n"
+
+
+@dataclass
+class Outcome:
+    """The end of one run. Exit code 128 + signal: a signal ended its worker."""
+
+    exit_code: int = 0
+    interrupted: bool = True  # asked to stop, or never started
+    seconds: float = 0.0
+    message: str = ""  # last line of the log of a run that failed
+
+
+def _write(stream: str, text: str) -> None:
+    try:
+        print(text, end="", file=getattr(sys, stream), flush=True)
+    except OSError:  # a closed or full output must not stop the runs
+        setattr(sys, stream, open(os.devnull, "w", encoding="utf-8"))
+
+
+def tell(text: str) -> None:
+    """Prints a line to standard output."""
+    _write("stdout", text + "\n")
+
+
+def say(options: Options, text: str) -> None:
+    """Prints a line to standard output, unless --quiet."""
+    if not options.quiet:
+        tell(text)
+
+
+def complain(text: str) -> None:
+    """Prints a line to standard error."""
+    _write("stderr", text + "\n")
+
+
+def last_words(log: str) -> str:
+    """The last line of a log that is not blank; empty if there is none."""
+    if not os.path.exists(log):
+        return ""
+    with open(log, encoding="utf-8", errors="replace") as file:
+        return ([""] + [line.rstrip("\r\n") for line in file if line.strip()])[-1]
+
+
+def first_file(places: Sequence[str], otherwise: str) -> str:
+    """The first of these paths that is a file. Raises FileNotFoundError with the text if there is none."""
+    for place in filter(os.path.isfile, places):
+        return place
+    raise FileNotFoundError(otherwise)
+
+
+def program() -> str:
+    """Path of the program `diptych`: that which started this process, or the one of the package."""
+    package = os.path.abspath(os.path.join(os.path.dirname(__file__), *[".."] * 3))  # the folder that holds it
+    built, installed = os.path.join(package, "..", "diptych"), os.path.join(package, *[".."] * 3, "bin", "diptych")
+    otherwise = f"the program diptych is neither {built} nor {installed}; set DIPTYCH_PROGRAM to its path"
+    return os.path.realpath(first_file([os.environ.get("DIPTYCH_PROGRAM", ""), built, installed], otherwise))
+
+
+def panels() -> str:
+    """Path of `diptych-panels`, beside the program or in PREFIX/libexec."""
+    folder = os.path.dirname(program())
+    return first_file([os.path.join(folder, place, "diptych-panels") for place in ("", "../libexec/diptych")],
+                      f"diptych-panels is not beside {program()}; the installation is broken")
+
+
+def environment() -> dict[str, str]:
+    """The environment without that of an MPI job, which would make a program one of its ranks."""
+    return {name: value for name, value in os.environ.items()
+            if name.startswith("OMPI_ALLOW_RUN_AS_ROOT") or not name.startswith(_JOB_VARIABLES)}
+
+
+def run_program(words: Sequence[str]) -> int:
+    """Runs a program with the output of this process; returns its exit code. On a stop request kills it and raises Stopped."""
+    process = subprocess.Popen(words, env=environment(), stdin=subprocess.DEVNULL, process_group=0)
+    while True:
+        try:
+            code = process.wait(0.02)
+            if _diptych.stop_requested():
+                raise Stopped(f"{os.path.basename(words[0])}: stopped on request")
+            return code if code >= 0 else 128 - code
+        except subprocess.TimeoutExpired:
+            if _diptych.stop_requested():
+                process.kill()
+
+
+class Worker:
+    """A process that does one run after another. It starts with the first run, and again if it died."""
+
+    def __init__(self) -> None:
+        self._process: subprocess.Popen[bytes] | None = None
+
+    def run(self, line: str) -> tuple[int, bool]:
+        """Does a task; returns (exit code, whether it was asked to stop). 4: the worker ended without an answer."""
+        if self._process is None or not self._send(line):
+            self.close()
+            # Its own process group: Ctrl-C reaches only this process, which then asks.
+            self._process = subprocess.Popen([panels(), "--worker"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0,
+                                             env=environment(), process_group=0, pass_fds=tuple(KEPT_OPEN))
+            self._send(line)
+        asked = False
+        while not select.select([self._process.stdout], [], [], 0.05)[0]:
+            if not asked and _diptych.stop_requested():
+                asked = True
+                self._process.terminate()
+        answer = self._process.stdout.readline()
+        return (int(answer) if answer else self.close() or SYSTEM_FAILURE), asked
+
+    def _send(self, line: str) -> bool:
+        try:
+            self._process.stdin.write(line.encode())
+            return True
+        except BrokenPipeError:
+            return False
+
+    def close(self) -> int:
+        """Lets the process end. Returns its exit code, 128 + signal if a signal ended it, 0 without a process."""
+        if self._process is None:
+            return 0
+        self._process.stdin.close()
+        self._process.stdout.close()
+        code, self._process = self._process.wait(), None
+        return code if code >= 0 else 128 - code
+
+
+_pool: Any = None  # mpi4py's executor on the other processes of mpirun
+_remote_worker = Worker()
+
+
+def _remote(line: str) -> tuple[int, bool]:
+    return _remote_worker.run(line)
+
+
+def on_first_process(work: Callable[[], int]) -> int:
+    """Does the work on the first process of mpirun; returns its exit code. The others do runs for it and return 0."""
+    global _pool
+    if n_processes() == 1:
+        return work()
+    from mpi4py import MPI  # needs an MPI job
+    from mpi4py.futures import MPICommExecutor
+
+    _diptych.install_signals()  # once more: MPI changes some
+    with MPICommExecutor(MPI.COMM_WORLD, root=0, main=False) as _pool:
+        return work() if _pool is not None else DONE
+
+
+def n_processes() -> int:
+    """Number of processes of mpirun; 1 without it."""
+    return int(os.environ.get("OMPI_COMM_WORLD_SIZE") or os.environ.get("PMI_SIZE") or 1)
+
+
+class _Progress:
+    """One line on a terminal; in a log one line for every twentieth of the runs."""
+
+    def __init__(self, noun: str, quiet: bool, total: int, done: int) -> None:
+        self.noun, self.quiet, self.total, self.done = noun, quiet, total, done
+        self.failed, self.seconds, self.known = 0, 0.0, 0
+        self.terminal, self.shown, self.last_part = sys.stderr.isatty(), 0.0, -1
+
+    def ended(self, outcome: Outcome) -> None:
+        self.done, self.failed = self.done + (outcome.exit_code == 0), self.failed + (outcome.exit_code != 0)
+        self.seconds, self.known = self.seconds + outcome.seconds, self.known + 1
+
+    def show(self, started: Iterable[float], seats: int) -> None:
+        """started: when each run at work began [s of time.monotonic()]."""
+        now, ended = time.monotonic(), self.done + self.failed
+        part = 20 * ended // max(1, self.total)
+        if self.quiet or (now - self.shown < 0.2 if self.terminal else part == self.last_part):
+            return
+        at_work = [now - since for since in started]
+        waiting = self.total - ended
+        left = (self.seconds / max(1, self.known) * waiting - sum(at_work)) / max(1, min(seats, waiting))
+        remaining = f", {timedelta(seconds=round(max(0.0, left)))} remaining" if self.known else ""
+        text = f"{self.done} of {self.total} {self.noun} done, {len(at_work)} running, {self.failed} failed{remaining}"
+        _write("stderr", f"\r\033[K{text}" if self.terminal else text + "\n")
+        self.shown, self.last_part = now, part
+
+    def clear(self) -> None:
+        if self.terminal and not self.quiet:
+            _write("stderr", "\r\033[K")
+
+
+def n_seats(options: Options) -> int:
+    """Number of runs at once: --jobs on this process, and one on every other process of mpirun."""
+    others = n_processes() - 1
+    return (options.jobs or (1 if others else max(1, len(os.sched_getaffinity(0)) // options.threads))) + others
+
+
+def execute(runs: Sequence[Run], options: Options, *, noun: str = "runs", finished: int = 0,
+            on_ended: Callable[[int, Outcome], None] = lambda k, outcome: None) -> list[Outcome]:
+    """Does the runs and returns their outcomes in the order of `runs`.
+
+    noun      name of the runs in the progress: "seeds"
+    finished  runs that were finished before; they count in the progress
+    on_ended  is called with index and outcome as runs end; if it raises OSError, the run has failed with exit code 4
+
+    On a stop request (SIGINT, SIGTERM, SIGHUP) workers are asked to stop, and no further run starts. Failures are reported on
+    standard error. A worker that was killed is one failed run; a new process takes its place.
+    """
+    _diptych.install_signals()
+    seats, others = n_seats(options), n_processes() - 1
+    workers = [Worker() for _ in range(min(len(runs), seats - others))]
+    free: queue.SimpleQueue[Callable[[str], tuple[int, bool]]] = queue.SimpleQueue()
+    for serve in [*(worker.run for worker in workers), *[lambda line: _pool.submit(_remote, line).result()] * others]:
+        free.put(serve)
+    ended: queue.SimpleQueue[tuple[int, Future[Outcome]]] = queue.SimpleQueue()
+    started: dict[int, float] = {}
+
+    def do(k: int) -> Outcome:
+        if _diptych.stop_requested():
+            return Outcome()
+        serve, started[k] = free.get(), time.monotonic()
+        try:
+            code, asked = serve(runs[k].line(options.threads))
+        finally:
+            free.put(serve)
+        return Outcome(code, asked and code != 0, time.monotonic() - started.pop(k))
+
+    outcomes, left = [Outcome() for _ in runs], len(runs)
+    progress = _Progress(noun, options.quiet, len(runs) + finished, finished)
+    with ThreadPoolExecutor(max(1, free.qsize())) as threads:  # the system ends a worker when the thread that started it ends
+        for k in range(len(runs)):
+            threads.submit(do, k).add_done_callback(lambda future, k=k: ended.put((k, future)))
+        while left:
+            try:
+                k, future = ended.get(timeout=0.05)
+                left, outcomes[k] = left - 1, future.result()
+                _note_end(runs[k], outcomes[k], progress, lambda: on_ended(k, outcomes[k]))
+            except queue.Empty:
+                pass
+            progress.show(list(started.values()), seats)
+        progress.clear()
+        for worker in workers:
+            worker.close()
+    return outcomes
+
+
+def _note_end(run: Run, outcome: Outcome, progress: _Progress, on_ended: Callable[[], None]) -> None:
+    name = os.path.basename(run.folder).replace("_", " ")  # seed 3
+    outcome.message = last_words(run.log) if outcome.exit_code else ""
+    try:
+        on_ended()
+    except OSError as error:  # a full disk must not end the other runs
+        progress.clear()
+        complain(f"{name}: {error}")
+        outcome.exit_code = SYSTEM_FAILURE
+    if outcome.interrupted:
+        return
+    progress.ended(outcome)
+    if outcome.exit_code:
+        progress.clear()
+        why = outcome.message or ("ended by a signal, without a message" if outcome.exit_code > 128 else "without a message")
+        complain(f"{name} failed with exit code {outcome.exit_code}: {why} (log: {run.log})")

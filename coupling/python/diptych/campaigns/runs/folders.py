@@ -1,0 +1,257 @@
+# diptych: folders of campaigns: lock, result files, and the runs in them
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A campaign writes one folder at a time. Its runs are in DIR/runs/NAME, with NAME.prm, NAME.log and NAME.json beside it."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import shutil
+import sys
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+import h5py
+import numpy as np
+
+from ... import _diptych
+from ...arrays import Interval
+from ...errors import SceneError, Stopped
+from .engine import (KEPT_OPEN, WRONG_INPUT, Options, Outcome, Run, complain, execute, first_file, last_words, n_seats, program,
+                     run_program, say)
+
+LAST_CODE_OF_A_RESULT = 3  # higher codes: the system failed, or a signal came
+
+
+class Folder:
+    """A folder locked for this process and its workers. Errors that are neither wrong input nor our own say what is kept."""
+
+    def __init__(self, directory: str) -> None:
+        self.directory = directory
+        self._lock = _diptych.FolderLock(directory)
+        KEPT_OPEN.add(self._lock.descriptor)
+
+    def __enter__(self) -> Folder:
+        return self
+
+    def __exit__(self, kind: Any, error: BaseException | None, trace: Any) -> None:
+        kept = _diptych.kept_in(self.directory) if isinstance(error, (OSError, RuntimeError)) else ""
+        KEPT_OPEN.discard(self._lock.descriptor)
+        self._lock.release()
+        if kept:
+            raise (Stopped if isinstance(error, Stopped) else RuntimeError)(f"{error}; {kept}") from error
+
+    def set_aside(self, inputs: Iterable[tuple[str, str]]) -> None:
+        """Renames the results to DIRECTORY.1. Refuses to move one of the inputs: (what it is, path)."""
+        KEPT_OPEN.discard(self._lock.descriptor)
+        self._lock.set_aside(list(inputs))
+        KEPT_OPEN.add(self._lock.descriptor)
+
+    def open_runs(self, noun: str, input_file: str, options: Options, inputs: Callable[[], list[tuple[str, str]]],
+                  text: str = "") -> None:
+        """Prepares the folder for runs; writes text, or a copy of the input file, there as NOUN_input.json (with text) or with the
+        ending of the file. Raises SceneError for other results."""
+        copy = os.path.join(self.directory, noun + "_input" + (".json" if text else os.path.splitext(input_file)[1]))
+        _diptych.require_usable(self.directory, options.resume, options.overwrite)
+        if not text:
+            with open(input_file, encoding="utf-8") as file:
+                text = file.read()
+        if options.overwrite and not _diptych.is_empty_folder(self.directory):
+            self.set_aside(inputs())
+        if not _diptych.is_empty_folder(self.directory) and not os.path.exists(copy):
+            raise SceneError(f"the folder '{self.directory}' holds other results and no {noun}. Name another folder.")
+        write_text(copy, text)
+        os.makedirs(os.path.join(self.directory, "runs"), exist_ok=True)
+
+
+@contextmanager
+def _part_of(path: str) -> Iterator[str]:
+    """PATH.part to write to; it is renamed at the end."""
+    part = path + ".part"
+    try:
+        yield part
+        os.replace(part, path)
+    except BaseException:
+        if os.path.exists(part):
+            os.remove(part)
+        raise
+
+
+def write_text(path: str, text: str) -> None:
+    """Writes PATH.part and renames it."""
+    with _part_of(path) as part, open(part, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+def plain(value: Any) -> Any:
+    """The value as JSON has it: NaN is null, an interval an object."""
+    if isinstance(value, Interval):
+        return plain(value._asdict())
+    if isinstance(value, Mapping):
+        return {key: plain(entry) for key, entry in value.items()}
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return [plain(entry) for entry in value]
+    if isinstance(value, np.generic):
+        return plain(value.item())
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def write_json(path: str, record: Mapping[str, Any], indent: int | None = 1) -> None:
+    """Writes a record with sorted keys."""
+    write_text(path, json.dumps(plain(record), indent=indent, sort_keys=True, ensure_ascii=False) + "\n")
+
+
+def read_json(path: str) -> Any:
+    """The record of a file. Raises ValueError, with the path, if it is missing or no JSON."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            return json.load(file)
+    except FileNotFoundError:
+        raise ValueError(f"{path}: is missing") from None
+    except ValueError as error:
+        raise ValueError(f"{path}: no JSON: {error}") from error
+
+
+def write_arrays(path: str, arrays: Mapping[str, tuple[Any, str, str, str]],
+                 attributes: Mapping[str, Mapping[str, float]]) -> None:
+    """Writes HDF5 with checksums. arrays: name -> (values, title, unit, meaning); attributes: group -> name -> value."""
+    with _part_of(path) as part, h5py.File(part, "w", libver=("v110", "v110")) as file:
+        for name, (values, *words) in arrays.items():
+            data = file.create_dataset(name, data=values, fletcher32=np.size(values) > 0 or None)
+            data.attrs.update(zip(("title", "unit", "meaning"), map(np.bytes_, words)))
+        for group, numbers in attributes.items():
+            file.require_group(group).attrs.update(numbers)
+
+
+def draw(options: Options, page: str, directory: str) -> None:
+    """Draws report.html of a folder; page: "study", "ensemble", "calibration". Raises Stopped, ValueError or RuntimeError."""
+    folder = os.path.dirname(program())
+    script = first_file([os.path.join(folder, *[".."] * level, "share", "diptych", "report", "draw.py") for level in range(3)],
+                        f"the report cannot be drawn: share/diptych/report/draw.py is not beside {program()}")
+    report, code = os.path.join(directory, "report.html"), -1
+    try:
+        code = run_program([sys.executable, script, page, directory])
+    except Stopped:
+        raise Stopped(f"drawing the report: stopped on request; to draw it: diptych report {directory}") from None
+    finally:
+        if code != 0 and os.path.exists(report + ".part"):
+            os.remove(report + ".part")
+    if code != 0:
+        kind = ValueError if code == WRONG_INPUT else RuntimeError
+        raise kind(f"{directory}: the report could not be drawn: {sys.executable} {script} {page} ended with exit code {code}")
+    say(options, f"report: {os.path.abspath(report)}")
+
+
+@dataclass
+class SceneRun:
+    """One scene that a command runs. Without a scene its settings contradict each other, and `refusal` is the message."""
+
+    command: str
+    name: str
+    scene: Any = None
+    refusal: str = ""
+
+
+def run_name(scene: Any, command: str) -> str:
+    """A hash of scene and command. It omits keys that change no result, and depends on no folder of the scene's files."""
+    if command == "run":
+        identity = {**scene.identity("member"), "sample/seed": str(scene.dict()["sample"]["seed"])}
+    else:
+        identity = scene.identity("sample" if command == "discrete" else "continuum")
+    return _diptych.digest(command + "\n" + "".join(f"{key} = {identity[key]}\n" for key in sorted(identity)))
+
+
+class Runs:
+    """The runs in a campaign's folder."""
+
+    def __init__(self, directory: str) -> None:
+        self.directory = directory
+
+    def path(self, run: SceneRun, ending: str = "") -> str:
+        """The result folder of a run; with an ending a file beside it: ".prm", ".log", ".json"."""
+        return os.path.join(self.directory, "runs", run.name + ending)
+
+    def last_words(self, run: SceneRun) -> str:
+        """The last line of its log, without the folder of the campaign."""
+        return last_words(self.path(run, ".log")).replace(self.directory + "/", "")
+
+    def found_end(self, run: SceneRun) -> dict[str, Any] | None:
+        """exit_code, load and at_once of a run that need not be done again.
+
+        None: it has not ended; a signal or the system ended it; program, scene or files differ. The user may have run another
+        scene in this folder, or copied another run there.
+        """
+        try:
+            end, file = read_json(self.path(run, ".json")), os.path.join(self.path(run), "scene.prm")
+            if os.path.exists(file):
+                found, asked = _diptych.resolved_scene(file), _diptych.resolved_scene(self.path(run, ".prm"))
+                is_same = found and asked and run_name(found, run.command) == run_name(asked, run.command)
+            else:
+                is_same = end["exit_code"] == WRONG_INPUT  # refused before it wrote
+            for part in ("", "comparison") if is_same else ():
+                _diptych.check_part(self.path(run), part)
+            good = is_same and end["exit_code"] <= LAST_CODE_OF_A_RESULT and end["revision"] == _diptych.git_revision
+            return {"exit_code": end["exit_code"], "load": end["load"], "at_once": end["at_once"]} if good else None
+        except (ValueError, KeyError, TypeError, RuntimeError):  # damaged or of another version: run it again
+            return None
+
+    def prepare(self, run: SceneRun, anew: bool = False) -> tuple[bool, str]:
+        """Writes the scene of a run and removes an old log. Returns True if an earlier run in the folder can be resumed.
+
+        Only a folder in which this revision of the program was interrupted stays, and not if `anew`. Another one is renamed to
+        NAME.1, in the place of an older one, since the user may have files in it. The second value is then its revision.
+        """
+        try:
+            earlier = read_json(self.path(run, ".json"))
+        except ValueError:
+            earlier = {}
+        folder, revision = self.path(run), ""
+        if os.path.exists(folder) and (anew or "exit_code" in earlier or earlier.get("begun") != _diptych.git_revision):
+            if os.path.exists(folder + ".1"):
+                shutil.rmtree(folder + ".1")
+            os.rename(folder, folder + ".1")
+            revision = earlier.get("revision", earlier.get("begun", "unknown"))
+        if os.path.exists(self.path(run, ".log")):
+            os.remove(self.path(run, ".log"))
+        write_text(self.path(run, ".prm"), run.scene.text())
+        write_json(self.path(run, ".json"), {"begun": _diptych.git_revision}, None)
+        return os.path.exists(folder), revision
+
+    def do(self, runs: Sequence[SceneRun], options: Options) -> list[Outcome]:
+        """Does the runs that are not finished, each name once. Runs whose checkpoint is damaged begin anew."""
+        different = list({run.name: run for run in runs if run.scene is not None}.values())
+        pending = [run for run in different if self.found_end(run) is None]
+        total, finished = len(different), len(different) - len(pending)
+        if options.resume and finished:
+            say(options, f"{finished} of {total} runs are finished in {self.directory}: not run again")
+        return self._execute(pending, options, total)
+
+    def _execute(self, runs: Sequence[SceneRun], options: Options, total: int, anew: bool = False) -> list[Outcome]:
+        prepared, seats = [self.prepare(run, anew) for run in runs], n_seats(options)
+        resumes = [goes_on for goes_on, _ in prepared]
+        for revision, n in Counter(revision for _, revision in prepared if revision).items():
+            why = "damaged or failed" if revision == _diptych.git_revision else f"of revision {revision}"
+            complain(f"repeated runs ({why}): {n}; their folders {self.directory}/runs/NAME are kept as NAME.1")
+
+        def is_damaged(k: int, outcome: Outcome) -> bool:
+            return resumes[k] and not outcome.interrupted and outcome.exit_code == WRONG_INPUT
+
+        def on_ended(k: int, outcome: Outcome) -> None:
+            if not outcome.interrupted and not is_damaged(k, outcome):  # load: processes ready to run, mean of the last minute
+                write_json(self.path(runs[k], ".json"), {"exit_code": outcome.exit_code, "revision": _diptych.git_revision,
+                                                         "load": os.getloadavg()[0], "at_once": seats}, None)
+
+        tasks = [Run(run.command, self.path(run, ".prm"), self.path(run), self.path(run, ".log"),
+                     ("--resume",) if goes_on and run.command != "material-point" else ())
+                 for run, goes_on in zip(runs, resumes)]
+        outcomes = execute(tasks, options, finished=total - len(runs), on_ended=on_ended)
+        damaged = [k for k, outcome in enumerate(outcomes) if is_damaged(k, outcome)]
+        if damaged:
+            complain(f"{len(damaged)} runs begin anew: their checkpoints are damaged")
+            for k, outcome in zip(damaged, self._execute([runs[k] for k in damaged], options, total, anew=True)):
+                outcomes[k] = outcome
+        return outcomes

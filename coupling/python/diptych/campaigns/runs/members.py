@@ -1,0 +1,94 @@
+# diptych: numbers of one comparison.json by name
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Collects the numbers of a comparison that may be averaged over samples."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass, field
+from typing import Any
+
+from ... import _diptych
+from .folders import read_json
+
+_SINGULAR = {"probes": "probe", "probe_differences": "probe_difference"}
+
+
+@functools.cache
+def _described() -> dict[str, tuple[str, str]]:
+    """place -> (unit, kind) of the numbers that may be averaged"""
+    return {place: (unit, kind) for place, (unit, kind) in _diptych.comparison_numbers().items() if kind in ("number", "line")}
+
+
+@dataclass
+class Member:
+    """numbers: name -> (value, unit, True for the angle of a line, place); bands: "window 0-0.01 discrete" -> their number."""
+
+    numbers: dict[str, tuple[float, str, bool, str]] = field(default_factory=dict)
+    bands: dict[str, int] = field(default_factory=dict)
+
+    def collect(self, value: Any, place: str, name: str) -> None:
+        """Adds the numbers below a value. Lists with names become "probe zone"; of the bands only the first, strongest one."""
+        if isinstance(value, dict) and "value" in value:
+            self.collect(value["value"], place, name)
+        elif isinstance(value, dict):
+            for key, entry in value.items():
+                if isinstance(entry, list):
+                    self._collect_list(entry, f"{place}/{key}", name, key)
+                else:
+                    self.collect(entry, f"{place}/{key}", f"{name} {key}")
+        elif isinstance(value, (int, float)) and not isinstance(value, bool) and place in _described():
+            unit, kind = _described()[place]
+            self.numbers[name] = (float(value), unit, kind == "line", place)
+
+    def _collect_list(self, entries: list[Any], place: str, name: str, key: str) -> None:
+        if key == "bands":
+            self.bands[name] = len(entries)
+            for band in entries[:1]:
+                self.collect(band, place, f"{name} band")
+            return
+        for entry in entries if entries and isinstance(entries[0], dict) else ():
+            own = entry.get("name") or entry.get("label") or (f"{entry['of']}-{entry['and']}" if "of" in entry else "")
+            if own:
+                self.collect(entry, place, f"{name} {_SINGULAR.get(key, key)} {own}")
+
+    def collect_windows(self, windows: list[Any], place: str, prefix: str = "") -> None:
+        for window in windows:
+            self.collect(window, place, f"{prefix}window {window['from']:.6g}-{window['to']:.6g}")
+
+    def fold(self) -> None:
+        """Folds mirror images of a band onto each other: angle and offset lose their sign, the jump changes it with the angle."""
+        negative = {name.rpartition(" ")[0] for name, (value, *_, place) in self.numbers.items()
+                    if place.endswith("/bands/angle_deg") and value < 0}
+        folded = {}
+        for name, (value, unit, line, place) in self.numbers.items():
+            if place.endswith(("/bands/angle_deg", "/bands/offset_d")):
+                value = abs(value)
+            elif place.endswith("/bands/jump") and name.rpartition(" ")[0] in negative:
+                value = -value
+            folded[name] = (value, unit, line, place)
+        self.numbers = folded
+
+
+def member_of(path: str, folded: bool) -> Member:
+    """The numbers of a comparison.json. Names: "stage 0.04 discrete probe zone t_over_s", "window 0.02-0.04 continuum band
+    angle_deg" (of the strongest band; absent without one), "discrete_summary peak_stress_ratio". Raises ValueError."""
+    return member_of_record(read_json(path), folded)
+
+
+def member_of_record(record: dict[str, Any], folded: bool = False) -> Member:
+    """The same from the contents of the file."""
+    member = Member()
+    for panel in ("discrete_summary", "continuum_summary"):
+        member.collect(record[panel], panel, panel)
+    member.collect_windows(record["windows"], "windows")
+    for stage in record["stages"]:  # six digits: stages of two seeds may differ by rounding
+        member.collect(stage, "stages", f"stage {stage['progress']:.6g}")
+    coarse = record.get("continuum_coarse") or {}
+    if "windows" in coarse:
+        member.collect(coarse, "continuum_coarse", "continuum_coarse")
+        member.collect_windows(coarse["windows"], "continuum_coarse/windows", "continuum_coarse ")
+    if folded:
+        member.fold()
+    return member
+
