@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Common part of the check.py scripts: runs of the program, their results, a table of numbers against their intervals.
 
-A check.py passes a function that makes its runs for one seed and returns {name: number}, and a list of (name, low, high)."""
+A check.py passes a function that makes its runs for one seed and returns {name: number}, and a list of (name, low,
+high)."""
 import argparse
 import csv
 import json
@@ -34,7 +35,8 @@ class Runs:
         folder = os.path.join(self.folder, name)
         if not (self.options.reuse and os.path.exists(os.path.join(folder, "provenance.json"))):
             words = [word for setting in (*self.settings, *settings) for word in ("--set", setting)]
-            done = subprocess.run([self.options.program, command, scene, "--output", folder, "--overwrite", "--quiet", *words], env=ENVIRONMENT,
+            done = subprocess.run([self.options.program, command, scene, "--output", folder, "--overwrite", "--quiet",
+                                   *words], env=ENVIRONMENT,
                                   capture_output=True, text=True)
             if done.returncode != 0:
                 raise RunFailed(f"{folder} ended with exit code {done.returncode}: {done.stderr.strip()}")
@@ -96,7 +98,8 @@ def between(strain, quantity, low, high):
 def mean_and_error(values):
     """(mean, standard error of the mean) over the first axis. The error of a single value is 0."""
     values = numpy.array(values)
-    return values.mean(axis=0), values.std(axis=0, ddof=1) / numpy.sqrt(len(values)) if len(values) > 1 else 0 * values[0]
+    return values.mean(axis=0), values.std(axis=0,
+                                           ddof=1) / numpy.sqrt(len(values)) if len(values) > 1 else 0 * values[0]
 
 
 def platen_difference(columns):
@@ -131,8 +134,8 @@ def judge(seeds, figures, claims):
 def main(doc, measure, claims, draw, switches=None):
     """Entry point of a check.py.
 
-    measure(runs) returns {name: number} of one seed. draw(folder, path) draws the runs of the first seed. switches: {word: help}
-    of further options, which measure reads from runs.options."""
+    measure(runs) returns {name: number} of one seed. draw(folder, path) draws the runs of the first seed. switches:
+    {word: help} of further options, which measure reads from runs.options."""
     parser = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
     parser.add_argument("--seeds", default="1", help="default: 1")

@@ -10,13 +10,14 @@ from claims import value
 
 
 def draw_bands(axis, panel, points):
-    """Lines at the middle of every band and at 10 and 90 % of its jump. Offsets count from the middle of the bounding box of
-    `points`."""
+    """Lines at the middle of every band and at 10 and 90 % of its jump. Offsets count from the middle of the bounding
+    box of `points`."""
     centre = 0.5 * (points.min(axis=0) + points.max(axis=0))
     reach = numpy.linalg.norm(numpy.ptp(points, axis=0))
     for band in panel["bands"]:
         angle = numpy.radians(value(band["angle_deg"]))
-        along, across = numpy.array([numpy.cos(angle), numpy.sin(angle)]), numpy.array([-numpy.sin(angle), numpy.cos(angle)])
+        along, across = numpy.array([numpy.cos(angle), numpy.sin(angle)]), numpy.array([-numpy.sin(angle),
+                                                                                        numpy.cos(angle)])
         for side, style in ((0, "-"), (-0.5, "--"), (0.5, "--")):
             middle = centre + across * (value(band["offset_d"]) + side * value(band["width_10_90_d"]))
             ends = numpy.stack((middle - reach * along, middle + reach * along))
@@ -24,8 +25,8 @@ def draw_bands(axis, panel, points):
 
 
 def draw_window(folder, window, path):
-    """Shear strain increment of the grains and of the continuum over one window of a result folder, on one colour scale, lengths
-    in mean diameters."""
+    """Shear strain increment of the grains and of the continuum over one window of a result folder, on one colour
+    scale, lengths in mean diameters."""
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as pyplot
@@ -37,13 +38,16 @@ def draw_window(folder, window, path):
         group = file[f"window_{window}"]
         position, radius = group["discrete/position"][()][:, :2] / d, group["discrete/radius"][()] / d
         grains = group["discrete/shear_strain_increment"][()]
-        corners, cells = group["cells/node_position"][()][group["cells/nodes"][()]] / d, group["cells/continuum_shear_strain_increment"][()]
+        corners = group["cells/node_position"][()][group["cells/nodes"][()]] / d
+        cells = group["cells/continuum_shear_strain_increment"][()]
     top = numpy.nanpercentile(grains, 97)
     figure, axes = pyplot.subplots(1, 2, figsize=(8.4, 5.6), constrained_layout=True, sharey=True)
-    axes[0].add_collection(EllipseCollection(2 * radius, 2 * radius, numpy.zeros_like(radius), units="xy", offsets=position,
-                                             transOffset=axes[0].transData, array=grains, cmap="viridis", clim=(0, top)))
-    drawn = axes[1].add_collection(PolyCollection(corners, array=cells, cmap="viridis", clim=(0, top), edgecolors="face",
-                                                  linewidths=0.2))
+    axes[0].add_collection(EllipseCollection(2 * radius, 2 * radius, numpy.zeros_like(radius), units="xy",
+                                             offsets=position,
+                                             transOffset=axes[0].transData, array=grains, cmap="viridis",
+                                             clim=(0, top)))
+    drawn = axes[1].add_collection(PolyCollection(corners, array=cells, cmap="viridis", clim=(0, top),
+                                                  edgecolors="face", linewidths=0.2))
     low, high = position.min(axis=0) - 2, position.max(axis=0) + 2
     for axis, name in zip(axes, ("discrete", "continuum")):
         draw_bands(axis, record[name], numpy.concatenate(corners))

@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """check.py PROGRAM [--seeds 1,2,3] [--output DIR] [--reuse] [--set section/key=value] [--figure figure.png]
 
-Runs scene.prm for every seed and compares bands and forces of both panels with the claims of the README. Exit code 1: a number is
-outside its interval; 2: a run failed. Needs h5py and numpy, the figure matplotlib."""
+Runs scene.prm for every seed and compares bands and forces of both panels with the claims of the README. Exit code 1: a
+number is outside its interval; 2: a run failed. Needs h5py and numpy, the figure matplotlib."""
 import os
 import sys
 
@@ -16,9 +16,9 @@ import maps  # noqa: E402
 SCENE = os.path.join(HERE, "scene.prm")
 LATE = 2  # Index of the window from 2 to 3 % strain.
 
-# Mean and four standard deviations over the fifteen seeds of the README, narrower where the claim is stricter. The claim: two
-# crossing bands in every window, each with more than a third of the platen's travel. The interval of the platen forces is from
-# the eight seeds with the present steps.
+# Mean and four standard deviations over the fifteen seeds of the README, narrower where the claim is stricter. The
+# claim: two crossing bands in every window, each with more than a third of the platen's travel. The interval of the
+# platen forces is from the eight seeds with the present steps.
 CLAIMS = [("grains: windows of 3 with two bands", 2, 3), ("continuum: windows of 3 with two bands", 3, 3),
           ("grains, 2-3 %: bands that cross", 2, 2),
           ("grains, 2-3 %: rising, degrees", 22, 70), ("grains, 2-3 %: falling, degrees", -66, -24),
@@ -46,7 +46,8 @@ def measure(runs):
     result = runs.run("scene", "run", SCENE)
     comparison, history = result.comparison, result.grains
     windows = comparison["windows"]
-    figures = {**crossing(windows[LATE]["discrete"], "grains, 2-3 %"), **crossing(windows[LATE]["continuum"], "continuum, 2-3 %")}
+    figures = {**crossing(windows[LATE]["discrete"], "grains, 2-3 %"),
+               **crossing(windows[LATE]["continuum"], "continuum, 2-3 %")}
     for name, panel in (("grains", "discrete"), ("continuum", "continuum")):
         figures[name + ": windows of 3 with two bands"] = sum(len(w[panel]["bands"]) == 2 for w in windows)
     loaded = history["axial_strain"] > 0.002

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # diptych: figure and tables of a calibration
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: figure.py DIR FIGURE.png. DIR: folder of `diptych calibrate`. Draws every path and prints all tables as Markdown."""
+"""Usage: figure.py DIR FIGURE.png. DIR: folder of `diptych calibrate`. Draws every path and prints all tables as
+Markdown."""
 import json
 import os
 import sys
@@ -29,15 +30,18 @@ def draw(calibration, to):
 
 
 def printed(table):
-    return "\n".join(["| " + " | ".join(table["head"]) + " |", "|" + "---|" * len(table["head"]), *("| " + " | ".join(row) + " |" for row in table["rows"])])
+    return "\n".join(["| " + " | ".join(table["head"]) + " |", "|" + "---|" * len(table["head"]),
+                      *("| " + " | ".join(row) + " |" for row in table["rows"])])
 
 
 def main():
     calibration = load(sys.argv[1])
     draw(calibration, sys.argv[2])
     record = calibration.record
-    print(f"chi^2 of {record['n_observables']} observables {record['chi2_before']:.3g} -> {record['chi2']:.3g}; {record['coarse_runs']} coarse, "
-          f"{record['fine_runs']} fine, {record['other_runs']} runs of predictions; CPU s: {json.dumps(calibration.cost)}\n")
+    print(f"chi^2 of {record['n_observables']} observables {record['chi2_before']:.3g} -> {record['chi2']:.3g}; "
+          f"{record['coarse_runs']} coarse, "
+          f"{record['fine_runs']} fine, {record['other_runs']} runs of predictions; CPU s: "
+          f"{json.dumps(calibration.cost)}\n")
     for table in (parameters(calibration), predictions(calibration), misfits(calibration)):
         print(printed(table) + "\n")
     print("\n".join(f"- {words}" for words in record["words"]))

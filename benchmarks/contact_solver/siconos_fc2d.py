@@ -3,10 +3,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """siconos_fc2d.py PROGRAM [--limit SECONDS] [--repeats N] [--figure FILE.png]
 
-PROGRAM: diptych. Needs python3 with siconos, h5py, numpy and scipy (Debian: python3-siconos, not a dependency of this project).
-If one is missing, prints a message and ends with 0. Siconos stops on its own residual, which is scaled by max(|r|, |u|, |q|). The
-table therefore also shows the natural map, relative to |r|, of the impulses that it returns. --figure: natural map against CPU
-seconds for tolerances of 1e-3 to 1e-8 (needs matplotlib)."""
+PROGRAM: diptych. Needs python3 with siconos, h5py, numpy and scipy (Debian: python3-siconos, not a dependency of this
+project). If one is missing, prints a message and ends with 0. Siconos stops on its own residual, which is scaled by
+max(|r|, |u|, |q|). The table therefore also shows the natural map, relative to |r|, of the impulses that it returns.
+--figure: natural map against CPU seconds for tolerances of 1e-3 to 1e-8 (needs matplotlib)."""
 import argparse
 import os
 import statistics
@@ -96,8 +96,8 @@ def print_problem(options, name, tolerance):
         ours = [own_solve(options.program, path, tolerance, form) for _ in range(options.repeats)]
         seconds = statistics.median(run[1] for run in ours)
         ratio = f"> {options.limit / seconds:.0f}" if theirs is None else f"{theirs / seconds:.1f}"
-        print(f"{name:7} {tolerance:7.0e}  {form:7}  {ours[0][0]:9d} {seconds:9.4f}  {ours[0][2]:8.1e} <={tolerance:7.0e}"
-              f"  siconos / this: {ratio}", flush=True)
+        print(f"{name:7} {tolerance:7.0e}  {form:7}  {ours[0][0]:9d} {seconds:9.4f}  {ours[0][2]:8.1e} "
+              f"<={tolerance:7.0e}  siconos / this: {ratio}", flush=True)
         found[f"psor, {form} form"] = seconds, tolerance
     return found
 
@@ -133,12 +133,13 @@ def main():
     try:
         import h5py, numpy, scipy.sparse, siconos.numerics  # noqa: F401, E401
     except ImportError as missing:
-        print(f"siconos_fc2d.py: skipped, {sys.executable} has no {missing.name} (Debian: apt-get install python3-siconos, "
-              "and run this with /usr/bin/python3)")
+        print(f"siconos_fc2d.py: skipped, {sys.executable} has no {missing.name} (Debian: apt-get install "
+              "python3-siconos, and run this with /usr/bin/python3)")
         return None
     print("from zero impulses, CPU seconds, median of", options.repeats)
     print("problem     tol  solver      sweeps   seconds  its test  nat / |r|")
-    by_problem = {name: [print_problem(options, name, tolerance) for tolerance in (CHARTED if options.figure else TOLERANCES)]
+    by_problem = {name: [print_problem(options, name, tolerance)
+                         for tolerance in (CHARTED if options.figure else TOLERANCES)]
                   for name in ("small", "medium")}
     if options.figure:
         draw(by_problem, options.figure)

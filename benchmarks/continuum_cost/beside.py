@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """beside.py OTHER_PROGRAM PROGRAM [--repeats 3] [--reference-blas]
 
-Runs the continuum of moreau_1997 and of cosserat_band/oblique (elements of 1 d) alternately with both programs. Prints CPU
-seconds by phase (least of the repeats), counts, and the relative difference of the last stress ratio. --reference-blas: the
-other program uses the reference BLAS of Debian."""
+Runs the continuum of moreau_1997 and of cosserat_band/oblique (elements of 1 d) alternately with both programs. Prints
+CPU seconds by phase (least of the repeats), counts, and the relative difference of the last stress ratio.
+--reference-blas: the other program uses the reference BLAS of Debian."""
 import argparse
 import csv
 import os
@@ -17,7 +17,8 @@ SCENES = {"moreau_1997": ("moreau_1997/scene.prm", ["comparison/coarse_element_s
           "moreau_1997, four times the unknowns": ("moreau_1997/scene.prm", ["comparison/coarse_element_size=0",
                                                                               "continuum/element_size=0.75"]),
           "oblique, h = 1": ("cosserat_band/oblique.prm", ["continuum/element_size=1", "continuum/internal_length=1"])}
-PHASES = {"law and forces": "point_cpu_s", "tangent": "assembly_cpu_s", "geometry": "geometry_cpu_s", "linear solver": "solve_cpu_s"}
+PHASES = {"law and forces": "point_cpu_s", "tangent": "assembly_cpu_s", "geometry": "geometry_cpu_s",
+          "linear solver": "solve_cpu_s"}
 COUNTS = ["newton_iterations", "linear_iterations", "factorisations"]
 REFERENCE = "/usr/lib/x86_64-linux-gnu/blas:/usr/lib/x86_64-linux-gnu/lapack"
 
@@ -34,7 +35,8 @@ def last_row(program, scene, settings, environment):
         seconds = after.children_user + after.children_system - before.children_user - before.children_system
         with open(os.path.join(folder, "out", "continuum.csv"), encoding="utf-8") as file:
             rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-        return seconds, {key: float(text) for key, text in rows[-1].items() if key in [*PHASES.values(), *COUNTS, "stress_ratio"]}
+        return seconds, {key: float(text) for key, text in rows[-1].items()
+                         if key in [*PHASES.values(), *COUNTS, "stress_ratio"]}
 
 
 def main():
@@ -59,8 +61,8 @@ def main():
             print(f"| {name} | {'other' if k == 0 else 'this'} | " + " | ".join(numbers) + " |")
         (other, before), (this, now) = best[0], best[1]
         total = [sum(row[c] for c in PHASES.values()) for row in (before, now)]
-        print(f"{name}: {total[0] / total[1]:.2f} times less CPU time in the phases, {other / this:.2f} in the whole command; "
-              f"stress ratio {now['stress_ratio'] / before['stress_ratio'] - 1:+.2e}", flush=True)
+        print(f"{name}: {total[0] / total[1]:.2f} times less CPU time in the phases, {other / this:.2f} in the whole "
+              "command; " f"stress ratio {now['stress_ratio'] / before['stress_ratio'] - 1:+.2e}", flush=True)
 
 
 if __name__ == "__main__":

@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """continuum_cost.py PROGRAM [--only targets,accuracy,phases,samples,growth] [--results DIR] [--figure figure.png]
 
-Runs variants of scene.prm one after the other and prints a table per part. Seconds are CPU seconds of the continuum phase
-(provenance.json). --results keeps the runs and does not repeat existing ones. Needs numpy, h5py, matplotlib."""
+Runs variants of scene.prm one after the other and prints a table per part. Seconds are CPU seconds of the continuum
+phase (provenance.json). --results keeps the runs and does not repeat existing ones. Needs numpy, h5py, matplotlib."""
 import argparse
 import csv
 import json
@@ -19,12 +19,14 @@ from refined_band import band_thickness
 HERE = os.path.dirname(os.path.abspath(__file__))
 ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 FINEST = {"element_size": 0.75, "max_step": 0.001}
-# Reference of the stress ratio at 8 %. In FINEST a node of a free side reaches a platen just there, and the ratio jumps by 0.6 %.
+# Reference of the stress ratio at 8 %. In FINEST a node of a free side reaches a platen just there, and the ratio jumps
+# by 0.6 %.
 FINEST_AT_END = {"element_size": 1, "max_step": 0.001}
 # Steps end at every stage, and a step of half a stage does not grow to a whole one: larger steps need larger stages.
 LONG_STAGES = {"stage_strain": 0.04}
 STEPS = {"0.02": {"max_step": 0.02, "loading": LONG_STAGES}, "0.01": {"max_step": 0.01, "loading": LONG_STAGES},
-         "0.01, stages of 1 %": {"max_step": 0.01}, "0.005": {}, "0.0025": {"max_step": 0.0025}, "0.001": {"max_step": 0.001}}
+         "0.01, stages of 1 %": {"max_step": 0.01}, "0.005": {}, "0.0025": {"max_step": 0.0025},
+         "0.001": {"max_step": 0.001}}
 VERY_SHORT = ("0.0005", {"max_step": 0.0005, "initial_step": 0.0005})
 # Name on the chart, label of a point -> keys of the section continuum. Other keys are those of scene.prm.
 VARIANTS = {
@@ -32,7 +34,8 @@ VARIANTS = {
     "max_step, h = 2": {step: {"element_size": 2, **keys} for step, keys in [*STEPS.items(), VERY_SHORT]},
     "max_step, h = 1": {step: {"element_size": 1, **keys} for step, keys in STEPS.items()},
     "adaptive levels, h = 2": {f"{n}": {"refinement": "adaptive", "refinement_levels": n} for n in (1, 2)},
-    "adaptive levels, h = 1": {f"{n}": {"refinement": "adaptive", "refinement_levels": n, "element_size": 1} for n in (1, 2)},
+    "adaptive levels, h = 1": {f"{n}": {"refinement": "adaptive", "refinement_levels": n, "element_size": 1}
+                               for n in (1, 2)},
     "viscosity, h = 2": {f"{eta:g}": {"viscosity": eta} for eta in (0.002, 0.01)},
     "linear_solver = amg": {f"h = {h}": {"linear_solver": "amg", "element_size": h} for h in (2, 1)},
     "small strain, h = 2": {"small_strain": {"geometry": "small_strain"}},
@@ -68,7 +71,8 @@ class Runs:
         parallel = ["mpirun", "-np", str(processes)] if processes > 1 else []
         errors = os.path.join(self.folder, "stderr.txt")
         with open(errors, "w") as file:
-            child = subprocess.Popen([*parallel, self.program, "continuum", os.path.join(HERE, "scene.prm"), "--output", output, "--overwrite",
+            child = subprocess.Popen([*parallel, self.program, "continuum", os.path.join(HERE, "scene.prm"), "--output",
+                                      output, "--overwrite",
                                       "--quiet", *words], stdout=subprocess.DEVNULL, stderr=file, env=ENVIRONMENT)
             _, status, usage = os.wait4(child.pid, 0)
         code = os.waitstatus_to_exitcode(status)
@@ -92,7 +96,8 @@ def result(folder):
     facts = provenance["continuum"]
     return SimpleNamespace(folder=folder, rows=rows, last=rows[-1], seconds=phase["cpu_s"], wall=phase["wall_s"],
                            start_up=ended["cpu_s"] - sum(p["cpu_s"] for p in provenance["phases"]),
-                           memory=phase["peak_memory_mb"], finished=facts["finished"], strain=facts["reached_axial_strain"],
+                           memory=phase["peak_memory_mb"], finished=facts["finished"],
+                           strain=facts["reached_axial_strain"],
                            unknowns=facts["unknowns"], message=ended["message"], cut_backs=int(rows[-1]["cut_backs"]),
                            peak=max(row["stress_ratio"] for row in rows), revision=provenance["git_revision"])
 
@@ -147,9 +152,10 @@ def accuracy(runs):
     print("\n## Accuracy")
     finest, at_end = runs.run(**FINEST), runs.run(**FINEST_AT_END)
     values = (finest.peak, at_end.last["stress_ratio"], thickness_of(finest))
-    print(f"finest run {FINEST}: {finest.unknowns} unknowns, {finest.seconds:.1f} s, peak {values[0]:.4f}, thickness {values[2]:.2f} d, "
-          f"at 8 % {finest.last['stress_ratio']:.4f}, one step before {finest.rows[-2]['stress_ratio']:.4f}; taken at 8 %: "
-          f"{FINEST_AT_END}, {at_end.seconds:.1f} s, {values[1]:.4f}")
+    print(f"finest run {FINEST}: {finest.unknowns} unknowns, {finest.seconds:.1f} s, peak {values[0]:.4f}, thickness "
+          f"{values[2]:.2f} d, "
+          f"at 8 % {finest.last['stress_ratio']:.4f}, one step before {finest.rows[-2]['stress_ratio']:.4f}; taken at "
+          "8 %: " f"{FINEST_AT_END}, {at_end.seconds:.1f} s, {values[1]:.4f}")
     print_header("| | | unknowns | CPU s | cut-backs | peak | at 8 % | thickness [d] | viscous share | axial force |")
     series = {}
     for name, variants in VARIANTS.items():
@@ -158,7 +164,8 @@ def accuracy(runs):
             thickness = thickness_of(r)
             errors = [percent(a, b) for a, b in zip((r.peak, r.last["stress_ratio"], thickness), values)]
             series.setdefault(name, []).append((label, r, errors))
-            print(f"| {name} | {label} | {r.unknowns} | {r.seconds:.1f} | {r.cut_backs} | {r.peak:.4f} ({errors[0]:+.2f} %) | "
+            print(f"| {name} | {label} | {r.unknowns} | {r.seconds:.1f} | {r.cut_backs} | {r.peak:.4f} "
+                  f"({errors[0]:+.2f} %) | "
                   f"{r.last['stress_ratio']:.4f} ({errors[1]:+.2f} %) | {thickness:.2f} ({errors[2]:+.2f} %) | "
                   f"{100 * r.last['viscous_share']:.2f} % | {-r.last['upper_fy']:.2f} | {r.message}", flush=True)
     print("\nlocal law mohr_coulomb (no thickness: the mesh sets it)")
@@ -187,8 +194,8 @@ def phases(runs):
         r = runs.run(element_size=h)
         found[h] = shares(r)
         parts = " | ".join(f"{s:.2f} ({100 * s / r.seconds:.0f} %)" for s in found[h])
-        print(f"| h = {h} | {parts} | {r.seconds:.2f} | {r.last['step']:.0f} | {r.last['newton_iterations']:.0f} | {r.last['linear_iterations']:.0f} | "
-              f"{r.last['factorisations']:.0f} |")
+        print(f"| h = {h} | {parts} | {r.seconds:.2f} | {r.last['step']:.0f} | {r.last['newton_iterations']:.0f} | "
+              f"{r.last['linear_iterations']:.0f} | {r.last['factorisations']:.0f} |")
     return found
 
 
@@ -207,7 +214,8 @@ def samples(runs):
             r.thickness, r.ratio = thickness_of(r), r.last["stress_ratio"]
             uniform = uniform or r
             found.setdefault(mesh, []).append((width, r))
-            print(f"| {width} | {mesh} | {r.unknowns} | {r.seconds:.1f} | {r.cut_backs} | {r.thickness:.2f} | {r.ratio:.4f} | "
+            print(f"| {width} | {mesh} | {r.unknowns} | {r.seconds:.1f} | {r.cut_backs} | {r.thickness:.2f} | "
+                  f"{r.ratio:.4f} | "
                   f"{r.seconds / uniform.seconds:.2f}, {percent(r.thickness, uniform.thickness):+.1f} %, "
                   f"{percent(r.ratio, uniform.ratio):+.1f} % | {r.message}", flush=True)
     return found
@@ -216,17 +224,18 @@ def samples(runs):
 def growth(runs):
     """{solver: [(unknowns, CPU s per Newton iteration, memory [MB])]}"""
     print("\n## Growth, to 1 % strain")
-    print_header("| h | unknowns | solver | CPU s | Newton | GMRES per Newton | factorisations | cut-backs | s per Newton iteration | "
-                 "of it solve | MB |")
+    print_header("| h | unknowns | solver | CPU s | Newton | GMRES per Newton | factorisations | cut-backs | s per "
+                 "Newton iteration | of it solve | MB |")
     found = {}
     for h in (4, 2, 1.5, 1, 0.75, 0.5, 0.4):
         for solver in ("direct", "amg"):
             r = runs.run(strain=0.01, element_size=h, linear_solver=solver)
             n = r.last["newton_iterations"]
             found.setdefault(solver, []).append((r.unknowns, r.seconds / n, r.last["solve_cpu_s"] / n, r.memory))
-            print(f"| {h} | {r.unknowns} | {solver} | {r.seconds:.1f} | {n:.0f} | {r.last['linear_iterations'] / n:.1f} | "
-                  f"{r.last['factorisations']:.0f} | {r.cut_backs} | {r.seconds / n:.3f} | {r.last['solve_cpu_s'] / n:.3f} | "
-                  f"{r.memory:.0f} | {r.message}", flush=True)
+            print(f"| {h} | {r.unknowns} | {solver} | {r.seconds:.1f} | {n:.0f} | "
+                  f"{r.last['linear_iterations'] / n:.1f} | "
+                  f"{r.last['factorisations']:.0f} | {r.cut_backs} | {r.seconds / n:.3f} | "
+                  f"{r.last['solve_cpu_s'] / n:.3f} | {r.memory:.0f} | {r.message}", flush=True)
     print()
     print_header("| h | processes | wall s | CPU s | largest difference in stress ratio |")
     for h in (1, 0.5):
@@ -234,7 +243,8 @@ def growth(runs):
         difference = max((abs(a["stress_ratio"] - b["stress_ratio"]) for a, b in zip(one.rows, two.rows)), default=0)
         same = [row["axial_strain"] for row in one.rows] == [row["axial_strain"] for row in two.rows]
         for n, r in ((1, one), (2, two)):
-            print(f"| {h} | {n} | {r.wall:.1f} | {r.seconds:.1f} | {difference:.1e}{'' if same else ' (other steps)'} |")
+            steps = "" if same else " (other steps)"
+            print(f"| {h} | {n} | {r.wall:.1f} | {r.seconds:.1f} | {difference:.1e}{steps} |")
     return found
 
 

@@ -1,6 +1,7 @@
 # diptych: figure of continuum_cost.py
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Error against CPU seconds, where the time goes, growth with the number of unknowns, uniform against adaptive meshes."""
+"""Error against CPU seconds, where the time goes, growth with the number of unknowns, uniform against adaptive
+meshes."""
 import math
 
 import matplotlib
@@ -10,7 +11,8 @@ import matplotlib.pyplot as pyplot  # noqa: E402
 from matplotlib.ticker import FuncFormatter, NullFormatter  # noqa: E402
 
 # Okabe and Ito (2008): colours that colour-blind readers can distinguish.
-COLOURS = dict(black="#000000", orange="#E69F00", sky="#56B4E9", green="#009E73", blue="#0072B2", red="#D55E00", purple="#CC79A7")
+COLOURS = dict(black="#000000", orange="#E69F00", sky="#56B4E9", green="#009E73", blue="#0072B2", red="#D55E00",
+               purple="#CC79A7")
 STYLES = {
     "element size h": ("black", "o", "-"),
     "max_step, h = 2": ("blue", "s", "-"),
@@ -41,7 +43,8 @@ def draw_error(axes, series, which):
         points = [p for p in points if not math.isnan(p[2][which]) and p[2][which] != 0 and "stages" not in p[0]]
         seconds = [run.seconds for _, run, _ in points]
         size = [max(FLOOR, abs(errors[which])) for _, _, errors in points]
-        axes.loglog(seconds, size, marker=marker, linestyle=line or "none", color=COLOURS[colour], label=name, markersize=5, lw=1)
+        axes.loglog(seconds, size, marker=marker, linestyle=line or "none", color=COLOURS[colour], label=name,
+                    markersize=5, lw=1)
         for (label, _, _), x, y in zip(points, seconds, size):
             if name in LABELLED[which]:
                 axes.annotate(label, (x, y), textcoords="offset points", fontsize=7, color=COLOURS[colour],
@@ -61,7 +64,8 @@ def draw_phases(axes, found, names):
     for k, (name, colour) in enumerate(zip(names, ("blue", "sky", "green", "orange", "black"))):
         share = [100 * parts[k] / sum(parts) for parts in found.values()]
         places = [f"h = {h}, {sum(parts):.1f} s" for h, parts in found.items()]
-        axes.barh(places, share, left=list(bottoms.values()), color=COLOURS[colour], label=name, height=0.5, edgecolor="white")
+        axes.barh(places, share, left=list(bottoms.values()), color=COLOURS[colour], label=name, height=0.5,
+                  edgecolor="white")
         bottoms = {h: b + s for (h, b), s in zip(bottoms.items(), share)}
     axes.set(xlabel="share of the CPU seconds [%]", xlim=(0, 100), ylim=(-0.5, 1.9), title="where the time goes")
     axes.legend(fontsize=8, ncol=3, loc="upper center")
@@ -70,11 +74,13 @@ def draw_phases(axes, found, names):
 def draw_growth(axes, found):
     for (solver, points), colour, marker in zip(found.items(), ("blue", "red"), "os"):
         n = [p[0] for p in points]
-        axes.loglog(n, [p[1] for p in points], marker + "-", color=COLOURS[colour], label=f"{solver}, all", markersize=5)
-        axes.loglog(n, [p[2] for p in points], marker + "--", color=COLOURS[colour], label=f"{solver}, linear solves", markersize=5,
-                    markerfacecolor="white", lw=1)
+        axes.loglog(n, [p[1] for p in points], marker + "-", color=COLOURS[colour], label=f"{solver}, all",
+                    markersize=5)
+        axes.loglog(n, [p[2] for p in points], marker + "--", color=COLOURS[colour], label=f"{solver}, linear solves",
+                    markersize=5, markerfacecolor="white", lw=1)
     first = found["direct"][0]
-    axes.loglog([first[0], 100 * first[0]], [0.5 * first[1], 50 * first[1]], ":", color="0.4", label="proportional to unknowns")
+    axes.loglog([first[0], 100 * first[0]], [0.5 * first[1], 50 * first[1]], ":", color="0.4",
+                label="proportional to unknowns")
     axes.set(xlabel="unknowns", ylabel="CPU seconds per Newton iteration", title="growth, to 1 % strain")
     plain(axes.xaxis, (2000, 5000, 10000, 20000, 50000, 100000, 200000))
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value / 1000:g}k"))
@@ -85,9 +91,10 @@ def draw_growth(axes, found):
 
 def draw_samples(axes, found):
     for (mesh, points), colour, marker in zip(found.items(), ("black", "orange", "red"), "o^v"):
-        axes.loglog([width for width, _ in points], [run.seconds for _, run in points], marker + "-", color=COLOURS[colour],
-                    label=mesh, markersize=6)
-    axes.set(xlabel="width = height of the sample [d]", ylabel="CPU seconds to 8 % strain", title="larger samples, h = 2, l = 2")
+        axes.loglog([width for width, _ in points], [run.seconds for _, run in points], marker + "-",
+                    color=COLOURS[colour], label=mesh, markersize=6)
+    axes.set(xlabel="width = height of the sample [d]", ylabel="CPU seconds to 8 % strain",
+             title="larger samples, h = 2, l = 2")
     plain(axes.xaxis, (60, 120, 180))
     plain(axes.yaxis, (1, 2, 5, 10, 20, 50, 100))
     axes.legend(fontsize=8)

@@ -1,8 +1,8 @@
 # diptych: thickness of the oblique band on uniform and on refined meshes
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Measures as ../cosserat_band/width.py: full width at half maximum of the increment of the hardening variable across the band, in
-current coordinates. A refined mesh is first written on the grid of its smallest elements. Each part of a larger element gets the
-element's mean, and its points come from the element's biquadratic shape functions."""
+"""Measures as ../cosserat_band/width.py: full width at half maximum of the increment of the hardening variable across
+the band, in current coordinates. A refined mesh is first written on the grid of its smallest elements. Each part of a
+larger element gets the element's mean, and its points come from the element's biquadratic shape functions."""
 import os
 import sys
 
@@ -19,7 +19,8 @@ def quadratics(t):
 
 
 class Grid:
-    """A stage on a grid of squares of edge h: hardening variable of the squares, current positions of N_POINTS^2 points in each."""
+    """A stage on a grid of squares of edge h: hardening variable of the squares, current positions of N_POINTS^2 points
+    in each."""
 
     def __init__(self, stage, h):
         position = stage["nodes/position"][()][:, :2]
@@ -62,5 +63,6 @@ def band_thickness(folder, refined=None, last=0.08, strain=0.01):
     if refined is None:
         return float(measure(Increment(folder, last, strain), ARMS["oblique"]).thickness)
     with h5py.File(os.path.join(folder, "continuum.h5")) as file:
-        before, after = (next(s for s in file.values() if abs(s.attrs["axial_strain"] - at) < 1e-9) for at in (last - strain, last))
+        before, after = (next(s for s in file.values() if abs(s.attrs["axial_strain"] - at) < 1e-9)
+                         for at in (last - strain, last))
         return float(measure(RefinedIncrement(before, after, refined), ARMS["oblique"]).thickness)

@@ -3,19 +3,21 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """band.py PROGRAM [--output DIR] [--reuse] [--figure figure.png]
 
-Runs `PROGRAM continuum` on oblique.prm, vertical.prm and smooth.prm with several internal lengths l, elements h, sizes and laws.
-Prints thickness and angle of the bands, measured as in width.py. --reuse: does not repeat finished runs in DIR. Exit code 1: mesh
-convergence, the angle or the strain reached is outside its interval; 2: a run failed. Needs h5py and numpy, the figure
-matplotlib."""
+Runs `PROGRAM continuum` on oblique.prm, vertical.prm and smooth.prm with several internal lengths l, elements h, sizes
+and laws. Prints thickness and angle of the bands, measured as in width.py. --reuse: does not repeat finished runs in
+DIR. Exit code 1: mesh convergence, the angle or the strain reached is outside its interval; 2: a run failed. Needs h5py
+and numpy, the figure matplotlib."""
 import argparse
 import sys
 import tempfile
 
 import numpy
 
-from runs import LENGTHS, LOCAL_ELEMENTS, SIZES, STRAINS, Runs, bands, facts, history, length_runs, power, size_runs, thicknesses
+from runs import (LENGTHS, LOCAL_ELEMENTS, SIZES, STRAINS, Runs, bands, facts, history, length_runs, power, size_runs,
+                  thicknesses)
 
-# Another program, element 1, W = H = 60: internal length -> thickness at STRAINS. Its authors state the oblique loading.
+# Another program, element 1, W = H = 60: internal length -> thickness at STRAINS. Its authors state the oblique
+# loading.
 PROTOTYPE = {1: (6.3, 7.8, 9.0), 2: (11.7, 11.7, 13.1)}
 ROUGH_CONVERGENCE, SMOOTH_CONVERGENCE = 0.03, 0.05  # Largest relative difference between h = l and l/2.
 DILATANCY_ANGLE, FRICTION_ANGLE, ANGLE_BAND = 5, 30, 2  # Values of smooth.prm [degrees].
@@ -28,15 +30,16 @@ class Table:
         self.n_failed, self.n_cut_backs = 0, 0
 
     def header(self, text):
-        print(f"\n{text}\n{'':44}" + "".join(f"{100 * e:5g} %" for e in STRAINS) + "  scatter  angle  cuts  CPU s", flush=True)
+        print(f"\n{text}\n{'':44}" + "".join(f"{100 * e:5g} %" for e in STRAINS) + "  scatter  angle  cuts  CPU s",
+              flush=True)
 
     def row(self, label, folder, scene, reached=0.08):
         """`reached`: strain that the run must reach; 0: the run is expected to fail."""
         measured, cost, last = bands(folder, scene), facts(folder), history(folder)[-1]
         print(f"{label:44}" + "".join(f"{b.thickness if b else numpy.nan:7.2f}" for b in measured)
               + (f"{measured[-1].scatter:9.2f}{measured[-1].angle:7.1f}" if measured[-1] else "")
-              + f"{last['cut_backs']:6.0f}{cost['seconds']:7.1f}" + ("" if cost["finished"] else f"  {cost['message']}"),
-              flush=True)
+              + f"{last['cut_backs']:6.0f}{cost['seconds']:7.1f}"
+              + ("" if cost["finished"] else f"  {cost['message']}"), flush=True)
         self.n_cut_backs += int(last["cut_backs"]) if reached else 0
         self.expect(cost["reached_axial_strain"] > reached - 1e-9, f"{label} reaches {100 * reached:g} % strain")
         return numpy.array([b.thickness if b else numpy.nan for b in measured])
@@ -52,13 +55,15 @@ def percent(ratios):
 
 
 def beside_prototype(length, found):
-    print(f"  l = {length}, h = 1 against the prototype's {PROTOTYPE[length]} [%]: {percent(found / PROTOTYPE[length])}")
+    prototype = PROTOTYPE[length]
+    print(f"  l = {length}, h = 1 against the prototype's {prototype} [%]: {percent(found / prototype)}")
 
 
 def show_oblique(table, runs):
     table.header("oblique: thickness [d] at axial strain, internal length l, element h")
     for length in LENGTHS:
-        coarse, same, fine = (table.row(f"l = {length}, h = {h:g}", runs("oblique", internal_length=length, element_size=h),
+        coarse, same, fine = (table.row(f"l = {length}, h = {h:g}",
+                                        runs("oblique", internal_length=length, element_size=h),
                                         "oblique") for h in (2 * length, length, length / 2))
         print(f"  h = 2 l and h = l against h = l/2 [%]: {percent(coarse / fine)} and {percent(same / fine)}")
         table.expect(numpy.all(abs(same / fine - 1) < ROUGH_CONVERGENCE), f"l = {length}: h = l within 3 % of h = l/2")
@@ -99,15 +104,18 @@ def show_powers(table, runs):
 def show_failure(table, runs):
     for text, keys in (("", {}), (", viscosity = 0", {"viscosity": 0})):
         table.header(f"oblique, law mohr_coulomb (no internal length){text}: thickness [d]")
-        found = [table.row(f"h = {h}", runs("oblique", law="mohr_coulomb", **keys, element_size=h), "oblique", reached=0)
+        found = [table.row(f"h = {h}", runs("oblique", law="mohr_coulomb", **keys, element_size=h), "oblique",
+                           reached=0)
                  for h in LOCAL_ELEMENTS]
         for strain, column in zip(STRAINS, numpy.transpose(found)):
-            print(f"  {100 * strain:g} %: thickness / h = " + ", ".join(f"{v / h:.2f}" for v, h in zip(column, LOCAL_ELEMENTS)))
+            print(f"  {100 * strain:g} %: thickness / h = "
+                  + ", ".join(f"{v / h:.2f}" for v, h in zip(column, LOCAL_ELEMENTS)))
 
 
 def show_angle(table, runs):
     low, high = 45 + DILATANCY_ANGLE / 2, 45 + FRICTION_ANGLE / 2
-    print(f"\nsmooth, h = 0.5: angle of the band to the minor principal direction [degrees], {low} - {high} +- {ANGLE_BAND}")
+    print(f"\nsmooth, h = 0.5: angle of the band to the minor principal direction [degrees], {low} - {high} +- "
+          f"{ANGLE_BAND}")
     for strain, band in zip(STRAINS, bands(runs("smooth", internal_length=1, element_size=0.5), "smooth")):
         print(f"  {100 * strain:g} %: {band.angle:.1f}")
         table.expect(low - ANGLE_BAND <= abs(band.angle) <= high + ANGLE_BAND, f"angle at {100 * strain:g} %")
@@ -121,7 +129,8 @@ def show_far(table, runs):
     folder = far_run(runs)
     cost, strains = facts(folder), (0.02, 0.04, 0.08, 0.12, 0.16, 0.2, 0.25, 0.3)
     print(f"\noblique, geometry = updated, l = 2, h = 1: reached {100 * cost['reached_axial_strain']:g} % with"
-          f" {history(folder)[-1]['cut_backs']:.0f} cut-backs, {cost['steps']} steps, {cost['seconds']:.0f} s: {cost['message']}")
+          f" {history(folder)[-1]['cut_backs']:.0f} cut-backs, {cost['steps']} steps, {cost['seconds']:.0f} s: "
+          f"{cost['message']}")
     found = thicknesses(folder, "oblique", strains)
     print("  thickness [d]: " + ", ".join(f"{100 * e:g} %: {v:.1f}" for e, v in zip(strains, found)))
     table.expect(cost["reached_axial_strain"] > 0.3 - 1e-9, "30 % strain reached")

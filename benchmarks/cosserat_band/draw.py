@@ -17,14 +17,16 @@ STRAINS = (0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.08)
 def draw_field(figure, axes, folder, scene, title):
     increment = Increment(folder, 0.08)
     band = measure(increment, ARMS[scene])
-    cells = PolyCollection(increment.corners, array=increment.means / numpy.nanmax(band.profile), cmap="cividis", edgecolors="face",
-                           linewidths=0.4)
+    cells = PolyCollection(increment.corners, array=increment.means / numpy.nanmax(band.profile), cmap="cividis",
+                           edgecolors="face", linewidths=0.4)
     cells.set_clim(0, 1.5)
     axes.add_collection(cells)
     angle = numpy.radians(band.angle)
-    tangent, normal = numpy.array((numpy.cos(angle), numpy.sin(angle))), numpy.array((-numpy.sin(angle), numpy.cos(angle)))
+    tangent, normal = numpy.array((numpy.cos(angle), numpy.sin(angle))), numpy.array((-numpy.sin(angle),
+                                                                                      numpy.cos(angle)))
     for side in (-0.5, 0.5):
-        line = numpy.array([band.centre + side * band.thickness * normal + end * band.half_length * tangent for end in (-1, 1)])
+        line = numpy.array([band.centre + side * band.thickness * normal + end * band.half_length * tangent
+                            for end in (-1, 1)])
         axes.plot(*line.T, color="black", linewidth=3.5, solid_capstyle="butt")
         axes.plot(*line.T, color="white", linewidth=1.8, solid_capstyle="butt")
     axes.autoscale_view()
@@ -42,7 +44,8 @@ def draw_strain(axes, runs):
         axes.annotate(f"l = {length} d", (8.25, values[-1]), color=colour, va="center")
     axes.plot([], [], "-", color=BLACK, marker="o", markersize=4, label="h = l/2")
     axes.plot([], [], ":", color=BLACK, marker="o", markersize=4, markerfacecolor="white", label="h = l")
-    axes.set(xlabel="axial strain [%]", ylabel="thickness / d", xlim=(1.5, 9.9), ylim=(0, 26), title="oblique, W = H = 60 d")
+    axes.set(xlabel="axial strain [%]", ylabel="thickness / d", xlim=(1.5, 9.9), ylim=(0, 26),
+             title="oblique, W = H = 60 d")
     axes.legend(loc="upper left", ncol=2)
 
 
@@ -84,9 +87,11 @@ def draw_failure(axes, runs):
 
 def draw(runs, path):
     pyplot.rcParams.update({"font.size": 9, "axes.titlesize": 9.5, "legend.fontsize": 8})
-    figure, axes = pyplot.subplots(2, 3, figsize=(11, 7.6), constrained_layout=True, gridspec_kw={"height_ratios": (1.25, 1)})
+    figure, axes = pyplot.subplots(2, 3, figsize=(11, 7.6), constrained_layout=True,
+                                   gridspec_kw={"height_ratios": (1.25, 1)})
     for place, (scene, length, h) in zip(axes[0], (("oblique", 2, 1.0), ("vertical", 2, 1.0), ("smooth", 1, 0.5))):
-        cells = draw_field(figure, place, runs(scene, internal_length=length, element_size=h), scene, f"{scene}, l = {length} d:")
+        cells = draw_field(figure, place, runs(scene, internal_length=length, element_size=h), scene,
+                           f"{scene}, l = {length} d:")
     figure.colorbar(cells, ax=axes[0], shrink=0.85, pad=0.01).set_label(
         "plastic shear increment from 7 to 8 % strain\n/ peak of the band's profile")
     draw_strain(axes[1, 0], runs)

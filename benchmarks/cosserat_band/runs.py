@@ -22,7 +22,8 @@ class Runs:
         self.program, self.reuse, self.folder, self.scenes = options.program, options.reuse, folder, scenes
 
     def __call__(self, scene, **keys):
-        """Result folder of `scene` with the given keys of its section continuum. axial_strain is a key of the section loading."""
+        """Result folder of `scene` with the given keys of its section continuum. axial_strain is a key of the section
+        loading."""
         keys = {key: value if isinstance(value, str) else f"{value:g}" for key, value in keys.items()}
         name = "_".join([scene] + [f"{key}={value}" for key, value in keys.items()])
         folder = os.path.join(self.folder, name)
@@ -63,7 +64,8 @@ def thicknesses(folder, scene, strains=STRAINS):
 
 def size_runs(runs):
     return {size: runs("oblique", internal_length=2, element_size=1) if size == 60 else
-            runs("oblique", internal_length=2, element_size=1, rectangle_width=size, rectangle_height=size) for size in SIZES}
+            runs("oblique", internal_length=2, element_size=1, rectangle_width=size, rectangle_height=size)
+            for size in SIZES}
 
 
 def length_runs(runs):

@@ -1,14 +1,19 @@
 # diptych: thickness and angle of a shear band in a result of the continuum panel
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The full width at half maximum of the plastic shear increment between two stages, across the band, in current coordinates.
+"""The full width at half maximum of the plastic shear increment between two stages, across the band, in current
+coordinates.
 
-1. The result holds the increment of the hardening variable as means over cells. On the rectangle's grid the cubic spline through
-   its cumulative sums, direction by direction, turns them into point values. This keeps the cells' means, so that the width of a
-   cell does not widen the band. Each cell has N_POINTS^2 points; the biquadratic displacement moves them to their current places.
-2. A frame (centre, angle) on the band's middle part is cut into N_STRIPS strips across the band. The profile of a strip is the
-   mean over bins of a fifth of an element. Its half-maximum points are the first on both sides of its peak, interpolated
-   linearly. The base is zero, not the smallest value.
-3. The frame is moved and turned onto the straight line through the strips' middles until it no longer changes. Thickness is the
+1. The result holds the increment of the hardening variable as means over cells. On the rectangle's grid the cubic
+spline through
+   its cumulative sums, direction by direction, turns them into point values. This keeps the cells' means, so that the
+   width of a cell does not widen the band. Each cell has N_POINTS^2 points; the biquadratic displacement moves them to
+   their current places.
+2. A frame (centre, angle) on the band's middle part is cut into N_STRIPS strips across the band. The profile of a strip
+is the
+   mean over bins of a fifth of an element. Its half-maximum points are the first on both sides of its peak,
+   interpolated linearly. The base is zero, not the smallest value.
+3. The frame is moved and turned onto the straight line through the strips' middles until it no longer changes.
+Thickness is the
    mean over the strips, scatter their standard deviation. The angle is that of the frame."""
 import dataclasses
 import os
@@ -40,8 +45,8 @@ class Band:
 
 
 def point_values(n_cells):
-    """Matrix from the means c over a row of equal cells to N_POINTS values in each, through the natural cubic spline of the sums. Its
-    slopes m at the nodes satisfy m[i-1] + 4 m[i] + m[i+1] = 3 (c[i-1] + c[i])."""
+    """Matrix from the means c over a row of equal cells to N_POINTS values in each, through the natural cubic spline of
+    the sums. Its slopes m at the nodes satisfy m[i-1] + 4 m[i] + m[i+1] = 3 (c[i-1] + c[i])."""
     left, right = numpy.zeros((n_cells + 1, n_cells)), numpy.zeros((n_cells + 1, n_cells + 1))
     for i in range(n_cells + 1):
         for neighbour, cell in ((i - 1, i - 1), (i + 1, i)):
@@ -52,7 +57,8 @@ def point_values(n_cells):
     slopes = numpy.linalg.solve(right, left)
     t = (numpy.arange(N_POINTS) + 0.5) / N_POINTS
     cells = numpy.eye(n_cells)
-    values = ((1 - 4 * t + 3 * t**2)[None, :, None] * slopes[:-1, None, :] + (3 * t**2 - 2 * t)[None, :, None] * slopes[1:, None, :]
+    values = ((1 - 4 * t + 3 * t**2)[None, :, None] * slopes[:-1, None, :] + (3 * t**2 - 2 * t)[None, :, None]
+              * slopes[1:, None, :]
               + 6 * (t - t**2)[None, :, None] * cells[:, None, :])
     return values.reshape(-1, n_cells)
 
@@ -65,7 +71,8 @@ class Increment:
         with h5py.File(os.path.join(folder, "continuum.h5"), "r") as file:
             reached = {round(float(file[name].attrs["axial_strain"]), 6): name for name in sorted(file)}
             before, after = file[reached[round(last - strain, 6)]], file[reached[round(last, 6)]]
-            means = (after["cells/equivalent_plastic_strain"][()] - before["cells/equivalent_plastic_strain"][()]).ravel()
+            means = (after["cells/equivalent_plastic_strain"][()]
+                     - before["cells/equivalent_plastic_strain"][()]).ravel()
             cells = after["cells/nodes"][()]
             position = after["nodes/position"][()][:, :2]
             initial = position - after["nodes/displacement"][()][:, :2]

@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """check.py SCENE PROGRAM [--seeds 1,2,3] [--relax SCENE] [--output DIR] [--set section/key=value]...
 
-Runs `PROGRAM discrete SCENE` for every seed and compares the means over the seeds with the reference bands. --relax: runs that
-scene first; SCENE loads its last snapshot. Exit code 1: a number is outside its band; 2: a run failed."""
+Runs `PROGRAM discrete SCENE` for every seed and compares the means over the seeds with the reference bands. --relax:
+runs that scene first; SCENE loads its last snapshot. Exit code 1: a number is outside its band; 2: a run failed."""
 import argparse
 import csv
 import os
@@ -15,8 +15,8 @@ import tempfile
 
 PEAK_WINDOW = 0.005  # Axial strain over which the running mean is taken.
 
-# Name, reference, half width of its band. Stress ratios: scatter over three seeds of the reference. The reference gives no scatter
-# for porosities and dilation; 0.006 is our choice, twice the difference between seeds.
+# Name, reference, half width of its band. Stress ratios: scatter over three seeds of the reference. The reference gives
+# no scatter for porosities and dilation; 0.006 is our choice, twice the difference between seeds.
 BANDS = [("peak t/s", 0.40, 0.02), ("mean t/s, 1.5-4 %", 0.37, 0.02), ("mean t/s, 7-10 %", 0.29, 0.03),
          ("porosity, start", 0.169, 0.006), ("porosity, 10 %", 0.194, 0.006), ("dilation, 10 %", 0.03, 0.006)]
 BESIDE = ["strain at the peak", "largest penetration [d]", "median K/(M V^2/4)", "CPU seconds"]

@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """check.py PROGRAM [--seeds 1,2,3] [--output DIR] [--reuse] [--set section/key=value] [--figure figure.png]
 
-Runs dense.prm and loose.prm for every seed and compares both panels with the claims of the README. Exit code 1: a number is
-outside its interval; 2: a run failed. Needs h5py and numpy, the figure matplotlib."""
+Runs dense.prm and loose.prm for every seed and compares both panels with the claims of the README. Exit code 1: a
+number is outside its interval; 2: a run failed. Needs h5py and numpy, the figure matplotlib."""
 import os
 import sys
 
@@ -16,13 +16,15 @@ import claims  # noqa: E402
 
 STATES = ("dense", "loose")
 
-# Mean and four standard deviations over the first seven seeds of the README, narrower where the claim is stricter. The claim: the
-# same grains have a peak of more than 11 % in the dense sample and of less in the loose one.
+# Mean and four standard deviations over the first seven seeds of the README, narrower where the claim is stricter. The
+# claim: the same grains have a peak of more than 11 % in the dense sample and of less in the loose one.
 CLAIMS = [("largest difference of the sorted radii", 0, 0), ("dense: solid fraction", 0.845, 0.85),
           ("loose: solid fraction", 0.8, 0.814), ("loose / dense: t/s, first 1 %", 0.09, 0.32),
-          ("dense: peak t/s", 0.293, 0.447), ("dense: strain at the peak", 0.002, 0.036), ("dense: peak / last 2 %", 1.11, 1.7),
+          ("dense: peak t/s", 0.293, 0.447), ("dense: strain at the peak", 0.002, 0.036),
+          ("dense: peak / last 2 %", 1.11, 1.7),
           ("loose: peak / last 2 %", 1, 1.16), ("loose / dense: t/s, last 2 %", 0.66, 1.39),
-          ("dense: volumetric strain at the end", -0.0314, -0.0188), ("loose: volumetric strain at the end", 0.0064, 0.0269),
+          ("dense: volumetric strain at the end", -0.0314, -0.0188),
+          ("loose: volumetric strain at the end", 0.0064, 0.0269),
           ("dense, continuum: peak / end", 1.317, 1.389), ("loose, continuum: peak / end", 1, 1.04),
           ("dense: mean |t/s of the continuum / grains - 1|", 0, 0.12),
           ("loose: mean |t/s of the continuum / grains - 1|", 0, 0.16),
@@ -44,8 +46,8 @@ def state_figures(name, result):
             f"{name}: strain at the peak": end[mean.argmax()], f"{name}: t/s, last 2 %": last,
             f"{name}: peak / last 2 %": mean.max() / last, f"{name}: volumetric strain at the end": volume[0][-1],
             f"{name}: solid fraction at the end": history["solid_fraction"][-1],
-            f"{name}, continuum: peak / end": result.continuum["stress_ratio"].max() / result.continuum["stress_ratio"][-1],
-            f"{name}, continuum: volumetric strain at the end": volume[1][-1],
+            f"{name}, continuum: peak / end": result.continuum["stress_ratio"].max()
+            / result.continuum["stress_ratio"][-1], f"{name}, continuum: volumetric strain at the end": volume[1][-1],
             f"{name}: mean |t/s of the continuum / grains - 1|": numpy.abs(continuum / grains - 1).mean(),
             f"{name}: largest |difference of volumetric strain|": numpy.abs(volume[1] - volume[0]).max()}
 
@@ -63,7 +65,8 @@ def measure(runs):
 
 
 def draw(folder, path):
-    """Stress ratio and volumetric strain of both states: every step and running means of the grains, and the continuum."""
+    """Stress ratio and volumetric strain of both states: every step and running means of the grains, and the
+    continuum."""
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as pyplot

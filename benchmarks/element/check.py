@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """check.py PROGRAM [--seeds 1-8] [--output DIR] [--reuse] [--figure figure.png] [--paths drained,cycle]
 
-Runs `diptych element scene.prm` on every path and prints the root mean square of law - grains with the standard error of the
-grains, and the largest error of a prescribed stress in any step. Exit code 1: a number is outside its interval; 2: a run failed."""
+Runs `diptych element scene.prm` on every path and prints the root mean square of law - grains with the standard error
+of the grains, and the largest error of a prescribed stress in any step. Exit code 1: a number is outside its interval;
+2: a run failed."""
 import argparse
 import glob
 import json
@@ -19,13 +20,16 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 SCENE = os.path.join(HERE, "scene.prm")
 TABLES = {"cycle": "cycle.csv", "rotation": "rotation.csv"}
 # Path -> further settings. At constant volume rigid grains have no mean stress, so these have springs.
-PATHS = {"drained": (), "constant_mean_stress": (), "simple_shear": (), "constant_volume": ("discrete/method=penalty", ),
-         "cycle": (), "rotation": ("loading/inertial_number=1e-4", )}
+PATHS = {"drained": (), "constant_mean_stress": (), "simple_shear": (),
+         "constant_volume": ("discrete/method=penalty", ), "cycle": (), "rotation": ("loading/inertial_number=1e-4", )}
 COLUMNS = (("stress_ratio", 1, "t/s"), ("volumetric_strain", 100, "volumetric strain [%]"),
            ("fabric_anisotropy", 1, "anisotropy a of the fabric"), ("coordination", 1, "contacts per grain"))
-CONTROLS = {"sxx": ("drive_sxx", ), "syy": ("drive_syy", ), "sxy": ("drive_sxy", ), "mean_stress": ("drive_sxx", "drive_syy")}
-NAMED = {"drained": {"sxx": 1}, "constant_volume": {}, "constant_mean_stress": {"mean_stress": 1}, "simple_shear": {"syy": 1}}
-# Largest error of a prescribed stress in units of the pressure. A row of a table may begin within a step, over which the mean acts.
+CONTROLS = {"sxx": ("drive_sxx", ), "syy": ("drive_syy", ), "sxy": ("drive_sxy", ),
+            "mean_stress": ("drive_sxx", "drive_syy")}
+NAMED = {"drained": {"sxx": 1}, "constant_volume": {}, "constant_mean_stress": {"mean_stress": 1},
+         "simple_shear": {"syy": 1}}
+# Largest error of a prescribed stress in units of the pressure. A row of a table may begin within a step, over which
+# the mean acts.
 STRESS_ERROR = {"rotation": 1e-3}
 
 
@@ -50,8 +54,8 @@ def run(options, path):
 
 
 def stress_error(folder, path):
-    """Largest difference of a prescribed stress from that which drives the cell, over all steps of all samples. It acts over the
-    step, so that its value in the middle counts."""
+    """Largest difference of a prescribed stress from that which drives the cell, over all steps of all samples. It acts
+    over the step, so that its value in the middle counts."""
     table = columns(os.path.join(HERE, TABLES[path])) if path in TABLES else {**NAMED[path], "progress": None}
     worst = 0.
     for file in glob.glob(os.path.join(folder, "runs", "*", "discrete.csv")):
@@ -67,7 +71,8 @@ def draw(folders, figure_file):
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as pyplot
-    figure, axes = pyplot.subplots(len(folders), 4, figsize=(14, 2.5 * len(folders)), constrained_layout=True, squeeze=False)
+    figure, axes = pyplot.subplots(len(folders), 4, figsize=(14, 2.5 * len(folders)), constrained_layout=True,
+                                   squeeze=False)
     for row, (path, folder) in zip(axes, folders.items()):
         curves = columns(os.path.join(folder, "element.csv"))
         for axis, (name, factor, label) in zip(row, COLUMNS):
@@ -77,7 +82,8 @@ def draw(folders, figure_file):
             axis.fill_between(curves["progress"], mean - error, mean + error, color="#0072b2", alpha=0.35, linewidth=0)
             axis.plot(curves["progress"], mean, color="#0072b2", linewidth=1.2, label="grains")
             if f"law_{name}" in curves:
-                axis.plot(curves["progress"], factor * curves[f"law_{name}"], "--", color="#d55e00", linewidth=1.2, label="law")
+                axis.plot(curves["progress"], factor * curves[f"law_{name}"], "--", color="#d55e00", linewidth=1.2,
+                          label="law")
             axis.set(xlabel="progress of the path", ylabel=label)
             axis.grid(alpha=0.3)
         row[0].set_title(path.replace("_", " "), loc="left")

@@ -1,10 +1,11 @@
 # diptych: a periodic cell of discs on a path, in LAMMPS
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The grains of a snapshot in LAMMPS' triclinic box (gran/hooke/history, fix deform, fix nph/sphere) under P = 1, d = rho = 1.
+"""The grains of a snapshot in LAMMPS' triclinic box (gran/hooke/history, fix deform, fix nph/sphere) under P = 1, d =
+rho = 1.
 
-The springs are those of the method `penalty`: kt = kn/2, normal damping that never makes a contact attract, none along the
-tangent, step 0.2 sqrt(m_min/kn). They are pressed without friction for PRELOAD first. LAMMPS keeps the first lattice vector along
-x, so that its box turns with the shear; the cell of Diptych does not turn."""
+The springs are those of the method `penalty`: kt = kn/2, normal damping that never makes a contact attract, none along
+the tangent, step 0.2 sqrt(m_min/kn). They are pressed without friction for PRELOAD first. LAMMPS keeps the first
+lattice vector along x, so that its box turns with the shear; the cell of Diptych does not turn."""
 import os
 import subprocess
 
@@ -48,7 +49,8 @@ set group all omega 0.0 0.0 0.0
 fix deform all deform 1 {motion} remap v
 fix box all nph/sphere {free} 1 1 1.0 disc ptemp 1 drag 1 scalexy no fixedpoint 0 0 0
 fix flat all enforce2d
-fix out all ave/time {every} 1 {every} v_width v_height v_tilt c_stress[1] c_stress[2] c_stress[4] file history.txt format " %.9g"
+fix out all ave/time {every} 1 {every} v_width v_height v_tilt c_stress[1] c_stress[2] c_stress[4] &
+  file history.txt format " %.9g"
 run {steps}
 """
 
@@ -63,21 +65,25 @@ def write_start(path, position, radius, vectors):
             file.write(f"{i + 1} 1 {2 * radius[i]:.16g} 1.0 {position[i, 0]:.16g} {position[i, 1]:.16g} 0.0\n")
 
 
-def run(sample, folder, path, stiffness, inertial_number, strain, friction=0.4):
-    """Columns by name: progress (1 - h/h0 or 2 exy), t, s [P], volumetric_strain, exx, eyy, sxx, syy, sxy. sample: (positions (n, 2),
-    radii (n), lattice vectors (2, 2) as columns). Throws RuntimeError if LAMMPS fails."""
+def run(sample, folder, path, stiffness, inertial_number, *, strain, friction=0.4):
+    """Columns by name: progress (1 - h/h0 or 2 exy), t, s [P], volumetric_strain, exx, eyy, sxx, syy, sxy. sample:
+    (positions (n, 2), radii (n), lattice vectors (2, 2) as columns). Throws RuntimeError if LAMMPS fails."""
     os.makedirs(folder, exist_ok=True)
     position, radius, vectors = sample
     mass = numpy.pi * radius ** 2
     step = 0.2 * numpy.sqrt(mass.min() / stiffness)
     write_start(os.path.join(folder, "start.data"), position, radius, vectors)
     motion, free = PATHS[path]
-    values = dict(kn=stiffness, kt=stiffness / 2, gn=f"{2 * DAMPING * numpy.sqrt(2 * stiffness / mass.mean()):.10g}", step=f"{step:.12g}",
-                  friction=friction, motion=motion.format(rate=inertial_number), free=free, preload_steps=int(PRELOAD / step),
-                  steps=int(numpy.ceil(strain / inertial_number / step)), every=max(1, round(ROW_STRAIN / inertial_number / step)))
+    values = dict(kn=stiffness, kt=stiffness / 2, gn=f"{2 * DAMPING * numpy.sqrt(2 * stiffness / mass.mean()):.10g}",
+                  step=f"{step:.12g}",
+                  friction=friction, motion=motion.format(rate=inertial_number), free=free,
+                  preload_steps=int(PRELOAD / step),
+                  steps=int(numpy.ceil(strain / inertial_number / step)),
+                  every=max(1, round(ROW_STRAIN / inertial_number / step)))
     with open(os.path.join(folder, "in.cell"), "w", encoding="utf-8") as file:
         file.write(SCRIPT.format(**values))
-    done = subprocess.run(["lmp", "-in", "in.cell", "-log", "log.lammps", "-screen", "none"], cwd=folder, capture_output=True, text=True)
+    done = subprocess.run(["lmp", "-in", "in.cell", "-log", "log.lammps", "-screen", "none"], cwd=folder,
+                          capture_output=True, text=True)
     if done.returncode != 0:
         raise RuntimeError(f"{folder}: lmp failed: {(done.stderr or done.stdout)[-500:]}")
     return history(folder, path)
@@ -89,5 +95,7 @@ def history(folder, path):
     exx, eyy = -numpy.log(width / width[0]), -numpy.log(height / height[0])
     middle = 0.5 * (height[1:] + height[:-1])
     shear = -numpy.concatenate([[0], numpy.cumsum(numpy.diff(tilt) / middle)])
-    return {"progress": 1 - height / height[0] if path == "drained" else shear, "t": numpy.hypot((syy - sxx) / 2, sxy), "s": (sxx + syy) / 2,
-            "volumetric_strain": 1 - width * height / (width[0] * height[0]), "exx": exx, "eyy": eyy, "sxx": sxx, "syy": syy, "sxy": sxy}
+    return {"progress": 1 - height / height[0] if path == "drained" else shear, "t": numpy.hypot((syy - sxx) / 2, sxy),
+            "s": (sxx + syy) / 2,
+            "volumetric_strain": 1 - width * height / (width[0] * height[0]), "exx": exx, "eyy": eyy, "sxx": sxx,
+            "syy": syy, "sxy": sxy}

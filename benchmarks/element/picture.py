@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # diptych: picture of a cell of grains
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""picture.py FOLDER/discrete.h5 FIGURE: the first and the last stage of a cell: grains, coloured by their rotation since the first
-stage, and contact forces as lines between the centres, whose width is proportional to the force."""
+"""picture.py FOLDER/discrete.h5 FIGURE: the first and the last stage of a cell: grains, coloured by their rotation
+since the first stage, and contact forces as lines between the centres, whose width is proportional to the force."""
 import sys
 
 import h5py
@@ -31,7 +31,8 @@ def draw(axis, stage, rotation):
     for i, j in IMAGES:
         shift = vectors @ (i, j)
         grains = EllipseCollection(2 * radius, 2 * radius, 0 * radius, units="xy", offsets=position + shift,
-                                   transOffset=axis.transData, array=rotation, cmap="RdBu", edgecolors="0.6", linewidths=0.3)
+                                   transOffset=axis.transData, array=rotation, cmap="RdBu", edgecolors="0.6",
+                                   linewidths=0.3)
         grains.set_clim(-TURN, TURN)
         lines = LineCollection(numpy.stack([start + shift, start + shift + branch], axis=1), colors="k",
                                linewidths=1.2 * force / force.mean(), capstyle="round")
@@ -53,7 +54,8 @@ def main(path, figure_file):
         for axis, stage in zip(axes, (first, last)):
             colours = draw(axis, stage, numpy.degrees(stage["grains/rotation"][:] - before))
             axis.set_title(f"2 exy = {100 * stage.attrs['progress']:.3g} %")
-        figure.colorbar(colours, ax=axes, label="rotation since the start [degrees], counter-clockwise positive", shrink=0.6)
+        figure.colorbar(colours, ax=axes, label="rotation since the start [degrees], counter-clockwise positive",
+                        shrink=0.6)
         figure.savefig(figure_file, dpi=72)
 
 

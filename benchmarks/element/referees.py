@@ -3,9 +3,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """referees.py PROGRAM --output DIR [--seeds 1-8] [--reuse] walls|lammps
 
-walls    the drained cell of scene.prm against the interior of ../dense_biaxial, at least INTERIOR d from the walls, to 4 % of strain
-lammps   a drained test and simple shear: NSCD and springs (method penalty) against LAMMPS' triclinic box, with the grains of the
-         prepared cell of every seed, kn/P = STIFFNESS
+walls    the drained cell of scene.prm against the interior of ../dense_biaxial, at least INTERIOR d from the walls, to
+         4 % of strain
+lammps   a drained test and simple shear: NSCD and springs (method penalty) against LAMMPS' triclinic box, with the
+         grains of the prepared cell of every seed, kn/P = STIFFNESS
 
 Both are listed with the differences of T/S and of the volume, and their standard errors over the seeds."""
 import argparse
@@ -51,7 +52,8 @@ def shown(name, values, reference):
     values, reference = numpy.array(values), numpy.array(reference)
     n = len(values)
     difference, error = values - reference, (values - reference).std(axis=0, ddof=1) / numpy.sqrt(n)
-    print(f"{name:36}T/S {values[:, 0].mean():.4f}, differs by {100 * difference[:, 0].mean() / reference[:, 0].mean():+.1f} +- "
+    print(f"{name:36}T/S {values[:, 0].mean():.4f}, differs by "
+          f"{100 * difference[:, 0].mean() / reference[:, 0].mean():+.1f} +- "
           f"{100 * error[0] / reference[:, 0].mean():.1f} %;  volume {100 * values[:, 1].mean():.3f} %, differs by "
           f"{100 * difference[:, 1].mean():+.3f} +- {100 * error[1]:.3f} %")
     return difference[:, 0].mean() / reference[:, 0].mean()
@@ -82,7 +84,7 @@ def against_lammps(run):
             if run.options.reuse and os.path.exists(os.path.join(folder, "history.txt")):
                 other = lammps.history(folder, path)
             else:
-                other = lammps.run(prepared(rigid.folder), folder, path, STIFFNESS, RATE, END)
+                other = lammps.run(prepared(rigid.folder), folder, path, STIFFNESS, RATE, strain=END)
             for name, history in zip(found, (rigid.grains, soft.grains, other)):
                 found[name].append(strength(history))
         shown(f"{path}: LAMMPS", found["LAMMPS"], found["LAMMPS"])

@@ -3,9 +3,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """check.py PROGRAM [--levels 5] [--output DIR] [--figure figure.png]
 
-Runs `PROGRAM continuum` on phi0.prm and phi20.prm and compares N_c = force / (c B) at the end with the closed form. --levels: list
-of refinement levels of elements of 0.5, for a convergence table. The scenes have 5 levels, and only these are judged. Exit code 1:
-N_c is off by more than 3 %; 2: a run failed. The figure needs h5py, matplotlib and numpy."""
+Runs `PROGRAM continuum` on phi0.prm and phi20.prm and compares N_c = force / (c B) at the end with the closed form.
+--levels: list of refinement levels of elements of 0.5, for a convergence table. The scenes have 5 levels, and only
+these are judged. Exit code 1: N_c is off by more than 3 %; 2: a run failed. The figure needs h5py, matplotlib and
+numpy."""
 import argparse
 import csv
 import math
@@ -33,8 +34,8 @@ def run(program, friction_angle, levels, folder):
     settings = [f"continuum/refinement_levels={levels}", f"continuum/element_size={COARSE_ELEMENT / 2**levels}"]
     words = [word for setting in settings for word in ("--set", setting)]
     before = os.times()
-    done = subprocess.run([program, "continuum", os.path.join(HERE, f"phi{friction_angle}.prm"), "--output", folder, "--overwrite", "--quiet",
-                           *words], capture_output=True, text=True)
+    done = subprocess.run([program, "continuum", os.path.join(HERE, f"phi{friction_angle}.prm"), "--output", folder,
+                           "--overwrite", "--quiet", *words], capture_output=True, text=True)
     after = os.times()
     if done.returncode != 0:
         sys.stderr.write(f"check.py: {folder} ended with exit code {done.returncode}: {done.stderr.strip()}\n")
@@ -49,7 +50,8 @@ def bearing_factor(row):
 
 
 def prandtl_outline(friction_angle):
-    """Right half of the rigid-plastic mechanism in widths B from the strip's middle: wedge, logarithmic spiral, passive block."""
+    """Right half of the rigid-plastic mechanism in widths B from the strip's middle: wedge, logarithmic spiral, passive
+    block."""
     import numpy
     phi, steep = math.radians(friction_angle), math.radians(45 + friction_angle / 2)
     theta = numpy.linspace(0, math.pi / 2, 60)
@@ -60,7 +62,8 @@ def prandtl_outline(friction_angle):
 
 
 def plastic_increment(folder):
-    """Corners of the cells relative to the strip's middle [B], and the hardening variable's increment over the last stage."""
+    """Corners of the cells relative to the strip's middle [B], and the hardening variable's increment over the last
+    stage."""
     import h5py
     with h5py.File(os.path.join(folder, "continuum.h5"), "r") as file:
         before, after = (file[name] for name in sorted(file)[-2:])
@@ -135,7 +138,8 @@ def main():
                 outside = levels >= SCENE_LEVELS and abs(error) > ALLOWED
                 n_outside += outside
                 print(f"{angle:3}  {levels:6}  {COARSE_ELEMENT / 2**levels:7.4f}  {bearing_factor(row):6.3f}"
-                      f"  {closed_form(angle):11.3f}  {100 * error:+4.1f} %  {row['n_cells']:8.0f}  {row['n_unknowns']:8.0f}"
+                      f"  {closed_form(angle):11.3f}  {100 * error:+4.1f} %  {row['n_cells']:8.0f}  "
+                      f"{row['n_unknowns']:8.0f}"
                       f"  {row['cut_backs']:9.0f}  {seconds:5.1f}" + ("  OUTSIDE" if outside else ""), flush=True)
         if options.figure:
             draw(folders, options.figure)

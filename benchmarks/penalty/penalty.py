@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """penalty.py PROGRAM [--seeds 1,2,3] [--figure figure.png] [--no-blow-up]
 
-Both methods load the same samples (benchmarks/dense_biaxial: relaxed, 1000 discs) to 4 % strain. The penalty method first presses
-its springs. A second part finds the step at which the penalty method blows up. The figure needs matplotlib."""
+Both methods load the same samples (benchmarks/dense_biaxial: relaxed, 1000 discs) to 4 % strain. The penalty method
+first presses its springs. A second part finds the step at which the penalty method blows up. The figure needs
+matplotlib."""
 import argparse
 import csv
 import json
@@ -29,7 +30,8 @@ CASES = (("frictionless, undamped", 0, 0, 1.13e-3), ("sticking, undamped", 100, 
 def run(program, scene, folder, settings):
     """(exit code, CPU seconds of the discrete panel, history rows as floats)."""
     words = [word for setting in settings for word in ("--set", setting)]
-    done = subprocess.run([program, "discrete", os.path.join(BIAXIAL, scene), "--output", folder, "--overwrite", "--quiet", *words],
+    done = subprocess.run([program, "discrete", os.path.join(BIAXIAL, scene), "--output", folder, "--overwrite",
+                           "--quiet", *words],
                           capture_output=True, text=True)
     if done.returncode not in (0, 3):
         sys.exit(f"penalty.py: {folder}: {done.stderr.strip()}")
@@ -73,7 +75,8 @@ def compare(options, scratch, samples):
     for seed, sample in samples.items():
         for step in STEPS:
             folder = os.path.join(scratch, f"nscd_{step}_{seed}")
-            figures.setdefault(f"NSCD h = {step:g}", []).append(load(options.program, folder, sample, [f"discrete/step={step}", *NSCD]))
+            figures.setdefault(f"NSCD h = {step:g}", []).append(load(options.program, folder, sample,
+                                                                     [f"discrete/step={step}", *NSCD]))
         for stiffness in STIFFNESSES:
             folder = os.path.join(scratch, f"penalty_{stiffness:g}_{seed}")
             compressed = sample_under_springs(options.program, folder + "_springs", sample, stiffness)
@@ -87,14 +90,18 @@ def compare(options, scratch, samples):
             continue
         ratio, half = mean_and_half_range([r["ratio"] for r in ended])
         print(f"{name:15} {ratio:16.3f} +- {half:.3f} {100 * statistics.fmean(r['overlap'] for r in ended):30.4f}"
-              f" {statistics.fmean(r['kinetic'] for r in ended):20.2f} {statistics.fmean(r['seconds'] for r in ended):10.2f}"
-              + ("" if len(ended) == len(runs) else f"  {len(runs) - len(ended)} of {len(runs)} did not end"), flush=True)
+              f" {statistics.fmean(r['kinetic'] for r in ended):20.2f} "
+              f"{statistics.fmean(r['seconds'] for r in ended):10.2f}"
+              + ("" if len(ended) == len(runs) else f"  {len(runs) - len(ended)} of {len(runs)} did not end"),
+              flush=True)
     return figures
 
 
 def blow_up(options, scratch, sample):
-    """Median kinetic energy over 0.25-0.5 % strain, relative to that of the smallest step fraction; inf: the run blew up."""
-    print("\nkinetic energy relative to that at step fraction 0.2, kn/P = 1000, to 0.5 % strain\nstep / sqrt(m_min/kn)      "
+    """Median kinetic energy over 0.25-0.5 % strain, relative to that of the smallest step fraction; inf: the run blew
+    up."""
+    print("\nkinetic energy relative to that at step fraction 0.2, kn/P = 1000, to 0.5 % strain\nstep / sqrt(m_min/kn) "
+          "     "
           + "".join(f"{f:8g}" for f in FRACTIONS))
     compressed = sample_under_springs(options.program, os.path.join(scratch, "blow_springs"), sample, 1000)
     for name, friction, damping, inertial_number in CASES:
@@ -103,7 +110,8 @@ def blow_up(options, scratch, sample):
             folder = os.path.join(scratch, f"blow_{name}_{fraction}")
             code, _, rows = run(options.program, "scene.prm", folder, PENALTY + [
                 f"sample/file={compressed}", "loading/axial_strain=0.005", "loading/stage_strain=0.005",
-                "comparison/window_edges=0,0.005", f"loading/inertial_number={inertial_number}", f"discrete/friction={friction}",
+                "comparison/window_edges=0,0.005", f"loading/inertial_number={inertial_number}",
+                f"discrete/friction={friction}",
                 f"discrete/penalty_damping={damping}", f"discrete/penalty_step_fraction={fraction}",
                 "discrete/penalty_stiffness=1000"])
             energies.append(float("inf") if code == 3 else

@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: plan.py PROGRAM [--output DIR] [--scenes NAME ...] [--jobs N]
 
-Plans every scene, then runs the planned settings and a finer reference with `diptych study`. Prints error, scatter and CPU time,
-predicted and found."""
+Plans every scene, then runs the planned settings and a finer reference with `diptych study`. Prints error, scatter and
+CPU time, predicted and found."""
 import argparse
 import json
 import os
@@ -86,7 +86,8 @@ def row(name, panel, q, found, cpu_s):
     most = sum(part["error"] for part in q["parts"] if part["cause"] != "samples")
     error, scatter = found["error"], found["deviation"] and found["deviation"] / abs(found["mean"])
     interval = "" if error["low"] is None else f" ({per_cent(error['low'])} to {per_cent(error['high'])})"
-    return (f"| {name} | {q['name']} | {per_cent(q['bias'])} | {per_cent(most)} | {per_cent(error['value'])}{interval} | {per_cent(q['scatter'])} | "
+    return (f"| {name} | {q['name']} | {per_cent(q['bias'])} | {per_cent(most)} | {per_cent(error['value'])}{interval} "
+            f"| {per_cent(q['scatter'])} | "
             f"{per_cent(scatter) if panel['panel'] == 'discrete' else '-'} | {panel['cpu_s']:.3g} | {cpu_s:.3g} |")
 
 
@@ -98,7 +99,8 @@ def main():
     parser.add_argument("--jobs")
     options = parser.parse_args()
     jobs = ["--jobs", options.jobs] if options.jobs else []
-    print("| scene | quantity | error of the method, expected, % | at most about, % | found, % (95 %) | scatter, predicted, % | found, % | CPU s a "
+    print("| scene | quantity | error of the method, expected, % | at most about, % | found, % (95 %) | scatter, "
+          "predicted, % | found, % | CPU s a "
           "sample, predicted | found |\n|---|---|---|---|---|---|---|---|---|", flush=True)
     for name in options.scenes:
         scene, accuracy, settings = SCENES[name]

@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 # diptych: friction and solid fraction of sheared discs over the inertial number
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""plane_shear.py PROGRAM [--seeds 1,2,3,4] [--numbers 0.005,0.016,...] [--friction 0.4,0] [--jobs 2] [--output DIR] [--reuse]
+"""plane_shear.py PROGRAM [--seeds 1,2,3,4] [--numbers 0.005,0.016,...] [--friction 0.4,0] [--jobs 2] [--output DIR]
+[--reuse]
                 [--set section/key=value] [--figure figure.png]
 
-Loads scene.prm for every seed, friction and inertial number and averages over shear strains of 2 to 6. mu* is the mean shear force
-on the upper platen over its mean normal force. Rate and solid fraction are those of the middle half of the height, from the
-snapshots. Then fits the straight lines mu* = a + b I and phi = a - b I as da Cruz et al. (2005). Needs h5py and numpy, the figure
-matplotlib."""
+Loads scene.prm for every seed, friction and inertial number and averages over shear strains of 2 to 6. mu* is the mean
+shear force on the upper platen over its mean normal force. Rate and solid fraction are those of the middle half of the
+height, from the snapshots. Then fits the straight lines mu* = a + b I and phi = a - b I as da Cruz et al. (2005). Needs
+h5py and numpy, the figure matplotlib."""
 import argparse
 import concurrent.futures
 import os
@@ -25,8 +26,8 @@ SCENE = os.path.join(HERE, "scene.prm")
 DISC = numpy.sqrt(numpy.pi / 4)  # sqrt(m/P) with the mass of the mean disc, over d sqrt(rho/P).
 FIRST_STRAIN = 2.
 SLICES = 40  # Slices of the height, for the areas of the discs.
-# mu* and phi over I = rate sqrt(m/P) with friction 0.4 (da Cruz et al. 2005, Phys. Rev. E 72, 021309): mu* = 0.25 + 1.1 I and
-# phi = 0.81 - 0.3 I.
+# mu* and phi over I = rate sqrt(m/P) with friction 0.4 (da Cruz et al. 2005, Phys. Rev. E 72, 021309): mu* = 0.25 + 1.1
+# I and phi = 0.81 - 0.3 I.
 LITERATURE = {"mu*": (0.25, 1.1), "phi": (0.81, -0.3)}
 
 
@@ -68,13 +69,14 @@ def figures(result):
 def run(options, case):
     seed, friction, number = case
     runs = claims.Runs(options, seed, os.path.join(options.output, f"seed_{seed}"))
-    return figures(runs.run(f"mu_{friction:g}_I_{number:g}", "discrete", SCENE, f"loading/inertial_number={number / DISC:.6g}",
-                            f"discrete/friction={friction:g}"))
+    return figures(runs.run(f"mu_{friction:g}_I_{number:g}", "discrete", SCENE,
+                            f"loading/inertial_number={number / DISC:.6g}", f"discrete/friction={friction:g}"))
 
 
 def measure(options):
     """{(friction, inertial number): [numbers of each seed]}."""
-    cases = [(seed, friction, number) for friction in options.friction for number in options.numbers for seed in options.seeds]
+    cases = [(seed, friction, number) for friction in options.friction for number in options.numbers
+             for seed in options.seeds]
     found = {}
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         for (_, friction, number), result in zip(cases, pool.map(lambda case: run(options, case), cases)):
@@ -96,7 +98,8 @@ def show(found, options):
     print("friction   I in the middle    mu*                 phi")
     for (friction, _), results in found.items():
         columns = {name: claims.mean_and_error([r[name] for r in results]) for name in ("I", "mu*", "phi")}
-        print(f"{friction:8g}   {columns['I'][0]:15.4f}" + "".join(f"    {columns[n][0]:.4f} +- {columns[n][1]:.4f}" for n in ("mu*", "phi")))
+        print(f"{friction:8g}   {columns['I'][0]:15.4f}" + "".join(f"    {columns[n][0]:.4f} +- {columns[n][1]:.4f}"
+                                                                   for n in ("mu*", "phi")))
     for friction in options.friction if len(options.numbers) > 2 else ():
         for name in ("mu*", "phi"):
             (a, a_error), (b, b_error) = straight_line(found, friction, name, len(options.seeds))
@@ -113,7 +116,8 @@ def draw(found, options, path):
             points = [(results, key) for key, results in found.items() if key[0] == friction]
             x = [numpy.mean([r["I"] for r in results]) for results, _ in points]
             y = [claims.mean_and_error([r[name] for r in results]) for results, _ in points]
-            axis.errorbar(x, [v[0] for v in y], [v[1] for v in y], fmt=marker, color=colour, capsize=3, label=f"friction {friction:g}")
+            axis.errorbar(x, [v[0] for v in y], [v[1] for v in y], fmt=marker, color=colour, capsize=3,
+                          label=f"friction {friction:g}")
         a, b = LITERATURE[name]
         span = numpy.array([0.005, 0.14])
         axis.plot(span, a + b * span, "k--", linewidth=1, label="da Cruz et al. 2005, friction 0.4")
@@ -128,7 +132,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=os.path.abspath)
     parser.add_argument("--seeds", type=lambda text: [int(word) for word in text.split(",")], default=[1, 2, 3, 4])
-    parser.add_argument("--numbers", type=numbers, default=[0.005, 0.016, 0.05, 0.1, 0.14], help="I from the platens' speed and distance")
+    parser.add_argument("--numbers", type=numbers, default=[0.005, 0.016, 0.05, 0.1, 0.14],
+                        help="I from the platens' speed and distance")
     parser.add_argument("--friction", type=numbers, default=[0.4, 0.])
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--output", help="folder for the result folders; default: thrown away")

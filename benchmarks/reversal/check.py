@@ -3,10 +3,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """check.py PROGRAM [--seeds 1,2,3,4] [--output DIR] [--reuse] [--set section/key=value] [--fit] [--figure figure.png]
 
-Runs scene.prm with a dense and a loose packing of every seed, and its continuum with two kinds of hardening. Compares the mean
-of the grains with the continuum after the first reversal, to which nothing was fitted. --fit: also runs the monotonic path and
-prints the parameters that fit it (PYTHONPATH with diptych; scipy). Exit code 1: a number is outside its interval; 2: a run
-failed."""
+Runs scene.prm with a dense and a loose packing of every seed, and its continuum with two kinds of hardening. Compares
+the mean of the grains with the continuum after the first reversal, to which nothing was fitted. --fit: also runs the
+monotonic path and prints the parameters that fit it (PYTHONPATH with diptych; scipy). Exit code 1: a number is outside
+its interval; 2: a run failed."""
 import argparse
 import os
 import sys
@@ -24,16 +24,19 @@ REVERSAL = 41.  # time of the first reversal, the end of the fitted part
 MONOTONIC = ("loading/duration=201", "loading/stages=201",
              "discrete/drive_upper_y=velocity " + os.path.join(HERE, "monotonic.csv"))
 # Settings of the grains, and their solid fraction prepared (mean of the seeds).
-PACKINGS = {"dense": ((), 0.8327), "loose": (("sample/box_solid_fraction=0.75", "sample/preparation_friction=0.3"), 0.8040)}
+PACKINGS = {"dense": ((), 0.8327), "loose": (("sample/box_solid_fraction=0.75", "sample/preparation_friction=0.3"),
+                                             0.8040)}
 # Fitted to the monotonic path of both packings (--fit). `dense` and `loose` are t/s at the start of each.
-KEYS = ("critical_stress_ratio", "critical_solid_fraction", "strength_by_density", "dilatancy_ratio", "mobilisation_strain",
-        "youngs_modulus", "dense", "loose")
+KEYS = ("critical_stress_ratio", "critical_solid_fraction", "strength_by_density", "dilatancy_ratio",
+        "mobilisation_strain", "youngs_modulus", "dense", "loose")
 LAWS = {"kinematic": (0.2964, 0.8042, 3.933, 0.3773, 0.03569, 2107, 0.3664, 0.0116),
         "critical_state": (0.2658, 0.8024, 4.905, 0.5796, 0.02541, 2190, 0.3869, 0.01647)}
 # name: lowest, highest.
 CLAIMS = {"dense, kinematic: rms difference of t/s": (0, 0.08), "loose, kinematic: rms difference of t/s": (0, 0.07),
-          "dense, kinematic: rms difference of volume": (0, 0.006), "loose, kinematic: rms difference of volume": (0, 0.006),
-          "dense, critical_state: rms difference of t/s": (0.16, 1), "loose, critical_state: rms difference of t/s": (0.12, 1)}
+          "dense, kinematic: rms difference of volume": (0, 0.006),
+          "loose, kinematic: rms difference of volume": (0, 0.006),
+          "dense, critical_state: rms difference of t/s": (0.16, 1),
+          "loose, critical_state: rms difference of t/s": (0.12, 1)}
 
 
 def signed_ratio(history):
@@ -42,7 +45,8 @@ def signed_ratio(history):
 
 
 def windows(history):
-    """Means over WINDOW of time of one run of the grains: time, axial strain, t/s (of the mean stress), volumetric strain."""
+    """Means over WINDOW of time of one run of the grains: time, axial strain, t/s (of the mean stress), volumetric
+    strain."""
     number = numpy.floor(history["time"] / WINDOW).astype(int)
     mean = {name: numpy.bincount(number, history[name])[:-1] / numpy.bincount(number)[:-1]
             for name in ("time", "axial_strain", "volumetric_strain", "sxx", "syy")}
@@ -56,7 +60,8 @@ def grains(options, packing, path, settings=()):
         one = claims.Runs(options, seed, os.path.join(options.output, f"seed_{seed}"))
         runs.append(one.run(f"{packing}_{path}", "discrete", SCENE, *PACKINGS[packing][0], *settings).grains)
     n = min(len(windows(history)[0]) for history in runs)
-    return numpy.array([windows(history)[:, :n] for history in runs]), numpy.mean([h["solid_fraction"][0] for h in runs])
+    return numpy.array([windows(history)[:, :n] for history in runs]), numpy.mean([h["solid_fraction"][0]
+                                                                                   for h in runs])
 
 
 def continuum(options, packing, law):
@@ -97,7 +102,8 @@ def compare(options):
 
 
 def fit(options):
-    """Prints the parameters of each law that fit t/s (to 0.02) and volume (to 0.1 %) of both packings on the monotonic path."""
+    """Prints the parameters of each law that fit t/s (to 0.02) and volume (to 0.1 %) of both packings on the monotonic
+    path."""
     import diptych
     from scipy.optimize import least_squares
     strain = numpy.r_[0.0005, 0.001, 0.002, 0.003, 0.005, 0.0075, 0.01, 0.015, 0.02:0.0951:0.005]
@@ -110,7 +116,8 @@ def fit(options):
     def residual(values, law):
         found = []
         for packing, (fraction, (ratio, volume)) in targets.items():
-            keys = {"law": "cosserat_mohr_coulomb", "hardening": law, "cohesion": 0.001, "solid_fraction_start": fraction}
+            keys = {"law": "cosserat_mohr_coulomb", "hardening": law, "cohesion": 0.001,
+                    "solid_fraction_start": fraction}
             point = diptych.biaxial({**keys, **law_keys(values.tolist(), packing)}, axial_strain=0.1, step=5e-4)
             found.append((numpy.interp(strain, point["axial_strain"], point["stress_ratio"]) - ratio) / 0.02)
             found.append((numpy.interp(strain, point["axial_strain"], point["volumetric_strain"]) - volume) / 0.001)
@@ -135,8 +142,10 @@ def draw(curves, path):
             strain = 100 * mean[1]
             for line in seeds:
                 axis.plot(100 * line[1], scale * line[k], color="0.75", linewidth=0.5)
-            axis.plot(strain[fitted], scale * mean[k][fitted], color="#009e73", alpha=0.35, linewidth=9, label="fitted part")
-            axis.errorbar(strain, scale * mean[k], scale * error[k], color="k", linewidth=1.2, elinewidth=0.5, label="grains")
+            axis.plot(strain[fitted], scale * mean[k][fitted], color="#009e73", alpha=0.35, linewidth=9,
+                      label="fitted part")
+            axis.errorbar(strain, scale * mean[k], scale * error[k], color="k", linewidth=1.2, elinewidth=0.5,
+                          label="grains")
             for law, colour in zip(laws, ("#d55e00", "#0072b2")):
                 history = laws[law]
                 values = signed_ratio(history) if k == 2 else history["volumetric_strain"]

@@ -12,7 +12,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as pyplot  # noqa: E402
 
 COLOURS = {"NSCD h =": "#0072B2", "NSCD accuracy": "#56B4E9", "penalty kn/P =": "#D55E00", "LAMMPS kn/P =": "#007A5E"}
-QUANTITIES = (("t", "T/S, running over 0.3 %"), ("volumetric_strain", "dilation (%)"), ("kinetic_energy", "kinetic energy (P d²)"))
+QUANTITIES = (("t", "T/S, running over 0.3 %"), ("volumetric_strain", "dilation (%)"),
+              ("kinetic_energy", "kinetic energy (P d²)"))
 
 
 def curve(columns, name):
@@ -49,8 +50,8 @@ def draw_curves(by_method, inertial, path):
     axes[2].set_yscale("log")
     axes[1].legend(fontsize=8)
     seeds = len(next(iter(by_method.values())))
-    figure.suptitle(f"I = {inertial:g}, means over {seeds} samples; bands: standard error of the mean (samples differ; the differences are paired)",
-                    fontsize=9.5)
+    figure.suptitle(f"I = {inertial:g}, means over {seeds} samples; bands: standard error of the mean (samples differ; "
+                    "the differences are paired)", fontsize=9.5)
     figure.savefig(path, dpi=110)
     pyplot.close(figure)
 

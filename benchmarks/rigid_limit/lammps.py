@@ -1,11 +1,12 @@
 # diptych: the dense biaxial test in LAMMPS
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The test of ../dense_biaxial with springs and dashpots (LAMMPS, gran/hooke/history) on a snapshot of the discrete panel.
+"""The test of ../dense_biaxial with springs and dashpots (LAMMPS, gran/hooke/history) on a snapshot of the discrete
+panel.
 
-The left and the lower wall are fixed, the upper one descends from an affine start, the right one is a piston of mass sqrt(N) m
-under P x height with P = 1. All walls are smooth. The springs are those of the method `penalty`: kt = kn/2, normal damping
-that never makes a contact attract, none along the tangent, step 0.2 sqrt(m_min/kn). First the springs are pressed without friction for PRELOAD
-d sqrt(rho/P)."""
+The left and the lower wall are fixed, the upper one descends from an affine start, the right one is a piston of mass
+sqrt(N) m under P x height with P = 1. All walls are smooth. The springs are those of the method `penalty`: kt = kn/2,
+normal damping that never makes a contact attract, none along the tangent, step 0.2 sqrt(m_min/kn). First the springs
+are pressed without friction for PRELOAD d sqrt(rho/P)."""
 import os
 import re
 import subprocess
@@ -76,7 +77,8 @@ velocity grains ramp vy 0.0 -{speed} y 0.0 {height} sum no
 velocity grains set 0.0 NULL 0.0
 velocity piston set 0.0 0.0 0.0
 set group grains omega 0.0 0.0 0.0
-fix out grains ave/time {every} 1 {every} v_strain v_width v_height v_mxx v_myy v_mxy c_ke file history.txt format " %.9g"
+fix out grains ave/time {every} 1 {every} v_strain v_width v_height v_mxx v_myy v_mxy c_ke &
+  file history.txt format " %.9g"
 run {steps}
 """
 
@@ -93,8 +95,8 @@ def read_sample(path):
     with h5py.File(path) as file:
         stage = file["stage_0000"]
         corner = [stage.attrs["left_x"], stage.attrs["lower_y"]]
-        return (stage["grains/position"][:, :2] - corner, stage["grains/radius"][:], float(stage.attrs["right_x"] - corner[0]),
-                float(stage.attrs["upper_y"] - corner[1]))
+        return (stage["grains/position"][:, :2] - corner, stage["grains/radius"][:],
+                float(stage.attrs["right_x"] - corner[0]), float(stage.attrs["upper_y"] - corner[1]))
 
 
 def write_start(path, position, radius, width, height):
@@ -116,23 +118,26 @@ def loading_seconds(log):
     return float(loops[-1]) * float(shares[-1]) / 100
 
 
-def run(sample, folder, stiffness, inertial_number, strain, friction=0.4, rolling_friction=0.):
-    """(columns by name, CPU seconds of the loading). Columns: axial_strain, t, s [P], volumetric_strain, kinetic_energy [P d^2].
-    rolling_friction: that of the discrete panel, whose couples are at most this x 2 Re |N|. Throws RuntimeError if LAMMPS fails."""
+def run(sample, folder, stiffness, inertial_number, strain, *, friction=0.4, rolling_friction=0.):
+    """(columns by name, CPU seconds of the loading). Columns: axial_strain, t, s [P], volumetric_strain, kinetic_energy
+    [P d^2]. rolling_friction: that of the discrete panel, whose couples are at most this x 2 Re |N|. Throws
+    RuntimeError if LAMMPS fails."""
     os.makedirs(folder, exist_ok=True)
     position, radius, width, height = read_sample(sample)
     mass = numpy.pi * radius ** 2
     step, n = 0.2 * numpy.sqrt(mass.min() / stiffness), len(radius)
     write_start(os.path.join(folder, "start.data"), position, radius, width, height)
-    values = dict(kn=stiffness, kt=stiffness / 2, gn=f"{2 * DAMPING * numpy.sqrt(2 * stiffness / mass.mean()):.10g}", step=f"{step:.12g}",
-                  height=f"{height:.16g}", width=f"{width:.16g}", piston=n + 1, friction=friction,
-                  piston_density=numpy.sqrt(n) * mass.mean() / (0.01 * numpy.pi), speed=f"{inertial_number * height:.12g}",
+    values = dict(kn=stiffness, kt=stiffness / 2, gn=f"{2 * DAMPING * numpy.sqrt(2 * stiffness / mass.mean()):.10g}",
+                  step=f"{step:.12g}", height=f"{height:.16g}", width=f"{width:.16g}", piston=n + 1, friction=friction,
+                  piston_density=numpy.sqrt(n) * mass.mean() / (0.01 * numpy.pi),
+                  speed=f"{inertial_number * height:.12g}",
                   preload_steps=int(PRELOAD / step), steps=int(numpy.ceil(strain / inertial_number / step)),
                   every=max(1, round(ROW_STRAIN / inertial_number / step)))
     law = (ROLLING if rolling_friction else SLIDING).format(rolling=2 * rolling_friction, **values)
     with open(os.path.join(folder, "in.biaxial"), "w") as file:
         file.write(SCRIPT.format(law=law, **values))
-    done = subprocess.run(["lmp", "-in", "in.biaxial", "-log", "log.lammps", "-screen", "none"], cwd=folder, capture_output=True, text=True)
+    done = subprocess.run(["lmp", "-in", "in.biaxial", "-log", "log.lammps", "-screen", "none"], cwd=folder,
+                          capture_output=True, text=True)
     if done.returncode != 0:
         raise RuntimeError(f"{folder}: lmp failed: {(done.stderr or done.stdout)[-500:]}")
     rows = numpy.loadtxt(os.path.join(folder, "history.txt"))

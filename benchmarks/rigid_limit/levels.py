@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """levels.py [--figure FILE]
 
-Evaluates the runs of dense_biaxial at I = 1.13e-3 that order.csv holds: forty samples, each with several steps. Checks the interval
-of two-level means against all forty samples at the finest step, and compares what methods cost. Needs h5py, numpy,
-pandas, scipy and the package diptych (PYTHONPATH), the figure matplotlib."""
+Evaluates the runs of dense_biaxial at I = 1.13e-3 that order.csv holds: forty samples, each with several steps. Checks
+the interval of two-level means against all forty samples at the finest step, and compares what methods cost. Needs
+h5py, numpy, pandas, scipy and the package diptych (PYTHONPATH), the figure matplotlib."""
 import argparse
 import os
 
@@ -18,7 +18,8 @@ from order import SPRINGS
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 TABLE = os.path.join(HERE, "order.csv")
-FIXED = tuple(f"h={h}" for h in ("0.4", "0.1", "0.025", "0.00625", "0.0015625"))  # steps of the fit, with tight tolerances
+# steps of the fit, with tight tolerances
+FIXED = tuple(f"h={h}" for h in ("0.4", "0.1", "0.025", "0.00625", "0.0015625"))
 CHEAP, FINEST = "accuracy=0.05", FIXED[-1]
 FINE = ("accuracy=0.01", "accuracy=0.005", FINEST)
 ONE_LEVEL = (CHEAP, "accuracy=0.02", *FINE)
@@ -41,7 +42,8 @@ class Runs:
         self.values, self.of_sample = 100 * values / self.limit, 100 * pandas.Series(limits / self.limit, values.index)
 
     def bias(self, point):
-        """Of an NSCD setting by the fit; of springs the measured one [%], which counts as 0 below two standard errors."""
+        """Of an NSCD setting by the fit; of springs the measured one [%], which counts as 0 below two standard
+        errors."""
         if point not in SPRINGS:
             return self.coefficient * self.step[point]**0.5
         difference = (self.values[point] - self.of_sample).dropna()
@@ -61,14 +63,16 @@ def one_level(runs, seconds):
     by_step = sorted(ONE_LEVEL, key=lambda point: runs.step[point])
     h = numpy.geomspace(runs.step[by_step[0]], runs.step[by_step[-1]], 200)
     cost = numpy.exp(numpy.interp(numpy.log(h), numpy.log(runs.step[by_step]), numpy.log(runs.cpu_s[by_step])))
-    return numpy.sqrt((runs.coefficient**2 * h + runs.scatter()**2 * cost / numpy.maximum(seconds[:, None], cost)).min(axis=1))
+    return numpy.sqrt((runs.coefficient**2 * h + runs.scatter()**2 * cost
+                       / numpy.maximum(seconds[:, None], cost)).min(axis=1))
 
 
 def two_levels(runs, seconds, fine):
     """Error [%] with the best numbers of samples and pairs."""
     s, cost = runs.values[[CHEAP, fine]].dropna(), (runs.cpu_s[CHEAP], runs.cpu_s[fine])
     v, d = levels.variances(s[CHEAP], s[fine], runs.ratio(fine)), s[CHEAP] - s[fine]
-    v = v._replace(many=s[CHEAP].var() - 2 * levels.weight_of(runs.ratio(fine)) * s[CHEAP].cov(d))  # forty pairs know it
+    # forty pairs know it
+    v = v._replace(many=s[CHEAP].var() - 2 * levels.weight_of(runs.ratio(fine)) * s[CHEAP].cov(d))
     of_order, bias = (0, runs.bias(fine)) if fine in SPRINGS else (v.order, 0)
     share = v.share(cost)
     error = (v.many + v.pairs / share) * (cost[0] + share * cost[1]) / seconds + of_order**2 + bias**2
@@ -82,7 +86,8 @@ def springs(runs, seconds, point):
 
 
 def two_level_mean(runs, fine, drawn):
-    """(limit with its interval, number of pairs) from some of the samples. The pairs follow from a pilot as in run --levels."""
+    """(limit with its interval, number of pairs) from some of the samples. The pairs follow from a pilot as in run
+    --levels."""
     x, y = runs.values[CHEAP].to_numpy()[drawn], runs.values[fine].to_numpy()[drawn]
     pairs, ratio, cost = levels.LEAST_PAIRS, runs.ratio(fine), (runs.cpu_s[CHEAP], runs.cpu_s[fine])
     while True:
@@ -94,8 +99,9 @@ def two_level_mean(runs, fine, drawn):
 
 
 def coverage(runs, fine, repetitions, n=20, replace=False):
-    """Repeats the two-level mean with n of the samples, drawn with fixed seeds. Returns means over the repetitions: whether the
-    interval holds the limit of all samples, whether it holds their mean at the finest step, half width [%], pairs, error [%]."""
+    """Repeats the two-level mean with n of the samples, drawn with fixed seeds. Returns means over the repetitions:
+    whether the interval holds the limit of all samples, whether it holds their mean at the finest step, half width [%],
+    pairs, error [%]."""
     truths, found = (runs.of_sample.mean(), runs.values[FINEST].mean()), []
     for k in range(repetitions):
         limit, pairs = two_level_mean(runs, fine, numpy.random.default_rng(k).choice(len(runs.values), n, replace))
@@ -106,7 +112,8 @@ def coverage(runs, fine, repetitions, n=20, replace=False):
 
 def show(runs):
     n, seconds = len(runs.values), numpy.geomspace(0.1, 1e5, 4000)
-    print(f"{n} samples: T/S = {runs.limit:.4f} (1 + {runs.coefficient:.2f} % sqrt(h)); scatter of one {runs.scatter():.2f} %")
+    print(f"{n} samples: T/S = {runs.limit:.4f} (1 + {runs.coefficient:.2f} % sqrt(h)); scatter of one "
+          f"{runs.scatter():.2f} %")
     for point in (*FIXED, *ONE_LEVEL[:-1], *SPRINGS):
         if point in runs.values:
             d = (runs.values[point] - runs.of_sample).dropna()
@@ -114,9 +121,11 @@ def show(runs):
                   f"{d.std() / len(d)**0.5:.2f} % above the limit ({len(d)} samples), counted {runs.bias(point):.2f} %")
     for fine in FINE[:2]:
         subsets, resampled = coverage(runs, fine, 20), coverage(runs, fine, 500, replace=True)
-        print(f"two levels {CHEAP}, {fine}, 20 samples: limit in the interval in {20 * subsets[0]:.0f} of 20 subsets, mean of "
+        print(f"two levels {CHEAP}, {fine}, 20 samples: limit in the interval in {20 * subsets[0]:.0f} of 20 subsets, "
+              "mean of "
               f"the finest step in {20 * subsets[1]:.0f}; drawn with replacement, 500 times: {resampled[0]:.1%}, "
-              f"{resampled[1]:.1%}; half width {resampled[2]:.2f} %, {resampled[3]:.1f} pairs, mean error {resampled[4]:+.2f} %")
+              f"{resampled[1]:.1%}; half width {resampled[2]:.2f} %, {resampled[3]:.1f} pairs, mean error "
+              f"{resampled[4]:+.2f} %")
     curves = {"NSCD, one level": one_level(runs, seconds)}
     for fine in (*FINE, "penalty=1e5"):
         if fine in runs.values:

@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """order.py [PROGRAM --output DIR [--cases dense,slow,oblique] [--jobs 1]] [--figure FILE]
 
-Prints and draws the results stored in order.csv. With PROGRAM it first makes the runs (80 minutes of CPU time for the loadings; those
-in DIR are kept) and stores them again. Needs h5py, numpy, pandas and scipy, the figure matplotlib, the runs of LAMMPS lmp."""
+Prints and draws the results stored in order.csv. With PROGRAM it first makes the runs (80 minutes of CPU time for the
+loadings; those in DIR are kept) and stores them again. Needs h5py, numpy, pandas and scipy, the figure matplotlib, the
+runs of LAMMPS lmp."""
 import argparse
 import concurrent.futures
 import functools
@@ -24,23 +25,27 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 STORED = os.path.join(HERE, "order.csv")
 STEPS = (0.4, 0.1, 0.025)
 ACCURACIES = tuple(f"accuracy={a:g}" for a in (0.05, 0.02, 0.01, 0.005))
-SPRINGS = {"penalty=1e4": "penalty, kn/P = 1e4", "penalty=1e5": "penalty, 1e5", "lammps=1e4": "LAMMPS, 1e4", "lammps=1e5": "LAMMPS, 1e5"}
+SPRINGS = {"penalty=1e4": "penalty, kn/P = 1e4", "penalty=1e5": "penalty, 1e5", "lammps=1e4": "LAMMPS, 1e4",
+           "lammps=1e5": "LAMMPS, 1e5"}
 RESTITUTION = ("e_n=0.5", "e_n=0.8")
-COMPLIANT = tuple(f"compliant={h:g}" for h in (0.4, 0.2, 0.1, 0.05, 0.025))  # implicit springs of kn/P = 1e4, over the step
+# implicit springs of kn/P = 1e4, over the step
+COMPLIANT = tuple(f"compliant={h:g}" for h in (0.4, 0.2, 0.1, 0.05, 0.025))
 DENSE = (rigid_limit.SCENE, "loading/axial_strain=0.04")
 OBLIQUE = (os.path.join(HERE, "../moreau_quick/scene.prm"), "loading/axial_strain=0.03")
 
 
 class Case:
-    """A loading: inertial number, seeds, scene with its settings, discrete/accuracy of the runs with a given step, more points."""
+    """A loading: inertial number, seeds, scene with its settings, discrete/accuracy of the runs with a given step, more
+    points."""
 
-    def __init__(self, inertial, seeds, scene, tight, steps=STEPS, more=()):
+    def __init__(self, inertial, seeds, scene, tight, *, steps=STEPS, more=()):
         self.inertial, self.seeds, self.scene, self.tight, self.steps = inertial, seeds, scene, tight, steps
         self.points = [*(f"h={h:g}" for h in steps), *ACCURACIES, *more]
         self.end = float(scene[1].split("=")[1])
 
 
-CASES = {"dense": Case(1.13e-3, range(11, 51), DENSE, 0.008, (*STEPS, 0.00625, 0.0015625), (*SPRINGS, *RESTITUTION, *COMPLIANT)),
+CASES = {"dense": Case(1.13e-3, range(11, 51), DENSE, 0.008, steps=(*STEPS, 0.00625, 0.0015625),
+                       more=(*SPRINGS, *RESTITUTION, *COMPLIANT)),
          "slow": Case(1.13e-4, range(11, 51), DENSE, 0.02),
          "oblique": Case(1e-3, range(1, 41), OBLIQUE, 0.008)}
 
@@ -55,7 +60,8 @@ def settings(case, point):
     fixed = [f"discrete/accuracy={case.tight:g}"]  # tolerance x step / I = 0.02, or 0.05 in slow flow
     return {"h": [f"discrete/step={value}", *fixed], "accuracy": [f"discrete/accuracy={value}"],
             "e_n": ["discrete/step=0.025", *fixed, f"discrete/normal_restitution={value}"],
-            "compliant": ["discrete/method=compliant", "discrete/penalty_stiffness=1e4", f"discrete/step={value}", *fixed],
+            "compliant": ["discrete/method=compliant", "discrete/penalty_stiffness=1e4", f"discrete/step={value}",
+                          *fixed],
             "penalty": ["discrete/method=penalty", f"discrete/penalty_stiffness={value}"]}[name]
 
 
@@ -67,7 +73,8 @@ def sample(program, output, seed):
         folder = os.path.join(output, "samples")
         path = os.path.join(folder, f"seed_{seed}.h5")
         if not os.path.exists(path):
-            subprocess.run([sys.executable, "-B", os.path.join(HERE, "samples.py"), program, folder, str(seed)], check=True)
+            subprocess.run([sys.executable, "-B", os.path.join(HERE, "samples.py"), program, folder, str(seed)],
+                           check=True)
     return path
 
 
@@ -78,18 +85,22 @@ def load(options, name, point, seed):
     if point.startswith("lammps"):
         done = os.path.join(folder, "binned.json")
         if not os.path.exists(done):
-            columns, seconds = lammps.run(sample(options.program, options.output, seed), folder, float(point.split("=")[1]),
-                                          case.inertial, case.end)
+            columns, seconds = lammps.run(sample(options.program, options.output, seed), folder,
+                                          float(point.split("=")[1]), case.inertial, case.end)
             with open(done, "w") as file:
-                json.dump({"columns": {n: v.tolist() for n, v in rigid_limit.binned(columns).items()}, "seconds": seconds}, file)
+                json.dump({"columns": {n: v.tolist() for n, v in rigid_limit.binned(columns).items()},
+                           "seconds": seconds}, file)
         with open(done) as file:
             found = json.load(file)
         columns = {n: numpy.array(v) for n, v in found["columns"].items()}
         return row | means(columns, case.end) | {"cpu_s": found["seconds"]}
-    runs = rigid_limit.claims.Runs(argparse.Namespace(program=options.program, reuse=True, set=[]), seed, os.path.dirname(folder))
+    runs = rigid_limit.claims.Runs(argparse.Namespace(program=options.program, reuse=True, set=[]), seed,
+                                   os.path.dirname(folder))
     source = [f"sample/file={sample(options.program, options.output, seed)}"] if case.scene is DENSE else []
-    result = runs.run(os.path.basename(folder), "discrete", case.scene[0], f"loading/inertial_number={case.inertial:g}", case.scene[1],
-                      "loading/stage_strain=0.01", f"comparison/window_edges=0,{case.end:g}", *source, *settings(case, point))
+    result = runs.run(os.path.basename(folder), "discrete", case.scene[0], f"loading/inertial_number={case.inertial:g}",
+                      case.scene[1],
+                      "loading/stage_strain=0.01", f"comparison/window_edges=0,{case.end:g}", *source,
+                      *settings(case, point))
     columns = result.grains
     columns |= {"t": numpy.hypot(columns["syy"] - columns["sxx"], columns["sxy"] + columns["syx"]) / 2,
                 "s": (columns["sxx"] + columns["syy"]) / 2}
@@ -106,7 +117,8 @@ def means(columns, end):
     found = {"strength": columns["t"][late].mean() / columns["s"][late].mean(),
              "dilation": -numpy.interp(end, strain, columns["volumetric_strain"])}
     if "friction_dissipation" in columns and not numpy.isnan(columns["friction_dissipation"]).any():
-        friction, impacts = (numpy.ptp(columns[n][late][[0, -1]]) for n in ("friction_dissipation", "impact_dissipation"))
+        friction, impacts = (numpy.ptp(columns[n][late][[0, -1]])
+                             for n in ("friction_dissipation", "impact_dissipation"))
         found["impact_share"] = impacts / (impacts + friction)
     return found
 
@@ -118,8 +130,8 @@ def wide(table, name, quantity, points):
 
 
 class Fit:
-    """Fits a (1 + b h^p) to the mean over samples by least squares, weighted by the covariance of the mean. p: best value and ends
-    of the 95 % interval, on a grid from 0.05 to 2."""
+    """Fits a (1 + b h^p) to the mean over samples by least squares, weighted by the covariance of the mean. p: best
+    value and ends of the 95 % interval, on a grid from 0.05 to 2."""
 
     def __init__(self, values, steps):
         self.h, self.mean, self.n = numpy.array(steps), values.mean().to_numpy(), len(values)
@@ -156,8 +168,8 @@ def paired(table, name, quantity, point, other):
 
 
 def against_limit(table, name, quantity, point):
-    """Mean of `point` relative to the limit of short steps at p = 1/2, with its standard error: on each sample the limit is the
-    weighted sum of the runs with a given step whose mean is a."""
+    """Mean of `point` relative to the limit of short steps at p = 1/2, with its standard error: on each sample the
+    limit is the weighted sum of the runs with a given step whose mean is a."""
     case = CASES[name]
     steps = [f"h={h:g}" for h in case.steps]
     weights = Fit(wide(table, name, quantity, steps), case.steps).limit_weights()
@@ -169,19 +181,25 @@ def against_limit(table, name, quantity, point):
 
 def show(table):
     for name, case in CASES.items():
-        print(f"\n{name}, I = {case.inertial:g}: mean over samples; difference from the limit of short steps (p = 1/2) +- standard error")
+        print(f"\n{name}, I = {case.inertial:g}: mean over samples; difference from the limit of short steps (p = 1/2) "
+              "+- standard error")
         for quantity in ("strength", "dilation"):
             fit = Fit(wide(table, name, quantity, [f"h={h:g}" for h in case.steps]), case.steps)
             chi, a, b, a_error, b_error = fit.at(0.5)
-            print(f"  {quantity}, {fit.n} samples: p = {fit.p[0]:.2f} [{fit.p[1]:.2f}, {fit.p[2]:.2f}]; p = 1/2: a = {a:.5f} +- {a_error:.5f}, "
-                  f"b = {b:.2%} +- {b_error:.2%}; chi^2 of {len(fit.h) - 3}: " + ", ".join(f"{c:.1f} (p = {p:.2g})" for p, c in fit.misfit.items()))
+            print(f"  {quantity}, {fit.n} samples: p = {fit.p[0]:.2f} [{fit.p[1]:.2f}, {fit.p[2]:.2f}]; p = 1/2: a = "
+                  f"{a:.5f} +- {a_error:.5f}, "
+                  f"b = {b:.2%} +- {b_error:.2%}; chi^2 of {len(fit.h) - 3}: "
+                  + ", ".join(f"{c:.1f} (p = {p:.2g})" for p, c in fit.misfit.items()))
         for point in case.points:
             rows = table[(table.case == name) & (table.point == point)]
             if len(rows):
-                texts = ["{:+.2%} +- {:.2%}".format(*against_limit(table, name, q, point)) for q in ("strength", "dilation")]
-                print(f"  {point:14} n {len(rows):2}  CPU s {rows.cpu_s.mean():6.2f}  T/S {rows.strength.mean():.4f} ({texts[0]})  dilation "
+                texts = ["{:+.2%} +- {:.2%}".format(*against_limit(table, name, q, point))
+                         for q in ("strength", "dilation")]
+                print(f"  {point:14} n {len(rows):2}  CPU s {rows.cpu_s.mean():6.2f}  T/S {rows.strength.mean():.4f} "
+                      f"({texts[0]})  dilation "
                       f"{rows.dilation.mean():.5f} ({texts[1]})  impacts {rows.impact_share.mean():.1%}")
-    for one, other in (("penalty=1e5", "penalty=1e4"), ("lammps=1e5", "lammps=1e4"), *((e, "h=0.025") for e in RESTITUTION)):
+    for one, other in (("penalty=1e5", "penalty=1e4"), ("lammps=1e5", "lammps=1e4"),
+                       *((e, "h=0.025") for e in RESTITUTION)):
         print(f"{one} - {other}: T/S " + "{:+.5f} +- {:.5f}".format(*paired(table, "dense", "strength", one, other)))
 
 
@@ -198,15 +216,20 @@ def draw(table, path):
             fit = Fit(wide(table, name, quantity, steps), case.steps)
             _, a, b, a_error, _ = fit.at(0.5)
             found = [against_limit(table, name, quantity, point) for point in steps]
-            axis.errorbar(fit.h ** 0.5 + shift, [100 * m for m, _ in found], [100 * e for _, e in found], fmt="o", color=colour, capsize=3,
+            axis.errorbar(fit.h ** 0.5 + shift, [100 * m for m, _ in found], [100 * e for _, e in found], fmt="o",
+                          color=colour, capsize=3,
                           label=f"{name}, I = {case.inertial:g}, {fit.n} samples: {fit.interval_of_p()}")
             axis.plot(h ** 0.5, 100 * b * h ** 0.5, "-", color=colour, linewidth=1)
-            axis.set(xlabel=r"root of the step, $\sqrt{h\,/\,(d\sqrt{\rho/P})}$", ylabel=f"{quantity} against the limit (%)")
+            axis.set(xlabel=r"root of the step, $\sqrt{h\,/\,(d\sqrt{\rho/P})}$",
+                     ylabel=f"{quantity} against the limit (%)")
             for k, point in enumerate(SPRINGS if name == "dense" else ()):
                 mean, error = against_limit(table, name, quantity, point)
-                axis.errorbar(-0.025 - 0.02 * k, 100 * mean, 100 * error, fmt="s^"[k // 2], color="#777777", capsize=3, markersize=4,
-                              markerfacecolor="white" if k % 2 == 0 else None, label=SPRINGS[point] if quantity == "strength" else None)
-        bias = [(100 * table[(table.case == name) & (table.point == p)].impact_share.mean(), 100 * against_limit(table, name, "strength", p)[0])
+                axis.errorbar(-0.025 - 0.02 * k, 100 * mean, 100 * error, fmt="s^"[k // 2], color="#777777", capsize=3,
+                              markersize=4,
+                              markerfacecolor="white" if k % 2 == 0 else None,
+                              label=SPRINGS[point] if quantity == "strength" else None)
+        bias = [(100 * table[(table.case == name) & (table.point == p)].impact_share.mean(),
+                 100 * against_limit(table, name, "strength", p)[0])
                 for p in (*steps, *ACCURACIES) if len(table[(table.case == name) & (table.point == p)])]
         n = len(steps)
         axes[2].plot(*zip(*bias[:n]), "o", color=colour, label=f"{name}, given step")
@@ -231,11 +254,13 @@ def main():
     parser.add_argument("--figure")
     options = parser.parse_args()
     if options.program:
-        runs = [(name, point, seed) for name in options.cases for point in CASES[name].points for seed in seeds_of(CASES[name], point)]
+        runs = [(name, point, seed) for name in options.cases for point in CASES[name].points
+                for seed in seeds_of(CASES[name], point)]
         with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
             rows = list(pool.map(lambda run: load(options, *run), runs))
         kept = pandas.read_csv(STORED) if os.path.exists(STORED) else pandas.DataFrame(columns=["case"])
-        pandas.concat([kept[~kept.case.isin(options.cases)], pandas.DataFrame(rows)]).to_csv(STORED, index=False, float_format="%.6g")
+        pandas.concat([kept[~kept.case.isin(options.cases)], pandas.DataFrame(rows)]).to_csv(STORED, index=False,
+                                                                                             float_format="%.6g")
     table = pandas.read_csv(STORED)
     show(table)
     if options.figure:

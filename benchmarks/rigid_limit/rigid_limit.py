@@ -4,10 +4,10 @@
 """rigid_limit.py PROGRAM [--seeds 11,12,...] [--inertial 1.13e-3,1.13e-4] [--quick] [--output DIR] [--reuse] [--jobs 1]
                [--lammps run|stored] [--store] [--figures DIR]
 
-Loads the samples of samples/ (those of ../dense_biaxial, 1000 discs each) to 4 % strain with NSCD at several steps, with `penalty`
-at several stiffnesses and with LAMMPS. Takes differences sample by sample. --lammps run: runs `lmp` (Debian package lammps);
-otherwise the results in lammps.csv are used, which --store writes. --quick: NSCD only. Needs h5py and numpy, the figures
-matplotlib."""
+Loads the samples of samples/ (those of ../dense_biaxial, 1000 discs each) to 4 % strain with NSCD at several steps,
+with `penalty` at several stiffnesses and with LAMMPS. Takes differences sample by sample. --lammps run: runs `lmp`
+(Debian package lammps); otherwise the results in lammps.csv are used, which --store writes. --quick: NSCD only. Needs
+h5py and numpy, the figures matplotlib."""
 import argparse
 import concurrent.futures
 import csv
@@ -84,7 +84,8 @@ class Method:
         if self.settings is None:
             return self.load_by_lammps(options, inertial, seed, f"{folder}/seed_{seed}")
         runs = claims.Runs(argparse.Namespace(program=options.program, reuse=options.reuse, set=[]), seed, folder)
-        return of_panel(runs.run(f"seed_{seed}", "discrete", SCENE, f"loading/inertial_number={inertial:g}", f"loading/axial_strain={STRAIN}",
+        return of_panel(runs.run(f"seed_{seed}", "discrete", SCENE, f"loading/inertial_number={inertial:g}",
+                                 f"loading/axial_strain={STRAIN}",
                                  "loading/stage_strain=0.01", f"sample/file={sample_file(seed)}", *self.settings))
 
     def load_by_lammps(self, options, inertial, seed, folder):
@@ -94,7 +95,8 @@ class Method:
         if not (options.reuse and os.path.exists(done)):
             columns, seconds = lammps.run(sample_file(seed), folder, float(self.value), inertial, STRAIN)
             with open(done, "w") as file:
-                json.dump({"columns": {name: values.tolist() for name, values in binned(columns).items()}, "seconds": seconds}, file)
+                json.dump({"columns": {name: values.tolist() for name, values in binned(columns).items()},
+                           "seconds": seconds}, file)
         with open(done) as file:
             found = json.load(file)
         return {name: numpy.array(values) for name, values in found["columns"].items()}, found["seconds"]
@@ -104,7 +106,8 @@ def stored(inertial, stiffness, seed):
     """Columns of one run in lammps.csv. Throws KeyError if it is missing."""
     with open(STORED) as file:
         rows = [row for row in csv.DictReader(line for line in file if not line.startswith("#"))
-                if (float(row["inertial_number"]), float(row["stiffness"]), int(row["seed"])) == (inertial, float(stiffness), seed)]
+                if (float(row["inertial_number"]), float(row["stiffness"]), int(row["seed"]))
+                == (inertial, float(stiffness), seed)]
     if not rows:
         raise KeyError(f"{STORED} holds no run at I = {inertial:g}, kn/P = {stiffness}, seed {seed}")
     return {name: numpy.array([float(row[name]) for row in rows]) for name in COLUMNS}, float(rows[0]["cpu_s"])
@@ -112,14 +115,16 @@ def stored(inertial, stiffness, seed):
 
 def store(found):
     with open(STORED, "w") as file:
-        file.write("# diptych: dense biaxial tests by LAMMPS on samples/, means over 0.1 % of strain (lammps.py); rigid_limit.py --store writes it\n")
+        file.write("# diptych: dense biaxial tests by LAMMPS on samples/, means over 0.1 % of strain (lammps.py); "
+                   "rigid_limit.py --store writes it\n")
         file.write("inertial_number,stiffness,seed,cpu_s," + ",".join(COLUMNS) + "\n")
         for inertial, by_method in found.items():
             for method, by_seed in by_method.items():
                 if method.family == "LAMMPS kn/P =":
                     for seed, (columns, seconds) in by_seed.items():
                         for row in zip(*(columns[name] for name in COLUMNS)):
-                            file.write(f"{inertial:g},{method.value},{seed},{seconds:.2f}," + ",".join(f"{x:.6g}" for x in row) + "\n")
+                            file.write(f"{inertial:g},{method.value},{seed},{seconds:.2f},"
+                                       + ",".join(f"{x:.6g}" for x in row) + "\n")
 
 
 def methods(options, inertial):
@@ -154,7 +159,8 @@ def show(inertial, by_method, reference):
     seeds = list(next(iter(by_method.values())))
     table = {method: [quantities(by_seed[seed][0]) for seed in seeds] for method, by_seed in by_method.items()}
     names = list(table[reference][0])
-    print(f"\nI = {inertial:g}, {len(seeds)} samples; means; in brackets the difference from {reference.name}, sample by sample")
+    print(f"\nI = {inertial:g}, {len(seeds)} samples; means; in brackets the difference from {reference.name}, sample "
+          "by sample")
     for method, rows in table.items():
         seconds = numpy.mean([by_method[method][seed][1] for seed in seeds])
         print(f"{method.name:24} {seconds:8.2f} s", end="")
@@ -171,7 +177,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=os.path.abspath)
     parser.add_argument("--seeds", type=numbers(int), help="default: 11 to 22, at I = 1.13e-4 to 16")
-    parser.add_argument("--inertial", type=numbers(float), default=list(STEPS), help="of 1.13e-3, 1.13e-4: those with steps and stiffnesses here")
+    parser.add_argument("--inertial", type=numbers(float), default=list(STEPS),
+                        help="of 1.13e-3, 1.13e-4: those with steps and stiffnesses here")
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--output", help="folder for the result folders; default: thrown away")
     parser.add_argument("--reuse", action="store_true", help="keep runs that are already in --output")
@@ -182,7 +189,8 @@ def main():
     options = parser.parse_args()
     if not set(options.inertial) <= set(STEPS):
         parser.error(f"--inertial: one of {list(STEPS)}")
-    if options.store and (options.quick or options.seeds or options.lammps != "run" or set(options.inertial) != set(STEPS)):
+    if options.store and (options.quick or options.seeds or options.lammps != "run"
+                          or set(options.inertial) != set(STEPS)):
         parser.error("--store rewrites lammps.csv: only with --lammps run, all seeds and both inertial numbers")
     if options.figures and options.quick:
         parser.error("--figures needs the springs that --quick leaves out")
@@ -195,7 +203,9 @@ def main():
             found[inertial] = {method: {} for method in chosen}
             with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
                 try:
-                    for (method, seed), result in zip(cases, pool.map(lambda case: case[0].load(options, inertial, case[1]), cases)):
+                    for (method, seed), result in zip(cases,
+                                                      pool.map(lambda case: case[0].load(options, inertial, case[1]),
+                                                               cases)):
                         found[inertial][method][seed] = result
                 except (claims.RunFailed, RuntimeError, KeyError) as failure:
                     sys.exit(f"rigid_limit.py: {failure}")

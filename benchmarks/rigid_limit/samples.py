@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # diptych: prepares the samples of this folder again
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""samples.py PROGRAM FOLDER [SEED ...]: writes the prepared samples of ../dense_biaxial (default: seeds 11 to 22) to FOLDER/seed_N.h5,
-which `sample/file` reads. Another revision of the program prepares other samples; the stored results of LAMMPS do not belong to
-them. Needs h5py and numpy."""
+"""samples.py PROGRAM FOLDER [SEED ...]: writes the prepared samples of ../dense_biaxial (default: seeds 11 to 22) to
+FOLDER/seed_N.h5, which `sample/file` reads. Another revision of the program prepares other samples; the stored results
+of LAMMPS do not belong to them. Needs h5py and numpy."""
 import argparse
 import os
 import sys

@@ -3,9 +3,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """size.py [PROGRAM --output DIR] [--figure FILE]
 
-Loads dense samples of 1000 to 64000 discs at two speeds, with NSCD at discrete/accuracy = 0.02 and with springs of kn/P = 1e4, which
-are right to 1 %. Both methods load the same prepared sample. Draws the times stored in size.csv. With PROGRAM it first makes the runs
-(those in DIR are kept) and stores them again. Needs h5py, numpy and pandas, the figure matplotlib."""
+Loads dense samples of 1000 to 64000 discs at two speeds, with NSCD at discrete/accuracy = 0.02 and with springs of kn/P
+= 1e4, which are right to 1 %. Both methods load the same prepared sample. Draws the times stored in size.csv. With
+PROGRAM it first makes the runs (those in DIR are kept) and stores them again. Needs h5py, numpy and pandas, the figure
+matplotlib."""
 import argparse
 import json
 import os
@@ -21,8 +22,10 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 STORED = os.path.join(HERE, "size.csv")
 GRAINS = {1.13e-3: (1000, 2000, 4000, 8000, 16000, 32000, 64000), 1.13e-4: (1000, 2000, 4000, 8000, 16000)}
 STRAIN = {1.13e-3: 0.01, 1.13e-4: 0.002}
-LARGEST = {1.13e-3: 8000, 1.13e-4: 8000}  # larger samples are not in equilibrium at this speed, or had too little strain
-METHODS = {"NSCD": (), "springs": ("discrete/method=penalty", "discrete/penalty_stiffness=1e4", "discrete/penalty_step_fraction=0.5")}
+# larger samples are not in equilibrium at this speed, or had too little strain
+LARGEST = {1.13e-3: 8000, 1.13e-4: 8000}
+METHODS = {"NSCD": (), "springs": ("discrete/method=penalty", "discrete/penalty_stiffness=1e4",
+                                   "discrete/penalty_step_fraction=0.5")}
 SPEEDS = {1.13e-3: "#0072B2", 1.13e-4: "#D55E00"}
 
 
@@ -30,8 +33,8 @@ def run(program, folder, *settings):
     """Result folder of the dense scene with these settings."""
     if not os.path.exists(os.path.join(folder, "provenance.json")):
         words = [word for setting in settings for word in ("--set", setting)]
-        subprocess.run([program, "discrete", rigid_limit.SCENE, "--output", folder, "--overwrite", "--quiet", *words], check=True,
-                       env=rigid_limit.claims.ENVIRONMENT)
+        subprocess.run([program, "discrete", rigid_limit.SCENE, "--output", folder, "--overwrite", "--quiet", *words],
+                       check=True, env=rigid_limit.claims.ENVIRONMENT)
     return folder
 
 
@@ -41,11 +44,12 @@ def cpu_s(folder, phase):
 
 
 def measured(options):
-    """Table: grains, inertial number, method, CPU seconds per per cent of strain, T/S of the second half; and the preparation."""
+    """Table: grains, inertial number, method, CPU seconds per per cent of strain, T/S of the second half; and the
+    preparation."""
     rows = []
     for n in GRAINS[1.13e-3]:
-        prepared = run(options.program, f"{options.output}/{n}/prepared", f"sample/grains={n}", "loading/axial_strain=1e-4",
-                       "loading/stage_strain=1e-4", "comparison/window_edges=0,1e-4")
+        prepared = run(options.program, f"{options.output}/{n}/prepared", f"sample/grains={n}",
+                       "loading/axial_strain=1e-4", "loading/stage_strain=1e-4", "comparison/window_edges=0,1e-4")
         sample = f"{options.output}/{n}/sample.h5"
         samples.keep(rigid_limit.claims.Result(prepared), sample)
         rows.append({"grains": n, "method": "preparation", "cpu_s": cpu_s(prepared, "preparation")})
@@ -53,13 +57,13 @@ def measured(options):
             for method, settings in METHODS.items():
                 strain = STRAIN[inertial]
                 folder = run(options.program, f"{options.output}/{n}/{method}_{inertial:g}", f"sample/file={sample}",
-                             f"loading/inertial_number={inertial:g}", f"loading/axial_strain={strain}", f"loading/stage_strain={strain}",
-                             f"comparison/window_edges=0,{strain}", *settings)
+                             f"loading/inertial_number={inertial:g}", f"loading/axial_strain={strain}",
+                             f"loading/stage_strain={strain}", f"comparison/window_edges=0,{strain}", *settings)
                 history = rigid_limit.claims.Result(folder).grains
                 late = history["axial_strain"] > strain / 2
                 t, s = (history["syy"] - history["sxx"])[late].mean(), (history["syy"] + history["sxx"])[late].mean()
-                rows.append({"grains": n, "method": method, "inertial_number": inertial, "cpu_s": cpu_s(folder, "discrete") / (100 * strain),
-                             "strength": t / s})
+                rows.append({"grains": n, "method": method, "inertial_number": inertial,
+                             "cpu_s": cpu_s(folder, "discrete") / (100 * strain), "strength": t / s})
                 print(rows[-1], flush=True)
     return pandas.DataFrame(rows)
 
@@ -78,12 +82,14 @@ def draw(table, path):
     for inertial, colour in SPEEDS.items():
         for method, mark in (("NSCD", "o-"), ("springs", "s--")):
             part = table[(table.method == method) & (table.inertial_number == inertial)]
-            axis.loglog(part.grains, part.cpu_s, mark, color=colour, label=f"{method}, I = {inertial:g}: n^{power(part):.1f} from 4000 on")
+            axis.loglog(part.grains, part.cpu_s, mark, color=colour,
+                        label=f"{method}, I = {inertial:g}: n^{power(part):.1f} from 4000 on")
             fast = part[(part.grains > LARGEST[inertial])]
             axis.loglog(fast.grains, fast.cpu_s, mark[0], color="white", markeredgecolor=colour)
     part = table[table.method == "preparation"]
     axis.loglog(part.grains, part.cpu_s, "^:", color="#777777", label=f"preparation (whole): n^{power(part):.2f}")
-    axis.set(xlabel="number of grains", ylabel="CPU seconds per per cent of strain", title="NSCD at accuracy 0.02, springs of kn/P = 1e4; one sample a point. Hollow: not quasi-static")
+    axis.set(xlabel="number of grains", ylabel="CPU seconds per per cent of strain",
+             title="NSCD at accuracy 0.02, springs of kn/P = 1e4; one sample a point. Hollow: not quasi-static")
     axis.title.set_fontsize(9)
     axis.grid(alpha=0.3, which="both")
     axis.legend(fontsize=8)

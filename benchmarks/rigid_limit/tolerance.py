@@ -3,10 +3,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """tolerance.py [PROGRAM --output DIR [--cases N]]
 
-Loads the same samples with three tolerances: the rule's for 1000 grains, and smaller ones by a factor. Prints T/S, dilation and
-sweeps against those of the smallest tolerance, with standard errors over the samples. Reads the stored runs, tolerance.csv.
-With PROGRAM it first makes the runs (those in DIR are kept) and stores them again; --cases: only the first N, not stored.
-Needs h5py, numpy and pandas."""
+Loads the same samples with three tolerances: the rule's for 1000 grains, and smaller ones by a factor. Prints T/S,
+dilation and sweeps against those of the smallest tolerance, with standard errors over the samples. Reads the stored
+runs, tolerance.csv. With PROGRAM it first makes the runs (those in DIR are kept) and stores them again; --cases: only
+the first N, not stored. Needs h5py, numpy and pandas."""
 import argparse
 import json
 import os
@@ -38,7 +38,8 @@ def tolerance(inertial, factor):
 
 def run(program, scene, folder, strain, *settings):
     if not os.path.exists(os.path.join(folder, "provenance.json")):
-        words = [word for one in ("output/report=false", f"loading/axial_strain={strain}", f"loading/stage_strain={strain}",
+        words = [word for one in ("output/report=false", f"loading/axial_strain={strain}",
+                                  f"loading/stage_strain={strain}",
                                   f"comparison/window_edges=0,{strain}", *settings) for word in ("--set", one)]
         file = os.path.join(rigid_limit.HERE, "..", scene, "scene.prm")
         subprocess.run([program, "discrete", file, "--output", folder, "--overwrite", "--quiet", *words], check=True,
@@ -47,7 +48,8 @@ def run(program, scene, folder, strain, *settings):
 
 
 def row(result, strain):
-    """Numbers of a run: T/S over the last two thirds, dilation at the end, mean sweeps of a step, CPU s of the loading."""
+    """Numbers of a run: T/S over the last two thirds, dilation at the end, mean sweeps of a step, CPU s of the
+    loading."""
     h = result.grains
     late = h["axial_strain"] > strain / 3
     t = numpy.hypot(0.5 * (h["syy"] - h["sxx"]), 0.5 * (h["sxy"] + h["syx"]))[late].mean()
@@ -64,14 +66,16 @@ def measured(program, output, cases):
             folder = os.path.join(output, f"{scene}_{grains}")
             sample = os.path.join(folder, f"sample_{seed}.h5")
             if not os.path.exists(sample):
-                samples.keep(run(program, scene, os.path.join(folder, f"prepared_{seed}"), 1e-6, f"sample/grains={grains}",
+                samples.keep(run(program, scene, os.path.join(folder, f"prepared_{seed}"), 1e-6,
+                                 f"sample/grains={grains}",
                                  f"sample/seed={seed}", "discrete/step=0.005", "discrete/tolerance=0.1"), sample)
             for factor in factors:
                 end = os.path.join(folder, f"{inertial:g}_{seed}_{factor}")
-                result = run(program, scene, end, strain, f"sample/file={sample}", f"loading/inertial_number={inertial:g}",
+                result = run(program, scene, end, strain, f"sample/file={sample}",
+                             f"loading/inertial_number={inertial:g}",
                              f"discrete/step={STEP}", f"discrete/tolerance={tolerance(inertial, factor):.5g}")
-                rows.append({"scene": scene, "grains": grains, "inertial_number": inertial, "seed": seed, "factor": factor,
-                             **row(result, strain)})
+                rows.append({"scene": scene, "grains": grains, "inertial_number": inertial, "seed": seed,
+                             "factor": factor, **row(result, strain)})
                 print(rows[-1], flush=True)
     return pandas.DataFrame(rows)
 
@@ -86,7 +90,8 @@ def show(table):
             for name in ("strength", "dilation"):
                 change = 100 * (part[name] - tightest[name]) / tightest[name].mean()
                 texts.append(f"{name} {part[name].mean():.4f} ({change.mean():+.2f} +- {change.sem():.2f} %)")
-            print(f"  factor {factor:<5} {'  '.join(texts)}  sweeps {part.sweeps.mean():.0f}  CPU s {part.cpu_s.mean():.3g}")
+            print(f"  factor {factor:<5} {'  '.join(texts)}  sweeps {part.sweeps.mean():.0f}  CPU s "
+                  f"{part.cpu_s.mean():.3g}")
 
 
 def main():
@@ -95,7 +100,8 @@ def main():
     parser.add_argument("--output", type=os.path.abspath)
     parser.add_argument("--cases", type=int, default=len(CASES))
     options = parser.parse_args()
-    table = measured(options.program, options.output, CASES[:options.cases]) if options.program else pandas.read_csv(STORED)
+    table = measured(options.program, options.output,
+                     CASES[:options.cases]) if options.program else pandas.read_csv(STORED)
     if options.program and options.cases == len(CASES):
         table.to_csv(STORED, index=False, float_format="%.6g")
     show(table)

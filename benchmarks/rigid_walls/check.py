@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """check.py PROGRAM [--seeds 1,2,3] [--output DIR] [--reuse] [--set section/key=value] [--figure figure.png]
 
-Runs scene.prm for every seed and compares both panels with the claims of the README. Exit code 1: a number is outside its
-interval; 2: a run failed. Needs h5py and numpy, the figure matplotlib."""
+Runs scene.prm for every seed and compares both panels with the claims of the README. Exit code 1: a number is outside
+its interval; 2: a run failed. Needs h5py and numpy, the figure matplotlib."""
 import os
 import sys
 
@@ -16,13 +16,16 @@ import claims  # noqa: E402
 
 SCENE = os.path.join(HERE, "scene.prm")
 
-# Grains and prediction: mean and four standard deviations over the first ten seeds of the README. The mean forces on opposite
-# walls differ by the grains' momentum at the end over the time: 0.3 % at the sides.
-CLAIMS = [("grains: peak t/s", 0.356, 0.445), ("grains: t/s, 1.5-4 %", 0.339, 0.414), ("grains: t/s, 7-8 %", 0.266, 0.378),
-          ("grains: volumetric strain at the end", -0.0373, -0.0214), ("right wall: mean force / (P height)", 0.999, 1.001),
+# Grains and prediction: mean and four standard deviations over the first ten seeds of the README. The mean forces on
+# opposite walls differ by the grains' momentum at the end over the time: 0.3 % at the sides.
+CLAIMS = [("grains: peak t/s", 0.356, 0.445), ("grains: t/s, 1.5-4 %", 0.339, 0.414),
+          ("grains: t/s, 7-8 %", 0.266, 0.378),
+          ("grains: volumetric strain at the end", -0.0373, -0.0214),
+          ("right wall: mean force / (P height)", 0.999, 1.001),
           ("left / right wall: mean force", 1, 1.006), ("lower / upper wall: mean force", 0.999, 1.001),
           ("largest shear force on a wall / vertical force", 0, 0), ("continuum: bands in all windows", 0, 0),
-          ("continuum: largest spread of t/s over the probes", 0, 1e-6), ("mean |t/s of the continuum / grains - 1|", 0, 0.16),
+          ("continuum: largest spread of t/s over the probes", 0, 1e-6),
+          ("mean |t/s of the continuum / grains - 1|", 0, 0.16),
           ("largest |difference of volumetric strain|", 0, 0.0103)]
 
 
@@ -57,8 +60,10 @@ def measure(runs):
     return {"grains: peak t/s": claims.running_mean(strain, ratio)[1].max(),
             "grains: t/s, 1.5-4 %": claims.between(strain, ratio, 0.015, 0.04),
             "grains: t/s, 7-8 %": claims.between(strain, ratio, 0.07, 0.08),
-            "grains: volumetric strain at the end": volume[0][-1], **wall_figures(result), **continuum_figures(comparison),
-            "continuum: peak t/s": comparison["continuum_summary"]["peak_stress_ratio"], "continuum: t/s at 8 %": continuum[-1],
+            "grains: volumetric strain at the end": volume[0][-1], **wall_figures(result),
+            **continuum_figures(comparison),
+            "continuum: peak t/s": comparison["continuum_summary"]["peak_stress_ratio"],
+            "continuum: t/s at 8 %": continuum[-1],
             "mean |t/s of the continuum / grains - 1|": numpy.abs(continuum / grains - 1).mean(),
             "largest |difference of volumetric strain|": numpy.abs(volume[1] - volume[0]).max(),
             "grains: bands in all 4 windows": sum(len(w["discrete"]["bands"]) for w in comparison["windows"])}
@@ -75,7 +80,8 @@ def draw(folder, path):
     figure, axes = pyplot.subplots(1, 2, figsize=(9, 3.6), constrained_layout=True)
     axes[0].plot(100 * grains["axial_strain"], grains["stress_ratio"], color="#0072b2", alpha=0.25, linewidth=0.5)
     axes[0].plot(100 * (end - claims.PEAK_WINDOW / 2), mean, color="#0072b2", label="grains")
-    axes[0].plot(100 * continuum["axial_strain"], continuum["stress_ratio"], "--", color="#d55e00", label="continuum, predicted")
+    axes[0].plot(100 * continuum["axial_strain"], continuum["stress_ratio"], "--", color="#d55e00",
+                 label="continuum, predicted")
     axes[1].plot(100 * grains["axial_strain"], 100 * grains["volumetric_strain"], color="#0072b2")
     axes[1].plot(100 * continuum["axial_strain"], 100 * continuum["volumetric_strain"], "--", color="#d55e00")
     axes[0].set(xlabel="axial strain [%]", ylabel="t/s", ylim=(0, None))

@@ -26,8 +26,8 @@ def draw(axis, folder, title):
     start, end = (diptych.load(folder).discrete.snapshots[k] for k in WINDOW)
     turned = numpy.degrees(end.rotation - start.rotation)
     discs = EllipseCollection(2 * end.radius, 2 * end.radius, 0, units="xy", offsets=end.position,
-                              transOffset=axis.transData, array=turned, cmap="RdBu_r", clim=(-LIMIT, LIMIT), edgecolor="0.6",
-                              linewidth=0.2)
+                              transOffset=axis.transData, array=turned, cmap="RdBu_r", clim=(-LIMIT, LIMIT),
+                              edgecolor="0.6", linewidth=0.2)
     axis.add_collection(discs)
     for band in diptych.find_bands(**diptych.increment(start, end), band_resamples=0).bands:
         along = numpy.array([-100, 100])
@@ -51,8 +51,10 @@ def main():
     for axis, rolling in zip(axes, (0, options.rolling)):
         discs, turned = draw(axis, f"{options.folder}/band/0.4_{rolling:g}_{options.seed}", f"mu_r = {rolling:g}")
         print(f"mu_r = {rolling:g}: rms rotation {numpy.sqrt((turned ** 2).mean()):.1f} degrees, "
-              f"median {numpy.median(abs(turned)):.1f}, above {LIMIT} {100 * (abs(turned) > LIMIT).mean():.1f} % of the grains")
-    figure.colorbar(discs, ax=axes, shrink=0.6, label="rotation, 2 to 4 % strain (degrees, anticlockwise)", extend="both")
+              f"median {numpy.median(abs(turned)):.1f}, above {LIMIT} {100 * (abs(turned) > LIMIT).mean():.1f} % of "
+              "the grains")
+    figure.colorbar(discs, ax=axes, shrink=0.6, label="rotation, 2 to 4 % strain (degrees, anticlockwise)",
+                    extend="both")
     figure.savefig(options.figure, dpi=100)
     Image.open(options.figure).quantize(128).save(options.figure, optimize=True)
 

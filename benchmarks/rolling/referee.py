@@ -3,9 +3,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """referee.py [PROGRAM --output DIR] [--seeds 11,12,...]
 
-Prints the results stored in referee.csv: dense biaxial tests (../rigid_limit/samples, 1000 discs) with rolling friction 0.1 by
-LAMMPS, by springs of the same stiffness and by contact dynamics. With PROGRAM it first lets a disc roll down a slope in LAMMPS,
-then makes the runs (those in DIR are kept) and stores them again. Needs lmp (Debian package lammps), h5py, numpy, pandas."""
+Prints the results stored in referee.csv: dense biaxial tests (../rigid_limit/samples, 1000 discs) with rolling friction
+0.1 by LAMMPS, by springs of the same stiffness and by contact dynamics. With PROGRAM it first lets a disc roll down a
+slope in LAMMPS, then makes the runs (those in DIR are kept) and stores them again. Needs lmp (Debian package lammps),
+h5py, numpy, pandas."""
 import argparse
 import os
 import re
@@ -26,7 +27,8 @@ INERTIAL, ROLLING = 1.13e-3, 0.1
 METHODS = {"LAMMPS, kn/P = 1e4": 1e4, "penalty, 1e4": ("discrete/method=penalty", "discrete/penalty_stiffness=1e4"),
            "NSCD, accuracy 0.01": ("discrete/accuracy=0.01",)}
 REFERENCE = "LAMMPS, kn/P = 1e4"
-SLOPE_CASES = ((0.3, 0.5, 0.1), (0.3, 0.5, 0.4), (0.3, 0.1, 0.1), (0.05, 0.5, 0.1))  # Slope [rad], friction, rolling friction.
+# Slope [rad], friction, rolling friction.
+SLOPE_CASES = ((0.3, 0.5, 0.1), (0.3, 0.5, 0.4), (0.3, 0.1, 0.1), (0.05, 0.5, 0.1))
 # A disc of radius 1/2 and mass pi/4, whose weight is pi/4 at a slope of 0, on a plane; springs of 1e6.
 SLOPE = """units lj
 dimension 2
@@ -81,12 +83,14 @@ def load(options, seed, method):
     if isinstance(settings, float):
         done = f"{folder}/seed_{seed}/binned.npz"
         if not os.path.exists(done):
-            columns, seconds = lammps.run(sample, os.path.dirname(done), settings, INERTIAL, strain, rolling_friction=ROLLING)
+            columns, seconds = lammps.run(sample, os.path.dirname(done), settings, INERTIAL, strain,
+                                          rolling_friction=ROLLING)
             numpy.savez(done, cpu_s=seconds, **rigid_limit.binned(columns))
         columns = dict(numpy.load(done))
         return columns, float(columns.pop("cpu_s"))
     runs = claims.Runs(argparse.Namespace(program=options.program, reuse=True, set=[]), seed, folder)
-    return rigid_limit.of_panel(runs.run(f"seed_{seed}", "discrete", rigid_limit.SCENE, f"loading/axial_strain={strain}",
+    return rigid_limit.of_panel(runs.run(f"seed_{seed}", "discrete", rigid_limit.SCENE,
+                                         f"loading/axial_strain={strain}",
                                          "loading/stage_strain=0.01", f"sample/file={sample}",
                                          f"discrete/rolling_friction={ROLLING}", *settings))
 
@@ -117,9 +121,11 @@ def main():
         print(f"\n{column}: mean, standard error; difference from {REFERENCE} sample by sample [%]")
         for method in METHODS:
             mean, error = claims.mean_and_error(wide[method])
-            change, change_error = claims.mean_and_error(100 * (wide[method] - wide[REFERENCE]) / wide[REFERENCE].mean())
+            change, change_error = claims.mean_and_error(100 * (wide[method] - wide[REFERENCE])
+                                                         / wide[REFERENCE].mean())
             seconds = table[table.method == method].cpu_s.mean()
-            print(f"{method:22} {mean:.4f} +- {error:.4f}   {change:+.2f} +- {change_error:.2f} %   {seconds:.2f} CPU s")
+            print(f"{method:22} {mean:.4f} +- {error:.4f}   {change:+.2f} +- {change_error:.2f} %   "
+                  f"{seconds:.2f} CPU s")
 
 
 if __name__ == "__main__":

@@ -3,9 +3,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """rolling.py [PROGRAM --output DIR [--seeds 1,2,3,4]] [--figure FILE]
 
-Prints and draws the results stored in critical.csv (steady plane shear) and band.csv (biaxial compression). With PROGRAM it
-first makes the runs (those in DIR are kept) and stores them again. All values of mu_r load the same prepared grains of a seed:
-differences from mu_r = 0 are paired. Needs h5py, numpy, pandas and the Python package diptych, the figure matplotlib."""
+Prints and draws the results stored in critical.csv (steady plane shear) and band.csv (biaxial compression). With
+PROGRAM it first makes the runs (those in DIR are kept) and stores them again. All values of mu_r load the same prepared
+grains of a seed: differences from mu_r = 0 are paired. Needs h5py, numpy, pandas and the Python package diptych, the
+figure matplotlib."""
 import argparse
 import json
 import os
@@ -21,7 +22,8 @@ import claims  # noqa: E402
 import plane_shear  # noqa: E402
 
 ROLLING = (0., 0.02, 0.05, 0.1, 0.2, 0.3)
-ACCURACY = "discrete/accuracy=0.05"  # Of the strength; nearly the same error for all mu_r, so that the differences are better.
+# Of the strength; nearly the same error for all mu_r, so that the differences are better.
+ACCURACY = "discrete/accuracy=0.05"
 # Loosely prepared, so that the steady state begins early. I = strain rate sqrt(m/P) = 0.005.
 STEADY = ("loading/inertial_number=0.00564", "sample/box_solid_fraction=0.75", "sample/preparation_friction=1",
           "loading/axial_strain=2.5")
@@ -34,8 +36,8 @@ STUDIES = {"critical": tuple(COLOURS), "band": (0.4,)}  # Frictions.
 COLUMNS = {"critical": {"t_over_s": "t/s", "platen": "shear / normal force", "solid_fraction": "solid fraction",
                         "coordination": "contacts per grain"},
            "band": {"peak": "peak t/s", "residual": "t/s, 4-6 %", "dilation": "dilation at 6 % [%]",
-                    "solid_fraction": "solid fraction at 6 %", "width": "10-90 % width [d]", "sheared": "sheared share of area",
-                    "coordination": "contacts per grain"}}
+                    "solid_fraction": "solid fraction at 6 %", "width": "10-90 % width [d]",
+                    "sheared": "sheared share of area", "coordination": "contacts per grain"}}
 
 
 def cost(result):
@@ -62,13 +64,14 @@ def critical(runs, name, *settings):
     with h5py.File(os.path.join(result.folder, "discrete.h5"), "r") as file:
         stages = [stage for stage in file.values() if stage.attrs.get("shear_strain", 0) > STEADY_FROM]
         fraction = numpy.mean([plane_shear.middle(stage)[1] for stage in stages])
-    return {"t_over_s": strength(history, late), "platen": -history["upper_fx"][late].mean() / history["upper_fy"][late].mean(),
+    return {"t_over_s": strength(history, late), "platen": -history["upper_fx"][late].mean()
+            / history["upper_fy"][late].mean(),
             "solid_fraction": fraction, "coordination": coordination(history, late), "cpu_s": cost(result)}
 
 
 def band(runs, name, *settings):
-    """{quantity: number} of one biaxial compression. Sheared share: (sum A g)^2 / (sum A sum A g^2) with the shear strains g of
-    the grains and their areas A, 1 for an even shear."""
+    """{quantity: number} of one biaxial compression. Sheared share: (sum A g)^2 / (sum A sum A g^2) with the shear
+    strains g of the grains and their areas A, 1 for an even shear."""
     import diptych
     result = runs.run(name, "discrete", os.path.join(HERE, "../moreau_quick/scene.prm"), *BAND, *settings)
     history = {**result.grains, "n": len(result.prepared["radius"])}
@@ -76,15 +79,16 @@ def band(runs, name, *settings):
     snapshots = diptych.load(result.folder).discrete.snapshots
     moved = diptych.increment(snapshots[WINDOW[0]], snapshots[WINDOW[1]])
     bands = diptych.find_bands(**moved, band_resamples=0).bands
-    shear = diptych.shear_strain(moved.points, moved.displacement, radius=2.5 * moved.mean_diameter, weight=moved.weight)
+    shear = diptych.shear_strain(moved.points, moved.displacement, radius=2.5 * moved.mean_diameter,
+                                 weight=moved.weight)
     area = numpy.where(numpy.isnan(shear), 0, moved.weight)
     shear = numpy.nan_to_num(shear)
     return {"peak": claims.running_mean(history["axial_strain"], history["stress_ratio"])[1].max(),
             "residual": strength(history, late), "dilation": -100 * history["volumetric_strain"][-1],
             "solid_fraction": history["solid_fraction"][-1], "bands": len(bands),
             "width": bands[0].width_10_90 / moved.mean_diameter if bands else numpy.nan,
-            "sheared": (area @ shear) ** 2 / (area.sum() * (area @ shear ** 2)), "coordination": coordination(history, late),
-            "cpu_s": cost(result)}
+            "sheared": (area @ shear) ** 2 / (area.sum() * (area @ shear ** 2)),
+            "coordination": coordination(history, late), "cpu_s": cost(result)}
 
 
 def measured(study, options):
@@ -103,7 +107,8 @@ def measured(study, options):
 
 
 def paired(table, column):
-    """Table over friction and mu_r: mean, its standard error; mean difference from mu_r = 0 on the same grains, its error."""
+    """Table over friction and mu_r: mean, its standard error; mean difference from mu_r = 0 on the same grains, its
+    error."""
     wide = table.pivot(index=["friction", "rolling_friction"], columns="seed", values=column)
     base = wide.xs(0., level="rolling_friction").reindex(wide.index.get_level_values("friction"))
     change = wide - base.to_numpy()

@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """figure.py DIR FIGURE.png [--quantities strength,dilation] [--columns 3] [--no-maps]
 
-DIR: folder of a study (`diptych study`). Draws error against CPU seconds of the given quantities (default: those with a limit), then
-the maps of classes, row by row. A study with ranges: Sobol indices of the given quantities. Uses the functions of the report. Needs h5py and matplotlib."""
+DIR: folder of a study (`diptych study`). Draws error against CPU seconds of the given quantities (default: those with a
+limit), then the maps of classes, row by row. A study with ranges: Sobol indices of the given quantities. Uses the
+functions of the report. Needs h5py and matplotlib."""
 import argparse
 import math
 import os
@@ -37,11 +38,13 @@ def panels(study, names, with_maps):
         for k, quantity in enumerate(study.quantities):
             if quantity["name"] in names:
                 found.append((", ".join(text for text in (quantity["name"], held) if text),
-                              lambda axes, k=k, reference=reference: charts.draw_error_against_cost(axes, study, k, reference)))
+                              lambda axes, k=k, reference=reference: charts.draw_error_against_cost(axes, study, k,
+                                                                                                    reference)))
     for family in study.record["families"] if with_maps else []:
         for title, pair, points in charts.parts_of(study, family):
             found.append((": ".join(text for text in (family["name"], title) if text),
-                          lambda axes, family=family, pair=pair, points=points: charts.draw_classes(axes, study, family, pair, points)))
+                          lambda axes, family=family, pair=pair,
+                          points=points: charts.draw_classes(axes, study, family, pair, points)))
     return found
 
 
@@ -55,9 +58,11 @@ def main():
     options = parser.parse_args()
     study = load(options.folder)
     style.set_up()
-    names = [q["name"] for q in study.quantities if q["limit"]] if options.quantities is None else options.quantities.split(",")
+    names = [q["name"] for q in study.quantities
+             if q["limit"]] if options.quantities is None else options.quantities.split(",")
     parts = panels(study, names, not options.no_maps)
-    parts = [(title, draw) for title, draw in parts if draw(Figure().add_subplot()) is not False]  # Leaves out parts without errors.
+    # Leaves out parts without errors.
+    parts = [(title, draw) for title, draw in parts if draw(Figure().add_subplot()) is not False]
     rows = math.ceil(len(parts) / options.columns)
     figure = Figure(figsize=(4.6 * options.columns, 3.5 * rows), layout="constrained")
     FigureCanvasAgg(figure)

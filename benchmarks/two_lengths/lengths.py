@@ -3,10 +3,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """lengths.py PROGRAM [--output DIR] [--reuse] [--figure figure.png]
 
-Runs `PROGRAM continuum` on oblique.prm with a Cosserat and a gradient law, several internal lengths l, elements h and sizes W.
-Prints thicknesses of the band, measured as in ../cosserat_band/width.py. --reuse: does not repeat finished runs in DIR. Exit
-code 1: elements of l and l/2 differ by more than 3 %, or a run ends early; 2: a run failed. Needs h5py and numpy, the figure
-matplotlib."""
+Runs `PROGRAM continuum` on oblique.prm with a Cosserat and a gradient law, several internal lengths l, elements h and
+sizes W. Prints thicknesses of the band, measured as in ../cosserat_band/width.py. --reuse: does not repeat finished
+runs in DIR. Exit code 1: elements of l and l/2 differ by more than 3 %, or a run ends early; 2: a run failed. Needs
+h5py and numpy, the figure matplotlib."""
 import argparse
 import os
 import sys
@@ -29,7 +29,8 @@ def measured(runs, law):
     """{(W, l, h): thickness [d] at STRAINS} of one law; prints a row for each."""
     found = {}
     for size, length, h in [(60, *mesh) for mesh in MESHES] + [(size, 2, 1) for size in SIZES if size != 60]:
-        folder = runs("oblique", law=law, internal_length=length, element_size=h, rectangle_width=size, rectangle_height=size)
+        folder = runs("oblique", law=law, internal_length=length, element_size=h, rectangle_width=size,
+                      rectangle_height=size)
         found[size, length, h] = thicknesses(folder, "oblique", STRAINS)
         cost = facts(folder)
         print(f"  W = {size}, l = {length}, h = {h}" + "".join(f"{v:8.2f}" for v in found[size, length, h])
@@ -55,13 +56,15 @@ def judged(name, found):
 
 
 def show_limits(runs, exhausted):
-    """Gradient law, l = 4, W = 60: another weight m; a strength that stops falling (`exhausted`: runs of ../cosserat_band)."""
+    """Gradient law, l = 4, W = 60: another weight m; a strength that stops falling (`exhausted`: runs of
+    ../cosserat_band)."""
     for text, of_scene, weight, elements in (("oblique.prm, m = 2", runs, 2, (4, 2, 1)),
                                              ("strength constant from 0.1 on, m = 4", exhausted, 4, (4, 2)),
                                              ("strength constant from 0.1 on, m = 2", exhausted, 2, (4, 2))):
         print(f"\n{text}: thickness [d], gradient law, l = 4")
         for h in elements:
-            folder = of_scene("oblique", law=LAWS["gradient"], internal_length=4, nonlocal_weight=weight, element_size=h)
+            folder = of_scene("oblique", law=LAWS["gradient"], internal_length=4, nonlocal_weight=weight,
+                              element_size=h)
             print(f"  h = {h}" + "".join(f"{v:8.2f}" for v in thicknesses(folder, "oblique", STRAINS)), flush=True)
 
 

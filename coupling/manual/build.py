@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: build.py SOURCE PROGRAM OUTPUT
 
-Writes all pages as Markdown into a temporary folder and runs mkdocs on it. The site replaces the folder OUTPUT. The pages come from
-pages/*.md, from the READMEs, from the comments of the headers and from what PROGRAM prints. Exit code 1: a file or a link that a page
-names does not exist."""
+Writes all pages as Markdown into a temporary folder and runs mkdocs on it. The site replaces the folder OUTPUT. The
+pages come from pages/*.md, from the READMEs, from the comments of the headers and from what PROGRAM prints. Exit code
+1: a file or a link that a page names does not exist."""
 import glob
 import importlib
 import json
@@ -25,8 +25,10 @@ import reference
 HERE = os.path.dirname(os.path.abspath(__file__))
 UNUSED = ("404.html", "sitemap.xml", "sitemap.xml.gz", "assets/javascripts/lunr", "assets/javascripts/workers")
 PAGES = [("index", "Start"), ("install", "Install"), ("first_comparison", "First comparison"), ("gallery", "Gallery"),
-         ("own_scene", "Your own scene"), ("own_data", "Your own data"), ("result_folders", "Result folders"), ("ensembles", "Ensembles"), ("studies", "Studies and plans"),
-         ("calibration", "Calibration"), ("python", "Python"), ("cost", "What it costs"), ("conventions", "Conventions"),
+         ("own_scene", "Your own scene"), ("own_data", "Your own data"), ("result_folders", "Result folders"),
+         ("ensembles", "Ensembles"), ("studies", "Studies and plans"),
+         ("calibration", "Calibration"), ("python", "Python"), ("cost", "What it costs"),
+         ("conventions", "Conventions"),
          ("equations", "Equations"), ("limits", "Limits"), ("faq", "Questions"), ("glossary", "Glossary")]
 
 
@@ -48,7 +50,8 @@ class Directives:
         self.source, self.program, self.docs, self.tree = source, program, docs, tree
 
     def filled(self, text):
-        return re.sub(r"^<!-- (\w+): (.+?) -->$", lambda match: getattr(self, "do_" + match[1])(match[2]), text, flags=re.MULTILINE)
+        return re.sub(r"^<!-- (\w+): (.+?) -->$", lambda match: getattr(self, "do_" + match[1])(match[2]), text,
+                      flags=re.MULTILINE)
 
     def path(self, name):
         path = os.path.join(self.source, name)
@@ -64,12 +67,14 @@ class Directives:
         """The Debian packages that a shell script of the source tree installs."""
         block = re.search(r"packages=\((.*?)\)", text_of(self.path(name)), re.DOTALL)
         command = "apt-get install " + " ".join(block[1].split())
-        return "```\n" + " \\\n".join(textwrap.wrap(command, 80, subsequent_indent="    ", break_on_hyphens=False)) + "\n```"
+        return "```\n" + " \\\n".join(textwrap.wrap(command, 80, subsequent_indent="    ",
+                                                    break_on_hyphens=False)) + "\n```"
 
     def do_equations(self, name):
         """The comments of a source file that hold a formula, below a link to the page of the file."""
         page = self.tree.page_of(name)
-        found = [f'<div class="equation">{headers.flowing(comment)}</div>' for comment in headers.formulas(text_of(self.path(name)))]
+        found = [f'<div class="equation">{headers.flowing(comment)}</div>'
+                 for comment in headers.formulas(text_of(self.path(name)))]
         return "\n\n".join([f"[`{name}`]({page})" if page else f"`{name}`", *found])
 
     def do_figure(self, argument):
@@ -94,7 +99,8 @@ def find_page(entries):
     rows = [[name, kind, link, meaning[:160]] for name, kind, link, meaning in entries]
     data = json.dumps(rows, ensure_ascii=False).replace("</", "<\\/")
     return ("# Find\n\nSearches keys, columns, datasets, commands and headers. All words must occur.\n\n"
-            '<input id="words" type="search" placeholder="internal length" aria-label="words to find">\n<p id="found-count"></p>\n'
+            '<input id="words" type="search" placeholder="internal length" aria-label="words to find">\n<p '
+            'id="found-count"></p>\n'
             f'<div id="found"></div>\n<script id="find-data" type="application/json">{data}</script>\n')
 
 
@@ -107,15 +113,18 @@ def navigation(keys, results, rooms, tree):
         return [{title: page} for page, title, _ in pages]
 
     project = [{readmes.title(tree.texts[path], path): "source/" + path} for path in tree.paths if "/" not in path]
-    return [*({title: name + ".md"} for name, title in PAGES), {"Find": "find.md"}, {"Commands": "reference/commands.md"},
+    return [*({title: name + ".md"} for name, title in PAGES), {"Find": "find.md"},
+            {"Commands": "reference/commands.md"},
             {"Keys of a scene": listed(keys)}, {"Results": listed(results)}, {"Benchmarks": under("benchmarks/")},
-            {"Modules": under("discrete/", "continuum/", "coupling/", "meshes/")}, {"Headers": listed(rooms)}, {"Project": project}]
+            {"Modules": under("discrete/", "continuum/", "coupling/", "meshes/")}, {"Headers": listed(rooms)},
+            {"Project": project}]
 
 
 def settings(docs, site, nav):
     """Text of mkdocs.yml (JSON is YAML). The pages load nothing from the network."""
     return json.dumps({
-        "site_name": "Diptych", "docs_dir": docs, "site_dir": site, "use_directory_urls": False, "plugins": [], "nav": nav,
+        "site_name": "Diptych", "docs_dir": docs, "site_dir": site, "use_directory_urls": False, "plugins": [],
+        "nav": nav,
         "theme": {"name": "material", "font": False, "palette": {"primary": "blue grey", "accent": "deep orange"}},
         "extra": {"generator": False}, "extra_css": ["theme/manual.css"], "extra_javascript": ["theme/manual.js"],
         "markdown_extensions": ["tables", "sane_lists", "fenced_code", {"toc": {"permalink": False, "toc_depth": 3}}]})
@@ -125,7 +134,8 @@ def assemble(source, program, docs):
     """Writes all pages as Markdown into docs; returns their navigation."""
     keys, results, commands = reference.Keys(program), reference.Results(program), reference.Commands(program)
     tree = readmes.Tree(source, headers.links(source), keys)
-    key_pages, result_pages, rooms = list(keys.pages()), list(results.pages()), list(headers.pages(source, tree.page_of))
+    key_pages, result_pages, rooms = list(keys.pages()), list(results.pages()), list(headers.pages(source,
+                                                                                                   tree.page_of))
     for path, _, text in key_pages + result_pages + rooms:
         write(os.path.join(docs, path), text)
     write(os.path.join(docs, "reference", "commands.md"), commands.page())
@@ -134,7 +144,8 @@ def assemble(source, program, docs):
     for name, _ in PAGES:
         text = readmes.spaced(directives.filled(text_of(os.path.join(HERE, "pages", name + ".md"))))
         write(os.path.join(docs, name + ".md"), tree.with_links(text, name + ".html", ""))
-    titles = [(path, "header", link, headers.title(text_of(os.path.join(source, path)))) for path, link in tree.headers.items()
+    titles = [(path, "header", link, headers.title(text_of(os.path.join(source, path)))) for path,
+              link in tree.headers.items()
               if path.endswith(".h")]
     write(os.path.join(docs, "find.md"), find_page([*commands.index(), *keys.index(), *results.index(), *titles]))
     shutil.copytree(os.path.join(HERE, "theme"), os.path.join(docs, "theme"))
@@ -156,7 +167,8 @@ def build(source, program, output):
         done = subprocess.run(["mkdocs", "build", "-q", "-f", config], capture_output=True, text=True, check=False)
         if done.returncode != 0:
             raise RuntimeError("mkdocs: " + done.stderr)
-    for path in [os.path.join(site, name) for name in UNUSED] + glob.glob(os.path.join(site, "**", "*.map"), recursive=True):
+    for path in [os.path.join(site, name) for name in UNUSED] + glob.glob(os.path.join(site, "**", "*.map"),
+                                                                          recursive=True):
         remove(path)
     remove(output)
     os.rename(site, output)

@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: gallery.py PROGRAM FOLDER [NAME ...]
 
-Runs the templates (default: all of TESTS) with their results in FOLDER/NAME, prints their summaries and draws gallery/NAME.png.
-A finished result is not computed again. Exit code 1: a run failed."""
+Runs the templates (default: all of TESTS) with their results in FOLDER/NAME, prints their summaries and draws
+gallery/NAME.png. A finished result is not computed again. Exit code 1: a run failed."""
 import os
 import subprocess
 import sys
@@ -40,11 +40,14 @@ def draw_flow(folder, path):
         velocity, low, high = stage["grains/velocity"][:, 0], stage.attrs["lower_y"], stage.attrs["upper_y"]
         velocity = velocity / velocity[stage["grains/fixed"][()] == 3].mean()  # 3: part of the upper platen
         position[:, 0] %= stage.attrs["cell_width"]
-    figure, (left, right) = pyplot.subplots(1, 2, figsize=(8.4, 3.4), constrained_layout=True, sharey=True, width_ratios=(1.4, 1))
-    discs = left.add_collection(EllipseCollection(2 * radius, 2 * radius, numpy.zeros_like(radius), units="xy", offsets=position,
-                                                  transOffset=left.transData, array=velocity, cmap="viridis", clim=(0, 1)))
-    left.set(xlim=(position[:, 0].min() - 1, position[:, 0].max() + 1), ylim=(low - 0.5, high + 0.5), aspect="equal", xlabel="x / d",
-             ylabel="y / d", title="grains", facecolor="0.85")
+    figure, (left, right) = pyplot.subplots(1, 2, figsize=(8.4, 3.4), constrained_layout=True, sharey=True,
+                                            width_ratios=(1.4, 1))
+    discs = left.add_collection(EllipseCollection(2 * radius, 2 * radius, numpy.zeros_like(radius), units="xy",
+                                                  offsets=position,
+                                                  transOffset=left.transData, array=velocity, cmap="viridis",
+                                                  clim=(0, 1)))
+    left.set(xlim=(position[:, 0].min() - 1, position[:, 0].max() + 1), ylim=(low - 0.5, high + 0.5), aspect="equal",
+             xlabel="x / d", ylabel="y / d", title="grains", facecolor="0.85")
     figure.colorbar(discs, ax=left, shrink=0.8, label="horizontal velocity / platen's")
     right.plot(velocity, position[:, 1], ".", ms=2, color="#0072B2")
     right.set(xlabel="horizontal velocity / platen's", title="profile", xlim=(-0.2, 1.2))
@@ -57,7 +60,8 @@ def draw_footing(folder, path):
     corners, increment, _ = footing.plastic_increment(folder)
     figure, axis = pyplot.subplots(figsize=(8.4, 2.7), constrained_layout=True)
     share = numpy.log10(numpy.maximum(increment / increment.max(), 1e-4))
-    cells = axis.add_collection(PolyCollection(corners, array=share, cmap="cividis", edgecolors="white", linewidths=0.12, clim=(-4, 0)))
+    cells = axis.add_collection(PolyCollection(corners, array=share, cmap="cividis", edgecolors="white",
+                                               linewidths=0.12, clim=(-4, 0)))
     x, y = footing.prandtl_outline(20)
     for side in (-1, 1):
         axis.plot(side * x, y, color="#ff8c1a", linestyle="--", linewidth=1.4)
@@ -85,7 +89,8 @@ def main(program, folder, *names):
             return 1
         path = os.path.join(HERE, "gallery", name + ".png")
         draw(result, path)
-        Image.open(path).convert("RGB").quantize(256, Image.Quantize.MAXCOVERAGE).save(path, optimize=True)  # a third of the size
+        # a third of the size
+        Image.open(path).convert("RGB").quantize(256, Image.Quantize.MAXCOVERAGE).save(path, optimize=True)
     return 0
 
 

@@ -24,7 +24,8 @@ def page_name(folder):
 
 
 def links(source):
-    """{folder: its page} and {path of a header: page#anchor}; the Markdown package makes the anchors from the headings."""
+    """{folder: its page} and {path of a header: page#anchor}; the Markdown package makes the anchors from the
+    headings."""
     found = {}
     for folder, paths in find(source).items():
         found[folder] = page_name(folder) + ".html"
@@ -63,7 +64,8 @@ def comments(text):
 
 
 def formulas(text):
-    """The comments of a source, verbatim, that hold a formula ("=", "<=" or ">=" between spaces), or all if none does."""
+    """The comments of a source, verbatim, that hold a formula ("=", "<=" or ">=" between spaces), or all if none
+    does."""
     blocks = re.findall(r"(?:^ *//.*\n)+", text.split("\n\n", 1)[-1], re.MULTILINE)
     plain = [re.sub(r"^ *// ?", "", block.rstrip("\n"), flags=re.MULTILINE) for block in blocks]
     return [block for block in plain if re.search(r" [<>]?= ", block)] or plain
@@ -85,7 +87,8 @@ def flowing(text):
             parts[-1] = (False, parts[-1][1] + " " + line.strip())
         else:
             parts.append((is_set_in, line.strip()))
-    return "".join(f'<p{" class=set-in" if is_set_in else ""}>{with_code(line)}</p>' for is_set_in, line in parts if line)
+    return "".join(f'<p{" class=set-in" if is_set_in else ""}>{with_code(line)}</p>' for is_set_in,
+                   line in parts if line)
 
 
 def page(source, folder, paths, link_of):
@@ -100,7 +103,8 @@ def page(source, folder, paths, link_of):
         subject = title(text)
         lines += [f"## `{posixpath.basename(path)}`", "", html.escape(subject[:1].upper() + subject[1:]) + ".", ""]
         for comment, code in comments(text):
-            lines += ['<div class="declared">' + flowing(comment) + "<pre><code>" + html.escape(code).replace("\n", "&#10;")
+            lines += ['<div class="declared">' + flowing(comment) + "<pre><code>"
+                      + html.escape(code).replace("\n", "&#10;")
                       + "</code></pre></div>", ""]
     return "\n".join(lines)
 

@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: man_page.py PROGRAM OUTPUT.gz
 
-Reads the output of `diptych --help` and `diptych COMMAND --help`. The page holds no date: the same program gives the same bytes."""
+Reads the output of `diptych --help` and `diptych COMMAND --help`. The page holds no date: the same program gives the
+same bytes."""
 import gzip
 import os
 import re
@@ -32,17 +33,21 @@ def page(commands, version):
     """The whole page; version is the output of `diptych --version`."""
     title, _ = commands.overview.split("\n", 1)
     codes = re.search(r"^Exit codes: (.*)\Z", commands.overview.strip(), re.DOTALL | re.MULTILINE)[1]
-    lines = ['.TH DIPTYCH 1 "" "' + escaped(version.split("\n")[0]) + '" "User Commands"', ".SH NAME", "diptych \\- " + escaped(title[:1].lower() + title[1:]),
-             ".SH SYNOPSIS", ".B diptych", "\\fICOMMAND\\fR [\\fIOPTIONS\\fR]", ".br", ".B diptych", "\\-\\-help | \\-\\-version",
-             ".SH DESCRIPTION", "Computes a granular sample twice, as discs with Non\\-Smooth Contact Dynamics and as an elasto\\-plastic continuum, and compares "
-             "both. A scene is a text file of keys. Each run writes a result folder with the page report.html.", ".SH COMMANDS"]
+    lines = ['.TH DIPTYCH 1 "" "' + escaped(version.split("\n")[0]) + '" "User Commands"', ".SH NAME",
+             "diptych \\- " + escaped(title[:1].lower() + title[1:]),
+             ".SH SYNOPSIS", ".B diptych", "\\fICOMMAND\\fR [\\fIOPTIONS\\fR]", ".br", ".B diptych",
+             "\\-\\-help | \\-\\-version",
+             ".SH DESCRIPTION", "Computes a granular sample twice, as discs with Non\\-Smooth Contact Dynamics and as "
+             "an elasto\\-plastic continuum, and compares "
+             "both. A scene is a text file of keys. Each run writes a result folder with the page report.html.",
+             ".SH COMMANDS"]
     for name in commands.names:
         lines += command_section(name, commands.helps[name])
     lines += [".SH EXIT STATUS"]
     for code, meaning in re.findall(r"(\d) (.*?)(?=,\s+\d |\Z)", codes, re.DOTALL):
         lines += [".TP", ".B " + code, escaped(" ".join(meaning.split()))]
-    lines += [".SH SCENES", "\\fBdiptych explain\\fR lists every key of a scene, \\fBdiptych explain results\\fR every column and dataset.",
-              ".SH VERSION", ".nf", escaped(version.strip()), ".fi"]
+    lines += [".SH SCENES", "\\fBdiptych explain\\fR lists every key of a scene, \\fBdiptych explain results\\fR every "
+              "column and dataset.", ".SH VERSION", ".nf", escaped(version.strip()), ".fi"]
     return "\n".join(lines) + "\n"
 
 

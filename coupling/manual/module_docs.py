@@ -5,7 +5,8 @@ import textwrap
 
 
 def signature(name, thing):
-    """The call with its arguments and defaults, without types; None if unknown: pybind11 writes it into the docstring."""
+    """The call with its arguments and defaults, without types; None if unknown: pybind11 writes it into the
+    docstring."""
     try:
         known = inspect.signature(thing)
     except (TypeError, ValueError):
@@ -29,7 +30,8 @@ def described(name, thing, level):
 
 
 def page(package):
-    """Markdown with every documented public class and function of an imported package, in the order of __all__ or of the alphabet."""
+    """Markdown with every documented public class and function of an imported package, in the order of __all__ or of
+    the alphabet."""
     lines = []
     for name in getattr(package, "__all__", None) or sorted(vars(package)):
         thing = getattr(package, name)

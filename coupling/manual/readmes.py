@@ -30,13 +30,15 @@ def title(text, path):
 
 
 def spaced(text):
-    """The text with a blank line before and after each list, table and code block. GitHub's Markdown does not need it, Python's does."""
+    """The text with a blank line before and after each list, table and code block. GitHub's Markdown does not need it,
+    Python's does."""
     out, fenced, in_list = [], False, False
     for line in text.split("\n"):
         before = out[-1] if out else ""
         is_fence = line.startswith("```")
         is_text = not fenced and before.strip() and not before.startswith(("```", "    "))
-        if is_text and (is_fence or line.startswith("|") != before.startswith("|") or (ITEM.match(line) and not in_list)) and line.strip():
+        if is_text and (is_fence or line.startswith("|") != before.startswith("|")
+                        or (ITEM.match(line) and not in_list)) and line.strip():
             out.append("")
         fenced ^= is_fence
         in_list = not fenced and bool(line.strip()) and (in_list or bool(ITEM.match(line)))
@@ -64,7 +66,8 @@ class Tree:
         return self.headers.get(path)
 
     def meant(self, word, folder):
-        """The page for a word in code within a text of `folder`: a key, or a path of the tree with or without its ending; or None."""
+        """The page for a word in code within a text of `folder`: a key, or a path of the tree with or without its
+        ending; or None."""
         if word in self.keys.names:
             return self.keys.link(word)
         if not re.fullmatch(r"[\w./*-]+", word) or not re.search(r"[/.]", word):
@@ -84,7 +87,8 @@ class Tree:
             page, _, place = (self.meant(match[1], folder) or "").partition("#")
             if page in ("", path):
                 return match[0]
-            return f'[{match[0]}]({posixpath.relpath(page, posixpath.dirname(path) or ".")}{"#" + place if place else ""})'
+            link = posixpath.relpath(page, posixpath.dirname(path) or ".")
+            return f'[{match[0]}]({link}{"#" + place if place else ""})'
 
         out, fenced = [], False
         for line in text.split("\n"):
@@ -96,7 +100,8 @@ class Tree:
         return "\n".join(out)
 
     def write(self, docs):
-        """Writes the pages and the files that they link to below docs/source. Raises ValueError if a linked file does not exist."""
+        """Writes the pages and the files that they link to below docs/source. Raises ValueError if a linked file does
+        not exist."""
         for path in self.paths:
             folder = posixpath.dirname(path)
             out = os.path.join(docs, "source", path)

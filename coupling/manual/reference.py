@@ -17,8 +17,8 @@ def output_of(program, *words):
 
 
 def groups(text):
-    """[(heading, [(name, unit, facts, meaning)])] of the output of `explain`. Headings are not indented, entries such as
-    "step = auto  [time]  auto or a number" by two, meanings by six."""
+    """[(heading, [(name, unit, facts, meaning)])] of the output of `explain`. Headings are not indented, entries such
+    as "step = auto  [time]  auto or a number" by two, meanings by six."""
     found = []
     for line in filter(str.strip, text.split("\n")):
         depth = len(line) - len(line.lstrip())
@@ -41,7 +41,8 @@ def anchor(*words):
 def entry(identity, head, facts, meaning):
     """HTML of one key or number: its name, its facts in small print, its meaning."""
     small = "".join(f'<span class="fact">{html.escape(fact)}</span>' for fact in facts if fact)
-    return (f'<div class="entry" id="{identity}"><p class="head"><a href="#{identity}"><code>{html.escape(head)}</code></a>{small}</p>'
+    return (f'<div class="entry" id="{identity}"><p class="head"><a '
+            f'href="#{identity}"><code>{html.escape(head)}</code></a>{small}</p>'
             f'<p class="meaning">{with_code(meaning)}</p></div>')
 
 
@@ -50,7 +51,8 @@ class Keys:
 
     def __init__(self, program):
         self.sections = groups(output_of(program, "explain"))
-        self.names = {section + "/" + name.split(" = ")[0] for section, entries in self.sections for name, *_ in entries}
+        self.names = {section + "/" + name.split(" = ")[0] for section, entries in self.sections for name,
+                      *_ in entries}
 
     def link(self, name):
         section, key = name.split("/", 1)
@@ -58,8 +60,8 @@ class Keys:
 
     def pages(self):
         for section, entries in self.sections:
-            lines = [f"# Section `{section}`", "", f"{len(entries)} keys; `diptych explain {section}` prints the same list. In a scene:", "",
-                     f"    subsection {section}", f"      set {entries[0][0]}", "    end", "",
+            lines = [f"# Section `{section}`", "", f"{len(entries)} keys; `diptych explain {section}` prints the same "
+                     "list. In a scene:", "", f"    subsection {section}", f"      set {entries[0][0]}", "    end", "",
                      f"or on the command line `--set {section}/KEY=VALUE`.", ""]
             for name, unit, bounds, meaning in entries:
                 lines += [entry(anchor(section, name.split(" = ")[0]), name, (unit, bounds), meaning), ""]
@@ -73,7 +75,8 @@ class Keys:
 
 
 class Results:
-    """The columns, numbers and datasets of result files, one page per family of files: the first word of the heading."""
+    """The columns, numbers and datasets of result files, one page per family of files: the first word of the
+    heading."""
 
     def __init__(self, program):
         self.families = {}
@@ -82,7 +85,8 @@ class Results:
 
     def pages(self):
         for family, files in self.families.items():
-            lines = [f"# Results: {family}", "", "`diptych explain results` prints the same list. Stress and strain are positive in compression.", ""]
+            lines = [f"# Results: {family}", "", "`diptych explain results` prints the same list. Stress and strain "
+                     "are positive in compression.", ""]
             for heading, entries in files:
                 lines += ["## " + heading, ""]
                 for name, unit, kind, meaning in entries:
@@ -98,7 +102,8 @@ class Results:
 
 
 def options(text):
-    """[(head, meaning)] of the arguments and options that CLI11 prints. The meaning of a long head is on the next line."""
+    """[(head, meaning)] of the arguments and options that CLI11 prints. The meaning of a long head is on the next
+    line."""
     found = []
     for block in re.findall(r"^(?:Positionals|Options|Subcommands):\n(.*?)(?=^\S|\Z)", text, re.DOTALL | re.MULTILINE):
         for line in block.split("\n"):
@@ -126,12 +131,14 @@ class Commands:
             lines += [f"## diptych {name}", "", html.escape(first[:1].upper() + first[1:]) + ".", "",
                       "    " + re.search(r"^Usage: (.*)$", rest, re.MULTILINE)[1], ""]
             for head, meaning in options(rest):
-                lines += [entry(anchor(name, head.split()[-1] if head.startswith("-h") else head.split()[0]), head, (), meaning), ""]
+                lines += [entry(anchor(name, head.split()[-1] if head.startswith("-h") else head.split()[0]), head, (),
+                                meaning), ""]
         codes = self.overview[self.overview.index("Exit codes: "):].split(": ", 1)[1]
         lines += ["## Exit codes", "", html.escape(" ".join(codes.split())) + "."]
         return "\n".join(lines)
 
     def index(self):
         for name in self.names:
-            yield "diptych " + name, "command", "reference/commands.html#diptych-" + name, self.helps[name].split("\n", 1)[0]
+            yield "diptych " + name, "command", "reference/commands.html#diptych-" + name, self.helps[name].split("\n",
+                                                                                                                  1)[0]
 

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # diptych: how often the 95 % intervals of a calibration hold the truth
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: coverage.py [REPLICATES [SIZE [JOBS]]]. Draws parameters from the prior and four noisy samples of a material point with them,
-and calibrates. SIZE: of the discrepancy in the data, in deviations assumed before (0). JOBS: processes (2). Prints a row per parameter."""
+"""Usage: coverage.py [REPLICATES [SIZE [JOBS]]]. Draws parameters from the prior and four noisy samples of a material
+point with them, and calibrates. SIZE: of the discrepancy in the data, in deviations assumed before (0). JOBS: processes
+(2). Prints a row per parameter."""
 import itertools
 import os
 import sys
@@ -26,11 +27,13 @@ def replicate(seed, size):
         point = random.normal(there.start, 0.25)
         truth = truth_of(c, "", there.numbers(point)) if ((point > 0) & (point < 1)).all() else truth
     x = np.array([0.5 * (one.low + one.high) for one in observables])
-    same = np.equal.outer(*[[one.kind for one in observables]] * 2) * np.exp(-np.abs(x[:, None] - x) / CORRELATION_STRAIN)
+    same = np.equal.outer(*[[one.kind for one in observables]] * 2) * np.exp(-np.abs(x[:, None] - x)
+                                                                             / CORRELATION_STRAIN)
     deviation = size * np.sqrt(discrepancy(Noise(), Data(observables, truth)))
     truth = truth + deviation * random.multivariate_normal(0 * x, same)
     found = calibrated(c, [path_of(c.targets[0], drawn(USUAL, observables, truth, 4, seed))])["parameters"]
-    in_cube = [[(np.log(p[end]) if p["coordinate"] == "logarithm" else p[end]) for p in found] for end in ("number_low", "number_high", "number_median")]
+    in_cube = [[(np.log(p[end]) if p["coordinate"] == "logarithm" else p[end]) for p in found]
+               for end in ("number_low", "number_high", "number_median")]
     return np.array([point, *((np.array(in_cube) - there.low) / there.span)])
 
 
@@ -42,7 +45,8 @@ def main():
     truth, low, high, median = found.swapaxes(0, 1)
     holds, rows = (low <= truth) & (truth <= high), []
     for k, p in enumerate(SIX):
-        rows.append((p.key, f"{holds[:, k].sum()} of {n:.0f}", np.sqrt(np.mean((median - truth)[:, k] ** 2)), np.mean((high - low)[:, k]) / 3.92))
+        rows.append((p.key, f"{holds[:, k].sum()} of {n:.0f}", np.sqrt(np.mean((median - truth)[:, k] ** 2)),
+                     np.mean((high - low)[:, k]) / 3.92))
     print("| parameter | in the 95 % interval | rms error | mean deviation |\n|---|---|---|---|")
     for key, held, error, deviation in rows:
         print(f"| {key} | {held} | {error:.3f} | {deviation:.3f} |")

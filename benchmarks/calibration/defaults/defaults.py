@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # diptych: the default law of the continuum: its calibrations by friction, and a check on other samples
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""defaults.py calibrate|check [FRICTION...]: prints the rows of the table in coupling/scene/derived_keys.cc, or what the default
-law predicts for samples and frictions that no calibration has seen. PYTHONPATH: build/release/python."""
+"""defaults.py calibrate|check [FRICTION...]: prints the rows of the table in coupling/scene/derived_keys.cc, or what
+the default law predicts for samples and frictions that no calibration has seen. PYTHONPATH: build/release/python."""
 
 import os
 import subprocess
@@ -26,8 +26,8 @@ def calibration(friction):
         "targets": [target(loading, "1-8") for loading in LOADINGS] +
                    [target(loading, "9-16", use="predict") for loading in LOADINGS],
         "quantities": ["stress_ratio", "volumetric_strain", "ln_width"],
-        "bins": [0.001, 0.002, 0.003, 0.004, 0.006, 0.008, 0.01, 0.0125, 0.015, 0.0175, 0.02, 0.0225, 0.025, 0.0275, 0.03, 0.035,
-                 0.04],
+        "bins": [0.001, 0.002, 0.003, 0.004, 0.006, 0.008, 0.01, 0.0125, 0.015, 0.0175, 0.02, 0.0225, 0.025, 0.0275,
+                 0.03, 0.035, 0.04],
         "set": {"continuum/hardening": "mobilisation", "continuum/softening_strain": 0.3, "continuum/cohesion": 0.01,
                 "continuum/mobilisation_strain": 0.007},
         "load_step": 0.0012, "coarse_element_size": 3.5,
@@ -51,12 +51,14 @@ def calibrate(friction):
 
 
 def check(friction):
-    """Differences continuum - grains of peak t/s (relative) and volume (absolute): mean of 16 samples, its standard error."""
+    """Differences continuum - grains of peak t/s (relative) and volume (absolute): mean of 16 samples, its standard
+    error."""
     for loading in LOADINGS:
         differences = []
         for seed in range(17, 33):
             folder = f"{RESULTS}/check_{friction}_{loading}_{seed}"
-            subprocess.run([PROGRAM, "run", f"{HERE}/{loading}.prm", "--output", folder, "--set", f"discrete/friction={friction}",
+            subprocess.run([PROGRAM, "run", f"{HERE}/{loading}.prm", "--output", folder, "--set",
+                            f"discrete/friction={friction}",
                             "--set", f"sample/seed={seed}", "--set", "output/report=false", "--quiet"], check=True)
             s = diptych.load(folder).summary()
             differences.append((s.loc["peak t/s", "difference"] / s.loc["peak t/s", "grains"],

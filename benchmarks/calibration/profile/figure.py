@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # diptych: rotation across the band of grains and of the law with several internal lengths
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: figure.py FIGURE.png GRAINS... -- LAW... Result folders of `diptych discrete` and `diptych continuum`, for moreau_1997."""
+"""Usage: figure.py FIGURE.png GRAINS... -- LAW... Result folders of `diptych discrete` and `diptych continuum`, for
+moreau_1997."""
 import os
 import sys
 
@@ -24,9 +25,11 @@ def profiles(snapshots, frames):
     for window, frame in zip(WINDOWS, frames or [{}] * len(WINDOWS)):
         pair = snapshots_at(snapshots, *window)
         moved = dict(operators.increment(*pair))
-        own.append(frame or {key: moved[key] for key in ("mean_diameter", "platen_increment", "centre", "width", "height")})
+        own.append(frame or {key: moved[key] for key in ("mean_diameter", "platen_increment", "centre", "width",
+                                                         "height")})
         band = bands_between(SCENE, pair, frame)[0]
-        found.append(profile(pair, moved["weight"], band, list(zip(STRIPS, STRIPS[1:])), 1 / np.hypot(*own[-1]["platen_increment"])))
+        found.append(profile(pair, moved["weight"], band, list(zip(STRIPS, STRIPS[1:])),
+                             1 / np.hypot(*own[-1]["platen_increment"])))
     return np.array(found), own
 
 
@@ -38,10 +41,11 @@ def main():
     middle = 0.5 * (np.array(STRIPS[1:]) + STRIPS[:-1])
     figure = Figure(figsize=(9.5, 3.2), layout="constrained")
     for k, axes in enumerate(figure.subplots(1, len(WINDOWS), sharey=True)):
-        axes.errorbar(middle, grains[:, k].mean(0), 2 * grains[:, k].std(0, ddof=1) / np.sqrt(len(grains)), fmt="o", color="#222222",
-                      markersize=4, label=f"{len(grains)} samples, ± 2 standard errors")
+        axes.errorbar(middle, grains[:, k].mean(0), 2 * grains[:, k].std(0, ddof=1) / np.sqrt(len(grains)), fmt="o",
+                      color="#222222", markersize=4, label=f"{len(grains)} samples, ± 2 standard errors")
         axes.plot(middle, grains[:4, k].mean(0), "x", color="#888888", label="mean of the first four")
-        axes.set(xlabel="distance from the middle of the band, d", title=f"{100 * WINDOWS[k][0]:g} to {100 * WINDOWS[k][1]:g} % strain")
+        axes.set(xlabel="distance from the middle of the band, d",
+                 title=f"{100 * WINDOWS[k][0]:g} to {100 * WINDOWS[k][1]:g} % strain")
     for folder, style in zip(folders[split + 1:], ("--", "-", ":")):
         law, _ = profiles(_diptych.read_nodes(folder).snapshots, frames)
         length = _diptych.resolved_scene(folder + "/scene.prm").dict()["continuum"]["internal_length"]

@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """check.py PROGRAM [--cases NAMES] [--referee DIR] [--output DIR] [--set SECTION/KEY=VALUE] [--figure figure.png]
 
-Runs `PROGRAM continuum` on scene.prm with the keys of each case and compares curves, band and fields with the stored results of
-referee.py. --referee: folder of other such results; --set: a further key, for the program only. Exit code
+Runs `PROGRAM continuum` on scene.prm with the keys of each case and compares curves, band and fields with the stored
+results of referee.py. --referee: folder of other such results; --set: a further key, for the program only. Exit code
 1: a difference is above its limit; 2: a run failed. Needs h5py and numpy, the figure matplotlib."""
 import argparse
 import os
@@ -17,7 +17,8 @@ import numpy
 
 from cases import CASES, HERE, SCENE, keys, settings, stages
 
-sys.path[:0] = [os.path.dirname(os.path.dirname(HERE)), os.path.join(os.path.dirname(os.path.dirname(HERE)), "cosserat_band")]
+sys.path[:0] = [os.path.dirname(os.path.dirname(HERE)), os.path.join(os.path.dirname(os.path.dirname(HERE)),
+                                                                     "cosserat_band")]
 
 from claims import ENVIRONMENT, Result, RunFailed  # noqa: E402
 from width import N_POINTS, Arm, Increment, measure, point_values, strip_profiles  # noqa: E402
@@ -39,7 +40,8 @@ class Plastic(Increment):
 
 
 class Solution:
-    """Results of one program for one case: curve (dictionary of columns), fields (name -> [row, column]) and the band."""
+    """Results of one program for one case: curve (dictionary of columns), fields (name -> [row, column]) and the
+    band."""
 
     def __init__(self, case, curve, fields):
         self.curve, self.fields = curve, fields
@@ -95,13 +97,15 @@ def relative(found, expected):
 
 def differences(ours, referee):
     """{quantity: relative difference} of two solutions on the same mesh and the same load steps."""
-    found = {name: relative(ours.curve[name], referee.curve[name]) for name in ("upper_fy", "upper_fx", "volumetric_strain")}
+    found = {name: relative(ours.curve[name], referee.curve[name])
+             for name in ("upper_fy", "upper_fx", "volumetric_strain")}
     found["peak force"] = relative(ours.curve["upper_fy"].min(), referee.curve["upper_fy"].min())
     found["plastic shear"] = relative(ours.increment, referee.increment)
     if not numpy.isnan(referee.band.thickness):
         found["band profile"] = relative(*(solution.profile(referee.band)[1] for solution in (ours, referee)))
         found["thickness"] = relative(ours.band.thickness, referee.band.thickness)
-    return found | {name: relative(ours.fields[name], referee.fields[name]) for name in FIELDS if name in referee.fields}
+    return found | {name: relative(ours.fields[name], referee.fields[name]) for name in FIELDS
+                    if name in referee.fields}
 
 
 def judge(case, ours, referee):
@@ -116,7 +120,8 @@ def judge(case, ours, referee):
              f"thickness {ours.band.thickness:.4f} / {referee.band.thickness:.4f}"))
     found = differences(ours, referee)
     outside = [name for name, value in found.items() if not value < ALLOWED]
-    print("    " + ", ".join(f"{name} {value:.1e}" + (" OUTSIDE" if name in outside else "") for name, value in found.items()),
+    print("    " + ", ".join(f"{name} {value:.1e}" + (" OUTSIDE" if name in outside else "") for name,
+                             value in found.items()),
           flush=True)
     return len(outside)
 

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Elasto-plastic laws at many points at once, tension positive, after the equations in README.md.
 
-Strain of a point: (e_xx, e_yy, gamma), Cosserat laws also (chi, k_x, k_y). The state is p and q, see README.md: the in-plane
-stress is A^T q / G - p on the diagonal, where A maps a strain to the elastic change of q."""
+Strain of a point: (e_xx, e_yy, gamma), Cosserat laws also (chi, k_x, k_y). The state is p and q, see README.md: the
+in-plane stress is A^T q / G - p on the diagonal, where A maps a strain to the elastic change of q."""
 import numpy
 
 TINY = 1e-30  # Complex step: exact derivatives without subtraction.
@@ -25,7 +25,8 @@ class Law:
             self.deficit = numpy.radians(float(keys["friction_angle_peak"]) - float(keys["friction_angle_start"]))
             self.mobilisation = float(keys["mobilisation_strain"])
         self.cohesion = float(keys["cohesion"])
-        self.friction, self.dilatancy = ([numpy.radians(float(keys[f"{name}_angle_{end}"])) for end in ("peak", "residual")]
+        self.friction, self.dilatancy = ([numpy.radians(float(keys[f"{name}_angle_{end}"]))
+                                          for end in ("peak", "residual")]
                                          for name in ("friction", "dilatancy"))
         rows = [(1, -1, 0), (0, 0, 1)] + ([] if self.plane else [(-1 / numpy.sqrt(3), ) * 2 + (0, )])
         self.to_q = shear * numpy.array(rows, dtype=float)
@@ -53,8 +54,9 @@ class Law:
         return 3 * alpha, 3 * beta, self.cohesion * numpy.cos(phi) * (1 - 3 * alpha * beta) / root
 
     def yield_function(self, multiplier, size, pressure, kappa, progress):
-        """(F, |q|, p, kappa) at the end of a step with the trial state (size, pressure); kappa: at its start. At the tip
-        |q| = 0, where the plastic shear is |q| of the trial state / G and the rest of the multiplier only changes p."""
+        """(F, |q|, p, kappa) at the end of a step with the trial state (size, pressure); kappa: at its start. At the
+        tip |q| = 0, where the plastic shear is |q| of the trial state / G and the rest of the multiplier only changes
+        p."""
         length = size - self.shear * multiplier
         sheared = numpy.where(length.real > 0, multiplier, size / self.shear)
         length = numpy.where(length.real > 0, length, 0)
@@ -74,8 +76,8 @@ class Law:
         raise ArithmeticError("a return mapping did not converge")
 
     def step(self, state, strain, progress):
-        """State at the end of a step, in-plane stress[n, s] and tangent[n, s, s] for the strain increments strain[n, s]. state:
-        dictionary of p[n], q[n, ...], kappa[n] and skew[n]."""
+        """State at the end of a step, in-plane stress[n, s] and tangent[n, s, s] for the strain increments strain[n,
+        s]. state: dictionary of p[n], q[n, ...], kappa[n] and skew[n]."""
         q, p = state["q"] + strain @ self.to_q.T, state["p"] - self.bulk * (strain @ self.trace)
         size = numpy.sqrt((q**2).sum(axis=1))
         kappa = state["kappa"]
@@ -85,7 +87,8 @@ class Law:
         nudge = 1j * TINY
         trials = (multiplier + nudge, size, p), (multiplier, size + nudge, p), (multiplier, size, p + nudge)
         slopes = [[part.imag / TINY for part in self.yield_function(*trial, kappa, progress)] for trial in trials]
-        (f_m, length_m, p_m, _), (f_s, length_s, p_s, _), (f_p, _, p_p, _) = (numpy.array(part)[:, :, None] for part in slopes)
+        (f_m, length_m, p_m, _), (f_s, length_s, p_s, _), (f_p, _, p_p,
+                                                           _) = (numpy.array(part)[:, :, None] for part in slopes)
         _, length, end_p, end_kappa = self.yield_function(multiplier, size, p, kappa, progress)
         direction, share = q / numpy.where(size > 0, size, 1)[:, None], numpy.where(size > 0, length / size, 1)
         d_size, d_pressure = direction @ self.to_q, -self.bulk * self.trace

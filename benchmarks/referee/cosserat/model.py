@@ -1,6 +1,7 @@
 # diptych: finite element model in dolfinx of a rectangle between platens, independent of the continuum panel
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Biquadratic displacements with 3x3 points, bilinear rotations, Newton's method, direct solver. Equations: README.md."""
+"""Biquadratic displacements with 3x3 points, bilinear rotations, Newton's method, direct solver. Equations:
+README.md."""
 import basix
 import dolfinx.fem.petsc as assembly
 import numpy
@@ -87,8 +88,10 @@ class Model:
         part = self.space.sub(0) if self.cosserat else self.space
         whole = self.space.sub(0).collapse()[0] if self.cosserat else self.space
         self.upper_value, lower_value = fem.Function(whole), fem.Function(whole)
-        found = [fem.locate_dofs_geometrical((part, whole), lambda x, y=y: numpy.isclose(x[1], y)) for y in (self.height, 0)]
-        self.conditions = [fem.dirichletbc(value, dofs, part) for value, dofs in zip((self.upper_value, lower_value), found)]
+        found = [fem.locate_dofs_geometrical((part, whole), lambda x, y=y: numpy.isclose(x[1], y))
+                 for y in (self.height, 0)]
+        self.conditions = [fem.dirichletbc(value, dofs, part) for value,
+                           dofs in zip((self.upper_value, lower_value), found)]
         self.upper = [fem.locate_dofs_geometrical((part.sub(i), whole.sub(i).collapse()[0]),
                                                   lambda x: numpy.isclose(x[1], self.height))[0] for i in (0, 1)]
         self.free = numpy.ones(len(self.solution.x.array), dtype=bool)
@@ -159,7 +162,8 @@ class Model:
         return fem.assemble_scalar(self.volume)
 
     def means(self):
-        """Cell means {name: [row, column]} of the hardening variable; Cosserat: also of rotation, skew and couple stresses."""
+        """Cell means {name: [row, column]} of the hardening variable; Cosserat: also of rotation, skew and couple
+        stresses."""
         def grid(values):
             result = numpy.zeros(self.counts[::-1])
             result[self.row, self.column] = values.reshape(self.n_cells, -1) @ self.weights

@@ -31,8 +31,10 @@ def draw_section(axes, ours, referee):
                                 ("m_y", "couple stress m_y", COLOURS[3]), ("skew", "skew stress", COLOURS[4])):
         largest = abs(referee.fields[name]).max()
         axes.plot(ours.fields[name][:, middle] / largest, y, color=colour, linewidth=1.4, label=label)
-        axes.plot(referee.fields[name][:, middle] / largest, y, "o", color=colour, markersize=3.5, markerfacecolor="white")
-    axes.set(xlabel="value / largest in the sample", ylabel="y / d", ylim=(0, 52), title="column of cells at x = 10.5 d")
+        axes.plot(referee.fields[name][:, middle] / largest, y, "o", color=colour, markersize=3.5,
+                  markerfacecolor="white")
+    axes.set(xlabel="value / largest in the sample", ylabel="y / d", ylim=(0, 52),
+             title="column of cells at x = 10.5 d")
     axes.legend(loc="upper left", fontsize=7)
 
 
@@ -42,16 +44,19 @@ def draw_lines(curves, profiles, errors, pairs):
         strain = 100 * referee.curve["axial_strain"]
         if not numpy.isnan(referee.band.thickness):
             curves.plot(strain, -ours.curve["upper_fy"], color=colour, linewidth=1.2, label=case)
-            curves.plot(strain[::4], -referee.curve["upper_fy"][::4], "o", color=colour, markersize=3, markerfacecolor="white")
+            curves.plot(strain[::4], -referee.curve["upper_fy"][::4], "o", color=colour, markersize=3,
+                        markerfacecolor="white")
             (across, mine), (_, other) = (solution.profile(referee.band) for solution in (ours, referee))
             profiles.plot(across, mine, color=colour, linewidth=1.2)
             profiles.plot(across[::3], other[::3], "o", color=colour, markersize=3, markerfacecolor="white")
         error = abs(ours.curve["upper_fy"] - referee.curve["upper_fy"]) / abs(referee.curve["upper_fy"]).max()
         errors.semilogy(strain / strain[-1], numpy.maximum(error, 1e-13), color=colour, linewidth=1, label=case)
-    curves.set(xlabel="axial strain [%]", ylabel="platen force / (P d)", title="lines: continuum panel, circles: referee")
+    curves.set(xlabel="axial strain [%]", ylabel="platen force / (P d)",
+               title="lines: continuum panel, circles: referee")
     profiles.set(xlabel="distance across the band / d", ylabel="plastic shear increment, 2 to 3 %", ylim=(0, None),
                  title="band profiles")
-    errors.set(xlabel="axial strain / its end", ylabel="difference / largest force", title="platen force", ylim=(1e-13, 1e-4))
+    errors.set(xlabel="axial strain / its end", ylabel="difference / largest force", title="platen force",
+               ylim=(1e-13, 1e-4))
     curves.legend(fontsize=7, loc="lower right")
     errors.legend(fontsize=7, ncol=2, loc="upper left")
     for axes in (curves, profiles, errors):

@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """referee.py [--cases NAMES] [--output DIR]
 
-Writes NAME_curve.csv and NAME_cells.csv for each case of cases.py, by default over the stored files beside this script. Forces
-act on the sample, skew and couple stresses have the sign of the equations. Needs python3-dolfinx."""
+Writes NAME_curve.csv and NAME_cells.csv for each case of cases.py, by default over the stored files beside this script.
+Forces act on the sample, skew and couple stresses have the sign of the equations. Needs python3-dolfinx."""
 import argparse
 import os
 import sys

@@ -1,9 +1,10 @@
 # diptych: rectangles between platens and strip footings for limit analysis, with their meshes
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A body is a triangle mesh with conditions on its edges. Symmetry leaves one quarter of a rectangle and one half of a footing.
+"""A body is a triangle mesh with conditions on its edges. Symmetry leaves one quarter of a rectangle and one half of a
+footing.
 
-Lower bounds use meshes of rays from the singular corner, upper bounds crossed diagonals in a grid that is graded towards it.
-Any mesh gives a strict bound; these meshes make both bounds close."""
+Lower bounds use meshes of rays from the singular corner, upper bounds crossed diagonals in a grid that is graded
+towards it. Any mesh gives a strict bound; these meshes make both bounds close."""
 from dataclasses import dataclass
 
 import numpy
@@ -15,9 +16,10 @@ EDGE = 1e-9
 class Body:
     """Triangles (m, 3), counter-clockwise, between points (n, 2), and what acts on the edges of the boundary.
 
-    `edges(middles)` gives for points (k, 2) in the middle of boundary edges: held (k, 2), where a velocity component is given;
-    traction (k, 2) on the other components, positive along the axes; platen (k,), where the given vertical velocity is -1.
-    Elsewhere a given velocity is 0. `platen_width` is the part of the platen's width that the mesh holds."""
+    `edges(middles)` gives for points (k, 2) in the middle of boundary edges: held (k, 2), where a velocity component is
+    given; traction (k, 2) on the other components, positive along the axes; platen (k,), where the given vertical
+    velocity is -1. Elsewhere a given velocity is 0. `platen_width` is the part of the platen's width that the mesh
+    holds."""
     points: numpy.ndarray
     triangles: numpy.ndarray
     edges: callable
@@ -67,8 +69,8 @@ class Rectangle:
         return held, numpy.column_stack((numpy.where(x > right - EDGE, -self.pressure, 0), 0 * y)), platen
 
     def grid(self, n):
-        """Coordinates of the grid lines of the quarter, finest at the corner: n rows, a multiple of 4, and columns of about
-        equal size, so many that twice n gives twice the columns."""
+        """Coordinates of the grid lines of the quarter, finest at the corner: n rows, a multiple of 4, and columns of
+        about equal size, so many that twice n gives twice the columns."""
         columns = n // 4 * round(4 * self.width_over_height)
         return tuple(end * (1 - numpy.linspace(1, 0, k + 1)**2) for end, k in zip(self.corner, (columns, n)))
 
@@ -78,8 +80,8 @@ class Rectangle:
 
 @dataclass
 class Footing:
-    """A rough strip of width 2 on the upper edge y = 0 of a box of weightless ground: half width and depth in half strips. The
-    base is rough, the side walls are smooth, the surface beside the strip is free."""
+    """A rough strip of width 2 on the upper edge y = 0 of a box of weightless ground: half width and depth in half
+    strips. The base is rough, the side walls are smooth, the surface beside the strip is free."""
     half_width: float
     depth: float
     pressure = 0.0
@@ -99,15 +101,16 @@ class Footing:
     def grid(self, n):
         """Coordinates of the grid lines: n rows, n columns beside the strip and 0.4 n under it, finest at its edge."""
         under, beside = 1 - numpy.linspace(1, 0, round(0.4 * n) + 1)**2, numpy.linspace(0, 1, n + 1)[1:]**2
-        return numpy.concatenate((under, 1 + (self.half_width - 1) * beside)), -self.depth * numpy.linspace(1, 0, n + 1)**2
+        return numpy.concatenate((under, 1 + (self.half_width - 1) * beside)), -self.depth * numpy.linspace(1, 0,
+                                                                                                            n + 1)**2
 
     def area(self):
         return self.half_width * self.depth
 
 
 def crossed(points, quads):
-    """Triangles between the points and the crossing points of the diagonals of quadrilaterals (m, 4): all points, triangles
-    (4 m, 3)."""
+    """Triangles between the points and the crossing points of the diagonals of quadrilaterals (m, 4): all points,
+    triangles (4 m, 3)."""
     a, b, c, d = (points[quads[:, k]] for k in range(4))
     p, q, r = c - a, d - b, b - a
     share = (r[:, 0] * q[:, 1] - r[:, 1] * q[:, 0]) / (p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0])
@@ -117,7 +120,8 @@ def crossed(points, quads):
 
 
 def quads_of(n_columns, n_rows):
-    """Counter-clockwise corners of the cells of a grid, whose points are numbered along y first: (n_columns n_rows, 4)."""
+    """Counter-clockwise corners of the cells of a grid, whose points are numbered along y first: (n_columns n_rows,
+    4)."""
     first = (numpy.arange(n_columns)[:, None] * (n_rows + 1) + numpy.arange(n_rows)).ravel()
     return numpy.column_stack((first, first + n_rows + 1, first + n_rows + 2, first + 1))
 
@@ -130,7 +134,8 @@ def grid_body(shape, n):
 
 
 def ray_ends(shape, n):
-    """Points (k, 2) of the outline that n rays from the corner meet at about equal angles, with the corners of the outline."""
+    """Points (k, 2) of the outline that n rays from the corner meet at about equal angles, with the corners of the
+    outline."""
     ends = [shape.outline[:1]]
     direction = numpy.unwrap([numpy.arctan2(*(point - shape.corner)[::-1]) for point in shape.outline])
     for first, last, start, end in zip(shape.outline, shape.outline[1:], direction, direction[1:]):
@@ -141,7 +146,8 @@ def ray_ends(shape, n):
 
 
 def ray_body(shape, n):
-    """n rays from the singular corner, 2 n / 3 rings that are finer towards it, crossed diagonals; triangles at the corner."""
+    """n rays from the singular corner, 2 n / 3 rings that are finer towards it, crossed diagonals; triangles at the
+    corner."""
     ends, rings = ray_ends(shape, n), round(2 * n / 3)
     k = len(ends)
     share = (numpy.arange(1, rings + 1) / rings)**1.5

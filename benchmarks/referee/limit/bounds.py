@@ -1,15 +1,17 @@
 # diptych: lower and upper bounds of a collapse load as second-order cone programs
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Limit analysis of a Mohr-Coulomb continuum in plane strain with associated flow, friction angle phi > 0 and cohesion c.
+"""Limit analysis of a Mohr-Coulomb continuum in plane strain with associated flow, friction angle phi > 0 and cohesion
+c.
 
-Both bounds are one problem: the largest l.sigma + constant over the stresses sigma at the corners of all triangles, with A
-sigma = b and every corner inside the yield surface. `lower_problem` states strict equilibrium of stresses that are linear in a
-triangle and jump between triangles (Sloan 1988; Makrodimopoulos and Martin 2006). `upper_problem` states the power balance for
-every velocity field that is quadratic in a triangle and continuous. The multipliers of its equations are such a field, and the
-cone is its flow rule at the corners, which suffices because the strain rate is linear (Makrodimopoulos and Martin 2007).
+Both bounds are one problem: the largest l.sigma + constant over the stresses sigma at the corners of all triangles,
+with A sigma = b and every corner inside the yield surface. `lower_problem` states strict equilibrium of stresses that
+are linear in a triangle and jump between triangles (Sloan 1988; Makrodimopoulos and Martin 2006). `upper_problem`
+states the power balance for every velocity field that is quadratic in a triangle and continuous. The multipliers of its
+equations are such a field, and the cone is its flow rule at the corners, which suffices because the strain rate is
+linear (Makrodimopoulos and Martin 2007).
 
-Inside this file stress is positive in tension. A stress is (s_xx, s_yy, s_xy), number 9 triangle + 3 corner + component.
-Results are positive in compression."""
+Inside this file stress is positive in tension. A stress is (s_xx, s_yy, s_xy), number 9 triangle + 3 corner +
+component. Results are positive in compression."""
 from dataclasses import dataclass
 
 import numpy
@@ -18,7 +20,8 @@ import scipy.sparse.linalg
 
 from cones import largest
 
-MARGIN = 1e-8  # makes the flow rule of the upper bound hold in spite of the solver's tolerance; raises the bound by about 1e-5
+# makes the flow rule of the upper bound hold in spite of the solver's tolerance; raises the bound by about 1e-5
+MARGIN = 1e-8
 
 
 @dataclass
@@ -37,17 +40,18 @@ class Soil:
         return self.cohesion / numpy.tan(numpy.radians(self.friction_angle))
 
     def margin(self, stress):
-        """2 c cos(phi) - (s_xx + s_yy) sin(phi) - sqrt((s_xx - s_yy)^2 + 4 s_xy^2) of stresses (..., 3): not negative if
-        admissible. The out-of-plane stress may have any value and is taken between the other two principal stresses."""
+        """2 c cos(phi) - (s_xx + s_yy) sin(phi) - sqrt((s_xx - s_yy)^2 + 4 s_xy^2) of stresses (..., 3): not negative
+        if admissible. The out-of-plane stress may have any value and is taken between the other two principal
+        stresses."""
         sxx, syy, sxy = numpy.moveaxis(stress, -1, 0)
         return (2 * self.apex - sxx - syy) * self.sine - numpy.hypot(sxx - syy, 2 * sxy)
 
 
 @dataclass
 class Bound:
-    """Bound of the mean vertical stress under the platen. `error` is the largest unbalanced traction (lower bound) or the
-    largest violation of the flow rule relative to the largest shear rate (upper bound). velocity: (n, 2) at `nodes` (m, 6);
-    strain_rate: (m, 3, 3)."""
+    """Bound of the mean vertical stress under the platen. `error` is the largest unbalanced traction (lower bound) or
+    the largest violation of the flow rule relative to the largest shear rate (upper bound). velocity: (n, 2) at `nodes`
+    (m, 6); strain_rate: (m, 3, 3)."""
     value: float
     error: float
     n_triangles: int
@@ -72,12 +76,13 @@ class Equations:
 
     def system(self, n_columns):
         rows, columns, values = numpy.concatenate(self.entries, axis=1)
-        return scipy.sparse.csr_matrix((values, (rows, columns)), shape=(self.n, n_columns)), numpy.concatenate(self.right)
+        return scipy.sparse.csr_matrix((values, (rows, columns)),
+                                       shape=(self.n, n_columns)), numpy.concatenate(self.right)
 
 
 def dependent(body, pairs, inside):
-    """Ends of edges (k, 2) at which one continuity equation follows from others: one for each point inside where exactly two
-    straight lines of edges cross. There both lines' shear tractions are one number."""
+    """Ends of edges (k, 2) at which one continuity equation follows from others: one for each point inside where
+    exactly two straight lines of edges cross. There both lines' shear tractions are one number."""
     direction = body.points[pairs[:, 1]] - body.points[pairs[:, 0]]
     direction /= numpy.linalg.norm(direction, axis=1)[:, None]
     total, count = numpy.zeros_like(body.points), numpy.bincount(pairs.ravel(), minlength=len(body.points))
@@ -92,7 +97,8 @@ def dependent(body, pairs, inside):
 
 
 def traction_terms(plane, direction):
-    """Coefficients (k, 3) of a stress in its traction on planes with normals (k, 2), as component along directions (k, 2)."""
+    """Coefficients (k, 3) of a stress in its traction on planes with normals (k, 2), as component along directions (k,
+    2)."""
     (n_x, n_y), (d_x, d_y) = plane.T, direction.T
     return numpy.column_stack((n_x * d_x, n_y * d_y, n_x * d_y + n_y * d_x))
 
@@ -104,8 +110,8 @@ def lower_problem(body):
     equations, objective = Equations(), numpy.zeros(9 * len(area))
     scaled = gradients * numpy.sqrt(area)[:, None, None]
     for along_x, along_y in ((0, 2), (2, 1)):  # equilibrium in the triangle
-        equations.add(numpy.hstack((corners + along_x, corners + along_y)), numpy.hstack((scaled[..., 0], scaled[..., 1])),
-                      0 * area)
+        equations.add(numpy.hstack((corners + along_x, corners + along_y)),
+                      numpy.hstack((scaled[..., 0], scaled[..., 1])), 0 * area)
     pairs, one, other, _ = body.sides()
     ends = body.points[pairs]
     along, inside = ends[:, 1] - ends[:, 0], other >= 0
@@ -121,8 +127,8 @@ def lower_problem(body):
                        for triangle in (one, other))
         for direction, kept in ((normal, inside), (tangent, inside & ~spare[:, end])):  # continuity between triangles
             terms = traction_terms(normal, direction)[kept]
-            equations.add(numpy.hstack((here[kept, None] + three, there[kept, None] + three)), numpy.hstack((terms, -terms)),
-                          numpy.zeros(len(terms)))
+            equations.add(numpy.hstack((here[kept, None] + three, there[kept, None] + three)),
+                          numpy.hstack((terms, -terms)), numpy.zeros(len(terms)))
         for axis in range(2):  # given tractions
             kept = ~inside & ~held[:, axis]
             terms = traction_terms(normal, numpy.broadcast_to(numpy.eye(2)[axis], normal.shape))
@@ -133,8 +139,8 @@ def lower_problem(body):
 
 
 def lower_bound(body, soil, pressure):
-    """Bound of a stress that is admissible to rounding: the solver's stress is first corrected to equilibrium, then moved
-    towards the isotropic state of the lateral pressure until no corner violates the yield condition."""
+    """Bound of a stress that is admissible to rounding: the solver's stress is first corrected to equilibrium, then
+    moved towards the isotropic state of the lateral pressure until no corner violates the yield condition."""
     A, b, objective = lower_problem(body)
     stress, _, iterations = largest(objective, A, b, soil)
     solve = scipy.sparse.linalg.splu((A @ A.T).tocsc()).solve
@@ -149,8 +155,8 @@ def lower_bound(body, soil, pressure):
 
 
 def quadratic_nodes(body):
-    """Nodes (m, 6) of the 6-node triangles, corners first, then the middles of the edges opposite to them; whether a component
-    is held (n, 2); its velocity (n, 2); nodal forces (n, 2) of the given tractions."""
+    """Nodes (m, 6) of the 6-node triangles, corners first, then the middles of the edges opposite to them; whether a
+    component is held (n, 2); its velocity (n, 2); nodal forces (n, 2) of the given tractions."""
     pairs, _, other, number = body.sides()
     n_points = len(body.points)
     shape = (n_points + len(pairs), 2)
@@ -159,7 +165,8 @@ def quadratic_nodes(body):
     ends = body.points[pairs[edge]]
     edge_held, traction, platen = body.edges(ends.mean(axis=1))
     length = numpy.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    for nodes, share in ((pairs[edge, 0], 1 / 6), (pairs[edge, 1], 1 / 6), (n_points + edge, 2 / 3)):  # Simpson's rule is exact
+    # Simpson's rule is exact
+    for nodes, share in ((pairs[edge, 0], 1 / 6), (pairs[edge, 1], 1 / 6), (n_points + edge, 2 / 3)):
         numpy.logical_or.at(held, nodes, edge_held)
         numpy.add.at(force, nodes, share * length[:, None] * numpy.where(edge_held, 0, traction))
         velocity[nodes[platen], 1] = -1
@@ -167,12 +174,14 @@ def quadratic_nodes(body):
 
 
 def strain_rates(body, nodes):
-    """Matrix (9 m, 2 n) from velocities to strain rates at the corners times a third of the area: rows as stresses, with the
-    shear rate gamma_xy; columns 2 node + component. Linear strain rates are integrated exactly by their corners."""
+    """Matrix (9 m, 2 n) from velocities to strain rates at the corners times a third of the area: rows as stresses,
+    with the shear rate gamma_xy; columns 2 node + component. Linear strain rates are integrated exactly by their
+    corners."""
     gradients, area = body.gradients()
     entries = []
     for corner, after, before in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-        slopes = numpy.concatenate((-gradients, 0 * gradients), axis=1)  # (m, 6, 2), of the shape functions at this corner
+        # (m, 6, 2), of the shape functions at this corner
+        slopes = numpy.concatenate((-gradients, 0 * gradients), axis=1)
         slopes[:, corner] = 3 * gradients[:, corner]
         slopes[:, 3 + before], slopes[:, 3 + after] = 4 * gradients[:, after], 4 * gradients[:, before]
         slopes *= area[:, None, None] / 3
@@ -184,8 +193,8 @@ def strain_rates(body, nodes):
 
 
 def upper_bound(body, soil):
-    """Bound from the solver's velocities alone: dissipation less the power of the tractions, for a platen that moves by 1. The
-    dissipation of associated flow is c cot(phi) x the rate of volume."""
+    """Bound from the solver's velocities alone: dissipation less the power of the tractions, for a platen that moves by
+    1. The dissipation of associated flow is c cot(phi) x the rate of volume."""
     nodes, held, velocity, force = quadratic_nodes(body)
     strain, free = strain_rates(body, nodes), ~held.ravel()
     power = strain @ velocity.ravel() / body.platen_width

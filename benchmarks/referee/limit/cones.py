@@ -16,8 +16,8 @@ def to_cvxopt(matrix):
 
 
 def factorised(matrix):
-    """Cholesky factor of a sparse matrix. A share of the diagonal is added only where rounding makes the matrix indefinite;
-    cvxopt's iterative refinement removes its effect. Throws ArithmeticError, on which cvxopt stops."""
+    """Cholesky factor of a sparse matrix. A share of the diagonal is added only where rounding makes the matrix
+    indefinite; cvxopt's iterative refinement removes its effect. Throws ArithmeticError, on which cvxopt stops."""
     for shift in SHIFTS:
         lower = to_cvxopt(scipy.sparse.tril(matrix + scipy.sparse.diags(shift * matrix.diagonal())))
         factor = cvxopt.cholmod.symbolic(lower)
@@ -30,15 +30,16 @@ def factorised(matrix):
 
 
 def sparse_solver(G):
-    """Solver of cvxopt's systems [[0, G'], [G, -W'W]] for cones of three entries: G' (W'W)^-1 G is sparse, because W has
-    blocks of 3 x 3. W = beta (2 v v' - J) with J = diag(1, -1, -1), so its inverse is (2 J v v' J - J) / beta."""
+    """Solver of cvxopt's systems [[0, G'], [G, -W'W]] for cones of three entries: G' (W'W)^-1 G is sparse, because W
+    has blocks of 3 x 3. W = beta (2 v v' - J) with J = diag(1, -1, -1), so its inverse is (2 J v v' J - J) / beta."""
     mirror = numpy.diag((1.0, -1.0, -1.0))
 
     def factor(scaling):
         v = numpy.array([numpy.array(one).ravel() for one in scaling["v"]]) @ mirror
         inverse = (2 * v[:, :, None] * v[:, None, :] - mirror) / numpy.array(scaling["beta"])[:, None, None]
         n = 3 * len(v)
-        blocks = scipy.sparse.bsr_matrix((inverse, numpy.arange(len(v)), numpy.arange(len(v) + 1)), shape=(n, n)).tocsr()
+        blocks = scipy.sparse.bsr_matrix((inverse, numpy.arange(len(v)), numpy.arange(len(v) + 1)),
+                                         shape=(n, n)).tocsr()
         scaled = blocks @ G
         factor = factorised((scaled.T @ scaled).tocsc())
 
@@ -52,12 +53,13 @@ def sparse_solver(G):
 
 
 def largest(objective, A, b, soil, margin=0.0):
-    """Stress (9 m,) with the largest objective.stress subject to A stress = b and Mohr-Coulomb's condition for each three
-    components, the multipliers of the equations, and the number of iterations.
+    """Stress (9 m,) with the largest objective.stress subject to A stress = b and Mohr-Coulomb's condition for each
+    three components, the multipliers of the equations, and the number of iterations.
 
-    In terms of z = ((2 c cot(phi) - s_xx - s_yy) sin(phi), s_xx - s_yy, 2 s_xy) the condition is z_0 >= |(z_1, z_2)|, a cone.
-    The stresses are the variables of cvxopt's dual problem, so its primal variables are the multipliers. The cone that holds
-    the strain rates of the multipliers is narrowed by `margin`, which adds at most margin x sum of z_0 to the result."""
+    In terms of z = ((2 c cot(phi) - s_xx - s_yy) sin(phi), s_xx - s_yy, 2 s_xy) the condition is z_0 >= |(z_1, z_2)|, a
+    cone. The stresses are the variables of cvxopt's dual problem, so its primal variables are the multipliers. The cone
+    that holds the strain rates of the multipliers is narrowed by `margin`, which adds at most margin x sum of z_0 to
+    the result."""
     n = A.shape[1] // 3
     volume = -0.5 / soil.sine
     back = scipy.sparse.kron(scipy.sparse.identity(n), [[volume, 0.5, 0], [volume, -0.5, 0], [0, 0, 0.5]]).tocsr()

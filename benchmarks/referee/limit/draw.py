@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # diptych: figure of the bounds, the finite elements between them, and two mechanisms
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""draw.py results.json figure.png: draws the results that limit_analysis.py --output keeps. Two upper bounds are computed
-again."""
+"""draw.py results.json figure.png: draws the results that limit_analysis.py --output keeps. Two upper bounds are
+computed again."""
 import json
 import sys
 
@@ -36,24 +36,26 @@ def mechanism(axis, shape, soil, level, title):
     cells.set_clim(-3, 0)
     axis.add_collection(cells)
     (right, top), step = shape.corner, 0.12 * shape.platen_width
-    axis.plot((-right, 0, numpy.nan, 0, right), (top, top, numpy.nan, top - step, top - step), color="black", linewidth=3,
-              solid_capstyle="butt")
+    axis.plot((-right, 0, numpy.nan, 0, right), (top, top, numpy.nan, top - step, top - step), color="black",
+              linewidth=3, solid_capstyle="butt")
     axis.set(title=title, aspect="equal", xlabel="x")
     return cells
 
 
 def prandtl_outline(friction_angle):
-    """Right half of Prandtl's mechanism (k, 2) for a strip of half width 1: wedge, logarithmic spiral, passive block."""
+    """Right half of Prandtl's mechanism (k, 2) for a strip of half width 1: wedge, logarithmic spiral, passive
+    block."""
     phi, steep = numpy.radians(friction_angle), numpy.radians(45 + friction_angle / 2)
     turn = numpy.linspace(0, numpy.pi / 2, 60)
     radius = numpy.exp(turn * numpy.tan(phi)) / numpy.cos(steep)
-    spiral = numpy.column_stack((1 + radius * numpy.cos(numpy.pi + steep + turn), radius * numpy.sin(numpy.pi + steep + turn)))
+    spiral = numpy.column_stack((1 + radius * numpy.cos(numpy.pi + steep + turn),
+                                 radius * numpy.sin(numpy.pi + steep + turn)))
     return numpy.concatenate(([(1, 0)], spiral, [(2 * spiral[-1, 0] - 1, 0)]))
 
 
 def convergence(axis, results, title, size):
-    """Lower and upper bounds and finite elements of some cases over the mean element size, relative to the middle of the best
-    bounds, up to an element size."""
+    """Lower and upper bounds and finite elements of some cases over the mean element size, relative to the middle of
+    the best bounds, up to an element size."""
     for colour, (name, rows) in zip(COLOURS, results.items()):
         middle = 0.5 * (rows["lower"][-1]["value"] + rows["upper"][-1]["value"])
         low, high = (100 * (rows[kind][-1]["value"] / middle - 1) for kind in ("lower", "upper"))
@@ -64,8 +66,8 @@ def convergence(axis, results, title, size):
         if rows["closed_form"]:
             axis.axhline(100 * (rows["closed_form"] / middle - 1), color=colour, linestyle=":", linewidth=1.5)
         tends_to, doubt = limit([row["value"] for row in rows["elements"]])
-        axis.errorbar(0, 100 * (tends_to / middle - 1), 100 * doubt / middle, color=colour, marker="o", markerfacecolor="white",
-                      capsize=3, clip_on=False)
+        axis.errorbar(0, 100 * (tends_to / middle - 1), 100 * doubt / middle, color=colour, marker="o",
+                      markerfacecolor="white", capsize=3, clip_on=False)
         axis.plot([], [], color=colour, linewidth=4, label=name.split(" ", 1)[1])
     axis.set(title=title, xlabel="mean element size / platen width", xlim=(0, size), ylim=(-6, 10))
     axis.grid(alpha=0.3)

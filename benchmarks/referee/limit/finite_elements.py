@@ -20,7 +20,8 @@ def mirrored(half):
 
 
 def write_mesh(path, shape, n):
-    """Writes the whole body as quadrilaterals in gmsh's format 2.2, on the grid of the upper bound with n rows, mirrored."""
+    """Writes the whole body as quadrilaterals in gmsh's format 2.2, on the grid of the upper bound with n rows,
+    mirrored."""
     x, y = shape.grid(n)
     x, y = mirrored(x), y if isinstance(shape, Footing) else mirrored(y)
     quads = quads_of(len(x) - 1, len(y) - 1) + 1
@@ -37,13 +38,14 @@ def write_mesh(path, shape, n):
         file.writelines(f'1 {number} "{name}"\n' for number, name in enumerate(LINES, 1))
         for title, rows in (("PhysicalNames", None), ("Nodes", places), ("Elements", elements)):
             if rows:
-                file.write(f"${title}\n{len(rows)}\n" + "".join(f"{number} {row}\n" for number, row in enumerate(rows, 1)))
+                file.write(f"${title}\n{len(rows)}\n" + "".join(f"{number} {row}\n" for number,
+                                                                row in enumerate(rows, 1)))
             file.write(f"$End{title}\n")
 
 
 def collapse_load(program, shape, soil, n, folder):
-    """Mean vertical stress under the platen at the end of the run, its relative growth over the last tenth of the settlement,
-    and the number of elements. Throws RuntimeError if the run fails."""
+    """Mean vertical stress under the platen at the end of the run, its relative growth over the last tenth of the
+    settlement, and the number of elements. Throws RuntimeError if the run fails."""
     os.makedirs(folder, exist_ok=True)
     mesh, result = os.path.join(folder, "mesh.msh"), os.path.join(folder, "run")
     shutil.rmtree(result, ignore_errors=True)
@@ -56,16 +58,17 @@ def collapse_load(program, shape, soil, n, folder):
     if done.returncode != 0:
         raise RuntimeError(f"{result} ended with exit code {done.returncode}: {done.stderr.strip()}")
     with open(os.path.join(result, "continuum.csv")) as file:
-        rows = [{key: float(row[key]) for key in ("axial_strain", "upper_fy", "n_cells")} for row in csv.DictReader(file)]
+        rows = [{key: float(row[key]) for key in ("axial_strain", "upper_fy", "n_cells")}
+                for row in csv.DictReader(file)]
     strain, load = (numpy.array([row[key] for row in rows]) for key in ("axial_strain", "upper_fy"))
     load /= -2 * shape.platen_width
     return load[-1], 1 - numpy.interp(0.9 * strain[-1], strain, load) / load[-1], int(rows[-1]["n_cells"])
 
 
 def limit(loads):
-    """Limit of the loads of meshes, each with half the element size of the one before, and its doubt. The differences of the
-    last three loads are continued as a geometric series (Aitken). The doubt is a quarter of this correction (Roache 1994:
-    safety factor 1.25)."""
+    """Limit of the loads of meshes, each with half the element size of the one before, and its doubt. The differences
+    of the last three loads are continued as a geometric series (Aitken). The doubt is a quarter of this correction
+    (Roache 1994: safety factor 1.25)."""
     a, b, c = loads[-3:]
     correction = (c - b)**2 / ((c - b) - (b - a))
     return c - correction, 0.25 * abs(correction)

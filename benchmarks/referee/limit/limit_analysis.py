@@ -3,10 +3,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """limit_analysis.py PROGRAM [--only WORD] [--output DIR [--reuse]] [--figure figure.png]
 
-Bounds the collapse loads of rough rectangles and of strip footings, runs `PROGRAM continuum` on three or four meshes of each, and
-judges: bounds within 2 %, closed forms between them, the limit of fine meshes between them. --only: cases whose name contains
-WORD. --output keeps results.json and the runs, --reuse takes numbers from it. Exit code 1: a claim fails; 2: a run failed.
-Needs python3-cvxopt, python3-scipy, the figure matplotlib."""
+Bounds the collapse loads of rough rectangles and of strip footings, runs `PROGRAM continuum` on three or four meshes of
+each, and judges: bounds within 2 %, closed forms between them, the limit of fine meshes between them. --only: cases
+whose name contains WORD. --output keeps results.json and the runs, --reuse takes numbers from it. Exit code 1: a claim
+fails; 2: a run failed. Needs python3-cvxopt, python3-scipy, the figure matplotlib."""
 import argparse
 import json
 import math
@@ -20,7 +20,8 @@ from bounds import Soil, lower_bound, upper_bound
 from finite_elements import collapse_load, limit
 
 GAP = 0.02  # allowed between the bounds
-SOLVER = 1e-5  # relative accuracy of a bound that meets its closed form, unbalanced tractions, violation of the flow rule
+# relative accuracy of a bound that meets its closed form, unbalanced tractions, violation of the flow rule
+SOLVER = 1e-5
 RATIOS, ANGLES = (0.5, 0.7, 1.0), (20, 30)
 LEVELS = {"rectangle": {"lower": (8, 16, 32), "upper": (8, 16, 24), "elements": (4, 8, 16, 32)},
           "footing": {"lower": (12, 24, 36), "upper": (10, 20, 40), "elements": (5, 10, 20)}}
@@ -44,7 +45,8 @@ def cases():
     for angle in ANGLES:
         soil, steep = Soil(angle, 0.5), math.tan(math.radians(45 + angle / 2))
         for ratio in RATIOS:
-            yield f"rectangle W/H {ratio:g}, phi {angle}", Rectangle(ratio), soil, rankine(soil) if ratio * steep <= 1 else None
+            exact = rankine(soil) if ratio * steep <= 1 else None
+            yield f"rectangle W/H {ratio:g}, phi {angle}", Rectangle(ratio), soil, exact
     for angle, half_width, depth in zip(ANGLES, (8, 12), (4, 5)):
         yield f"footing, phi {angle}", Footing(half_width, depth), Soil(angle, 1.0), prandtl(Soil(angle, 1.0))
 
@@ -100,7 +102,8 @@ def judged(name, rows, closed_form):
         claims["closed form between them"] = low * (1 - SOLVER) <= closed_form <= high * (1 + SOLVER)
     cost = sum(row["seconds"] for kind in LEVELS["footing"] for row in rows[kind])
     failed = [claim for claim, holds in claims.items() if not holds]
-    print(f"{name:26} {low:8.4f} {high:8.4f} {100 * (high / low - 1):6.2f} % " + " ".join(f"{load:8.4f}" for load in loads[-2:])
+    print(f"{name:26} {low:8.4f} {high:8.4f} {100 * (high / low - 1):6.2f} % "
+          + " ".join(f"{load:8.4f}" for load in loads[-2:])
           + f" {tends_to:8.4f} +- {doubt:6.4f} " + (f"{closed_form:8.4f}" if closed_form else "       -")
           + f"  {cost:6.1f}" + "".join(f"  FAILS: {claim}" for claim in failed), flush=True)
     return failed

@@ -3,9 +3,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """with_lammps.py DIR FIGURE.png [--run]
 
-DIR: folder of study.json or slow.json (`diptych study`). Draws error against CPU seconds like figure.py, with LAMMPS on the same
-samples at kn/P of 1e3, 1e4 and 1e5, compared with the study's reference. Prints these errors with their 95 % intervals. --run: runs
-`lmp` (Debian package lammps); otherwise reads the results in ../../rigid_limit/lammps.csv. Needs h5py, numpy and matplotlib."""
+DIR: folder of study.json or slow.json (`diptych study`). Draws error against CPU seconds like figure.py, with LAMMPS on
+the same samples at kn/P of 1e3, 1e4 and 1e5, compared with the study's reference. Prints these errors with their 95 %
+intervals. --run: runs `lmp` (Debian package lammps); otherwise reads the results in ../../rigid_limit/lammps.csv. Needs
+h5py, numpy and matplotlib."""
 import argparse
 import csv
 import os
@@ -91,8 +92,8 @@ def main():
     style.set_up()
     known = [value for value in rigid_limit.STIFFNESSES if f"{value:.2e}".replace("e-0", "e-") in study.record["title"]]
     if len(known) != 1 or len(study.record["seeds"]) not in STUDENT:
-        sys.exit(f"{options.folder}: no study of step_tolerance: its title names no inertial number of {list(rigid_limit.STIFFNESSES)}, "
-                 f"or it has other samples")
+        sys.exit(f"{options.folder}: no study of step_tolerance: its title names no inertial number of "
+                 f"{list(rigid_limit.STIFFNESSES)}, or it has other samples")
     inertial = known[0]
     table = {k: errors(study, options.folder, inertial, k, options.run) for k in rigid_limit.STIFFNESSES[inertial]}
     shown = [(k, q) for k, q in enumerate(study.quantities) if q["limit"]]
@@ -104,10 +105,10 @@ def main():
         charts.draw_error_against_cost(axes, study, k, study.references[0])
         for stiffness, (by_name, seconds) in table.items():
             error, half = by_name[quantity["name"]]
-            axes.errorbar(seconds, 100 * abs(error), 100 * half, marker="*", markersize=10, color="#8a1c7c", elinewidth=0.8,
-                          capsize=2, label="LAMMPS" if stiffness == min(table) else None)
-            axes.annotate(f"{stiffness:.0e}".replace("e+0", "e"), (seconds, 100 * abs(error)), xytext=(6, 4), textcoords="offset points",
-                          fontsize=7, color="#8a1c7c")
+            axes.errorbar(seconds, 100 * abs(error), 100 * half, marker="*", markersize=10, color="#8a1c7c",
+                          elinewidth=0.8, capsize=2, label="LAMMPS" if stiffness == min(table) else None)
+            axes.annotate(f"{stiffness:.0e}".replace("e+0", "e"), (seconds, 100 * abs(error)), xytext=(6, 4),
+                          textcoords="offset points", fontsize=7, color="#8a1c7c")
         axes.autoscale(axis="x")
         axes.set_ylim(bottom=LOWEST)
         axes.get_legend().remove()
