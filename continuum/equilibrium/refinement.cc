@@ -3,6 +3,7 @@
 #include "continuum/equilibrium/refinement.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include <deal.II/distributed/cell_data_transfer.templates.h>
@@ -33,7 +34,7 @@ namespace diptych::continuum
       using CellIterator = Triangulation<2>::active_cell_iterator;
       GridTools::exchange_cell_data_to_ghosts<bool, Triangulation<2>>(
         mesh.triangulation,
-        [&](const CellIterator &cell) { return std_cxx17::optional<bool>(in_band[cell->active_cell_index()]); },
+        [&](const CellIterator &cell) { return std::optional<bool>(in_band[cell->active_cell_index()]); },
         [&](const CellIterator &cell, const bool &value) { in_band[cell->active_cell_index()] = value; });
       for (const auto &cell : mesh.triangulation.active_cell_iterators())
         if (in_band[cell->active_cell_index()])
