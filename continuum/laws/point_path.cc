@@ -132,7 +132,7 @@ namespace diptych::continuum
   {
     PointPath fine = path;
     fine.values.resize(1);
-    fine.progress = {path.progress_at(0)};
+    fine.progress.assign(1, path.progress_at(0));
     for (std::size_t row = 1; row < path.values.size(); ++row)
       {
         const double n = steps_between(path, row, strain_step);

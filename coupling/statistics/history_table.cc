@@ -21,7 +21,7 @@ namespace diptych::coupling
     }
   } // namespace
 
-  const std::vector<double> &column(const HistoryTable &table, const std::string &name)
+  const std::vector<double> &column(const HistoryTable &table, const std::string name)
   {
     const auto found = table.find(name);
     if (found == table.end())

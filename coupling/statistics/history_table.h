@@ -25,7 +25,7 @@ namespace diptych::coupling
   }
 
   // Column by name. Throws std::invalid_argument if it is missing.
-  const std::vector<double> &column(const HistoryTable &table, const std::string &name);
+  const std::vector<double> &column(const HistoryTable &table, std::string name);
 
   // True if progress > from. `progress` is a sum of steps, and their rounding does not count.
   inline bool is_beyond(const double progress, const double from)
