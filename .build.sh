@@ -1,8 +1,9 @@
-# Sourced by run.sh and test.sh: the packages that they need from Debian 12, and how they build.
+# Sourced by run.sh and test.sh: the packages that they need from Debian 12 or 13, and how they build.
+# deal.II of Debian 13 links by mold.
 
 packages=(
   g++ cmake ninja-build ccache git ca-certificates libcli11-dev
-  libdeal.ii-dev libsuitesparse-dev libopenblas0-serial libgmsh-dev libeigen3-dev libhdf5-openmpi-dev openmpi-bin nlohmann-json3-dev libgtest-dev
+  libdeal.ii-dev libsuitesparse-dev libopenblas0-serial libgmsh-dev libeigen3-dev libhdf5-openmpi-dev openmpi-bin nlohmann-json3-dev libgtest-dev mold
   python3 python3-h5py python3-matplotlib python3-jinja2 python3-dev python3-numpy pybind11-dev
   python3-scipy python3-pandas python3-mpi4py python3-meshio python3-emcee
 )

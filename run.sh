@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs missing packages (Debian 12), builds Release and compares both panels of one granular sample.
+# Installs missing packages (Debian 12 or 13), builds Release and compares both panels of one granular sample.
 #   ./run.sh            benchmarks/moreau_1997: about 5 minutes on a fresh machine with two cores, 1.2 once it is built
 #   ./run.sh quick      benchmarks/moreau_quick: less than a minute once it is built
 #   ./run.sh SCENE ...  any scene file; passes further arguments to `diptych run`

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs missing packages (Debian 12), builds Release and runs the tests.
+# Installs missing packages (Debian 12 or 13), builds Release and runs the tests.
 #   ./test.sh         all but the long ones (label slow)
 #   ./test.sh --all   the long ones too
 #   ./test.sh discrete   the discrete panel without deal.II

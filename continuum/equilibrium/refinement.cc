@@ -33,8 +33,7 @@ namespace diptych::continuum
       // The ring of neighbours continues across the borders of processes.
       using CellIterator = Triangulation<2>::active_cell_iterator;
       GridTools::exchange_cell_data_to_ghosts<bool, Triangulation<2>>(
-        mesh.triangulation,
-        [&](const CellIterator &cell) { return std::optional<bool>(in_band[cell->active_cell_index()]); },
+        mesh.triangulation, [&](const CellIterator &cell) { return std::optional<bool>(in_band[cell->active_cell_index()]); },
         [&](const CellIterator &cell, const bool &value) { in_band[cell->active_cell_index()] = value; });
       for (const auto &cell : mesh.triangulation.active_cell_iterators())
         if (in_band[cell->active_cell_index()])

@@ -124,6 +124,9 @@ class House(unittest.TestCase):
     def test_every_source_is_formatted(self):
         if shutil.which("clang-format") is None:
             self.skipTest("clang-format is not installed (test.sh installs it)")
+        version = subprocess.run(["clang-format", "--version"], capture_output=True, text=True, check=True).stdout
+        if " 14." not in version:
+            self.skipTest("other versions than 14, that of Debian 12, format a few lines differently: " + version.strip())
         files = sources(".h", ".cc")
         self.assertGreater(len(files), 300)
         self.assertEqual(self.misformatted(files), [])
