@@ -6,11 +6,29 @@
 
 namespace diptych::continuum
 {
-  static_assert(traits(LawKind::linear_elastic).is_cosserat == LinearElastic::is_cosserat &&
-                traits(LawKind::mohr_coulomb).is_cosserat == MohrCoulomb::is_cosserat &&
-                traits(LawKind::drucker_prager).is_cosserat == DruckerPrager::is_cosserat &&
-                traits(LawKind::cosserat_mohr_coulomb).is_cosserat == CosseratMohrCoulomb::is_cosserat &&
-                traits(LawKind::cosserat_drucker_prager).is_cosserat == CosseratDruckerPrager::is_cosserat);
+  namespace
+  {
+    // A library has no strength of its own; whether it is a Cosserat law is known when it is opened (continuum/options.h).
+    template <class AnyLaw> constexpr bool are_traits_of(const LawKind law)
+    {
+      if constexpr (std::is_same_v<AnyLaw, LibraryLaw>)
+        return !traits(law).is_cosserat && !traits(law).is_gradient && !traits(law).is_plastic;
+      else
+        return traits(law).is_cosserat == AnyLaw::is_cosserat &&
+               traits(law).is_gradient == std::is_base_of_v<GradientLaw, AnyLaw> &&
+               traits(law).is_plastic == std::is_base_of_v<ConeLaw, AnyLaw>;
+    }
+
+    static_assert(choices(LawKind()).size() == 8);
+    static_assert(are_traits_of<CosseratMohrCoulomb>(LawKind::cosserat_mohr_coulomb));
+    static_assert(are_traits_of<CosseratDruckerPrager>(LawKind::cosserat_drucker_prager));
+    static_assert(are_traits_of<GradientMohrCoulomb>(LawKind::gradient_mohr_coulomb));
+    static_assert(are_traits_of<GradientDruckerPrager>(LawKind::gradient_drucker_prager));
+    static_assert(are_traits_of<MohrCoulomb>(LawKind::mohr_coulomb));
+    static_assert(are_traits_of<DruckerPrager>(LawKind::drucker_prager));
+    static_assert(are_traits_of<LinearElastic>(LawKind::linear_elastic));
+    static_assert(are_traits_of<LibraryLaw>(LawKind::library));
+  } // namespace
 
   Law make_law(const LawKind law, const LawOptions &options, const Units &units)
   {
