@@ -6,6 +6,7 @@ import math
 import os
 
 import numpy as np
+import pandas as pd
 import pytest
 from conftest import QUICK
 
@@ -19,7 +20,7 @@ from diptych.campaigns.calibration.findings import predictions
 from diptych.campaigns.calibration.grains import mean_of
 from diptych.campaigns.calibration.noise import Data, Noise, Observable
 from diptych.campaigns.calibration.profiles import PROFILE, STRIPS
-from diptych.campaigns.calibration.calibration_runs import Observation, Path, observe_curve
+from diptych.campaigns.calibration.calibration_runs import Observation, Path, observe_curve, observe_history
 from diptych.campaigns.calibration.search import least_squares
 from diptych.campaigns.calibration.standard import standard_calibration
 from diptych.campaigns.runs.histories import mean_over
@@ -341,6 +342,16 @@ def test_friction_of_noisy_grains_is_found_within_its_interval():
     assert sum(p["number_low"] < 0.4 < p["number_high"] for p in found) >= 7
     assert np.sqrt(np.mean([(p["value"] - 0.4) ** 2 for p in found])) < 0.04
     assert max(p["number_high"] - p["number_low"] for p in found) < 0.25
+
+
+def test_curves_of_a_mean_over_seeds_keep_their_columns():
+    table = pd.DataFrame({"progress": np.linspace(0, 0.03, 31)})
+    table["stress_ratio"], table["volumetric_strain"] = 0.4 - table["progress"], -table["progress"]
+    sample = observe_history(SCENE, [Observable("stress_ratio", 0, 0.03)], table)
+    mean = mean_of([sample, sample], 0.005)
+    for name in ("progress", "stress_ratio", "volumetric_strain"):
+        assert getattr(mean, name) == pytest.approx(getattr(sample, name)), name
+    assert mean.bands == []
 
 
 def banded(settings, observables):

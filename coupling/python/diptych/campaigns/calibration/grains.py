@@ -29,7 +29,8 @@ def mean_of(samples: Sequence[Observation], averaging_width: float) -> Observati
                               for name in ("values", "stress_ratio", "volumetric_strain"))
     table = pd.DataFrame({"progress": samples[0].progress, "stress_ratio": stress})
     peak = float(pd.Series(running_mean(table, "stress_ratio", averaging_width)).max())
-    return Observation(values, peak, np.nan, samples[0].progress, stress, volume, samples=list(samples))
+    return Observation(values, peak, progress=samples[0].progress, stress_ratio=stress, volumetric_strain=volume,
+                       samples=list(samples))
 
 
 class GrainRuns(CalibrationRuns):
