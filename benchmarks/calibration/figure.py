@@ -2,7 +2,7 @@
 # diptych: figure and tables of a calibration
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: figure.py DIR FIGURE.png. DIR: folder of `diptych calibrate`. Draws every path and prints all tables as
-Markdown."""
+Markdown. PYTHONPATH with diptych."""
 import json
 import os
 import sys
@@ -10,11 +10,10 @@ import sys
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "coupling", "report"))
-from diptych_report.charts import calibration as charts  # noqa: E402
-from diptych_report.charts import style  # noqa: E402
-from diptych_report.data.calibration import load  # noqa: E402
-from diptych_report.tables.calibration import misfits, parameters, predictions  # noqa: E402
+from diptych.report.charts import calibration as charts
+from diptych.report.charts import style
+from diptych.report.data.calibration import load
+from diptych.report.tables.calibration import misfits, parameters, predictions
 
 
 def draw(calibration, to):

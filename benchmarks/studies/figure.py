@@ -5,24 +5,20 @@
 
 DIR: folder of a study (`diptych study`). Draws error against CPU seconds of the given quantities (default: those with a
 limit), then the maps of classes, row by row. A study with ranges: Sobol indices of the given quantities. Uses the
-functions of the report. Needs h5py and matplotlib."""
+functions of the report (PYTHONPATH with diptych)."""
 import argparse
 import math
 import os
-import sys
 import textwrap
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.dont_write_bytecode = True
-sys.path.insert(0, os.path.join(HERE, "../../coupling/report"))
-from diptych_report.charts import sensitivity  # noqa: E402
-from diptych_report.charts import study as charts  # noqa: E402
-from diptych_report.charts import style  # noqa: E402
-from diptych_report.data.sensitivity import by_total, labels  # noqa: E402
-from diptych_report.data.study import CLASSES, load  # noqa: E402
+from diptych.report.charts import sensitivity
+from diptych.report.charts import study as charts
+from diptych.report.charts import style
+from diptych.report.data.sensitivity import by_total, labels
+from diptych.report.data.study import CLASSES, load
 
-from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: E402
-from matplotlib.figure import Figure  # noqa: E402
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 
 
 def panels(study, names, with_maps):

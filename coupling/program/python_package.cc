@@ -44,7 +44,7 @@ namespace diptych::coupling
     return (fs::exists(built / "diptych") ? built : folder.parent_path() / "lib/python3/dist-packages").string();
   }
 
-  void become_python(const char *command, const std::string &module, char *const *words)
+  void use_python_package(const char *command)
   {
     const std::string package = python_package();
     if (!fs::exists(package + "/diptych"))
@@ -54,6 +54,11 @@ namespace diptych::coupling
     setenv("PYTHONPATH", (package + (others != nullptr ? ":" + std::string(others) : "")).c_str(), 1);
     setenv("PYTHONSAFEPATH", "1", 1); // no modules of the working directory
     setenv("DIPTYCH_PROGRAM", own_path().c_str(), 1);
+  }
+
+  void become_python(const char *command, const std::string &module, char *const *words)
+  {
+    use_python_package(command);
     std::vector<const char *> all = {python, "-m", module.c_str()};
     for (; *words != nullptr; ++words)
       all.push_back(*words);

@@ -17,7 +17,10 @@ namespace diptych::coupling
   // The folder that holds the package `diptych`: beside this program where it was built, else PREFIX/lib/python3/dist-packages.
   std::string python_package();
 
-  // This process becomes `python3 -m MODULE WORDS...` with this package. Throws as become(), and SceneError if the program was
-  // built without it.
+  // Lets Python processes that this one starts or becomes find the package. Throws SceneError if the program was built without
+  // it.
+  void use_python_package(const char *command);
+
+  // This process becomes `python3 -m MODULE WORDS...` with this package. Throws as become() and use_python_package().
   [[noreturn]] void become_python(const char *command, const std::string &module, char *const *words);
 } // namespace diptych::coupling

@@ -60,12 +60,12 @@ namespace diptych::coupling
 
   void draw(const Drawing drawing, const std::string &directory, const std::string &next)
   {
-    const std::string  script = shared_file("report/draw.py");
-    const std::string &into   = next.empty() ? directory : next;
-    int                code   = 0;
+    const std::string &into = next.empty() ? directory : next;
+    int                code = 0;
+    use_python_package("report");
     try
       {
-        code = run_program({python, script, word_of(drawing), directory, into});
+        code = run_program({python, "-m", "diptych.report", word_of(drawing), directory, into});
       }
     catch (const StoppedOnRequest &)
       {
@@ -78,8 +78,8 @@ namespace diptych::coupling
     if (code == wrong_input)
       throw std::invalid_argument(directory + ": the report could not be drawn");
     if (code != 0)
-      throw std::runtime_error("the report could not be drawn: " + std::string(python) + " " + script + " " + word_of(drawing) +
-                               " " + directory + " ended with exit code " + std::to_string(code));
+      throw std::runtime_error("the report could not be drawn: " + std::string(python) + " -m diptych.report " +
+                               word_of(drawing) + " " + directory + " ended with exit code " + std::to_string(code));
   }
 
   int report_again(const CommandLine &line)

@@ -11,7 +11,7 @@ import subprocess
 import sys
 import unittest
 
-from running import ENVIRONMENT, PROGRAM, SMALL, SOURCE, content, main, setting, temporary, write
+from running import ENVIRONMENT, PROGRAM, SMALL, SOURCE, content, main, setting, temporary
 
 BUILD = os.path.dirname(PROGRAM)
 
@@ -137,12 +137,10 @@ class Package(unittest.TestCase):
         self.assertTrue(os.path.exists(os.path.join(notebooks, "data", "frames.csv")))
 
     def test_a_broken_installation_is_named_with_exit_code_4(self):
-        report = os.path.join(self.share, "diptych", "report")
-        os.rename(report, report + "_away")
-        self.addCleanup(os.rename, report + "_away", report)
-        folder = temporary(self)
-        write(os.path.join(folder, "comparison.json"), "{}")
-        done = self.run_program("report", folder, "--quiet")
+        templates = os.path.join(self.share, "diptych", "templates")
+        os.rename(templates, templates + "_away")
+        self.addCleanup(os.rename, templates + "_away", templates)
+        done = self.run_program("new")
         self.assertEqual(done.returncode, 4, done.stderr)
         self.assertIn("installation is broken", done.stderr)
 

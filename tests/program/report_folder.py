@@ -10,7 +10,6 @@ import sys
 import h5py
 import numpy as np
 
-REPORT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "coupling", "report")
 STAGES, WINDOWS, PROBES = 2, 1, 3
 PLATEN = 0.5  # d per unit of progress, the reference of displacements
 BAND = {"angle_deg": -45.0, "half_width_d": 1.0, "width_10_90_d": 2.197, "offset_d": 0.0, "jump": 0.9, "dilation_deg": 3.0,
@@ -217,8 +216,7 @@ def write_json(folder, name, value):
 
 
 def run(folder, word="page"):
-    return subprocess.run([sys.executable, os.path.join(REPORT, "draw.py"), word, folder], capture_output=True, text=True,
-                          check=False)
+    return subprocess.run([sys.executable, "-B", "-m", "diptych.report", word, folder], capture_output=True, text=True, check=False)
 
 
 def read(folder):

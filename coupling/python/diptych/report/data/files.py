@@ -1,0 +1,77 @@
+# diptych: reads the files of a result folder
+# SPDX-License-Identifier: LGPL-2.1-or-later
+
+import contextlib
+import csv
+import json
+import os
+
+import h5py
+import numpy as np
+
+from .. import InputError
+
+
+def require(paths):
+    """Raises InputError with the missing files."""
+    missing = [path for path in paths if not os.path.isfile(path)]
+    if missing:
+        raise InputError(f"missing: {', '.join(missing)}")
+
+
+def read_json(path, format=None):
+    """The object of a JSON file. Raises InputError if it cannot be read, is no object or does not have the format."""
+    try:
+        with open(path, encoding="utf-8") as stream:
+            value = json.load(stream)
+    except (OSError, ValueError) as error:
+        raise InputError(f"{path}: {error}") from error
+    if not isinstance(value, dict):
+        raise InputError(f"{path}: an object is expected")
+    if format and value.get("format") != format:
+        raise InputError(f"{path}: format {value.get('format')!r}, but this report reads format {format}; "
+                         "compute it again with this version")
+    return value
+
+
+def read_provenance(path):
+    """The record in provenance.json. Raises InputError if it cannot be read or is not the record of a run."""
+    record = read_json(path)
+    if record.get("program") != "diptych" or not isinstance(record.get("phases"), list):
+        raise InputError(f"{path}: is not the record of a run of diptych: 'program' or 'phases' is missing or wrong")
+    return record
+
+
+@contextlib.contextmanager
+def open_arrays(path):
+    """The open HDF5 file. Raises InputError if it is damaged."""
+    try:
+        with h5py.File(path, "r") as file:
+            yield file
+    except (OSError, RuntimeError) as error:  # h5py raises either for a damaged file
+        raise InputError(f"{path}: {error}") from error
+
+
+def read_csv(path):
+    """{column: array of numbers}; NaN: no number."""
+    with open(path, encoding="utf-8", newline="") as stream:
+        rows = list(csv.reader(stream))
+    # A killed run may leave an incomplete last line.
+    columns = zip(*[row for row in rows[1:] if len(row) == len(rows[0])])
+    return {name: np.array([number(value) for value in values]) for name, values in zip(rows[0], columns)}
+
+
+def read_text(path):
+    """The text of the file, or "" if it does not exist."""
+    if not os.path.isfile(path):
+        return ""
+    with open(path, encoding="utf-8", errors="replace") as stream:
+        return stream.read()
+
+
+def number(text):
+    """The text as a float; NaN: no number."""
+    try:
+        return float(text)
+    except ValueError:
+        return float("nan")

@@ -1,0 +1,115 @@
+# diptych: arrows, crosses, forces and probes of one increment, for the browser
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Entries of a Store; {} or None: nothing is stored."""
+
+import numpy as np
+
+from ..data.numbers import plain
+from ..data.panels import PANEL_NAMES
+
+SPACING = 2.5       # d, of the grid with one arrow per square, in both panels
+MOST_DRAWN = 12000  # crosses or forces of one map; the weakest are left out
+PRINCIPAL = ("major_stress", "minor_stress", "stress_direction")
+
+
+def short(values):
+    """Nested lists of numbers with five digits; None stays."""
+    if isinstance(values, (list, tuple, np.ndarray)):
+        return [short(value) for value in values]
+    return None if values is None else float(f"{values:.5g}")
+
+
+def thinned(position):
+    """For each square of a regular grid, the index of the point nearest to its centre."""
+    low = position.min(axis=0)
+    column = np.floor((position - low) / SPACING).astype(int)
+    distance = np.linalg.norm(position - (low + (column + 0.5) * SPACING), axis=1)
+    order = np.lexsort((distance, column[:, 0], column[:, 1]))
+    first = np.ones(len(order), dtype=bool)
+    first[1:] = (np.diff(column[order], axis=0) != 0).any(axis=1)
+    return order[first]
+
+
+def arrows(increment, store):
+    """Moreau 1997, figure 1: displacement increments, for grains also velocities, in units of those of the platen."""
+    found = {}
+    if increment.displacement_unit is None:
+        return found
+    for panel, group in (("discrete", "discrete"), ("continuum", "nodes")):
+        position = increment.arrays[group + "/position"]
+        moved = increment.arrays[group + "/displacement_increment"] / increment.displacement_unit
+        chosen = thinned(position)
+        found[panel] = {"increment": _field(store, position, moved, chosen)}
+        speed = _velocity(increment) if panel == "discrete" else moved
+        if speed is not None and len(speed) == len(position):
+            found[panel]["velocity"] = _field(store, position, speed, chosen)
+    return found
+
+
+def _velocity(increment):
+    """Velocity of the grains at the end of the increment over that of the platen, (N, 2)."""
+    values = increment.state.get("discrete/velocity")
+    return None if values is None or increment.velocity_unit is None else values / increment.velocity_unit
+
+
+def _stored(store, chosen, **columns):
+    return {name: store.add(values[chosen]) for name, values in columns.items()}
+
+
+def _field(store, position, vectors, chosen):
+    return _stored(store, chosen, x=position[:, 0], y=position[:, 1], u=vectors[:, 0], v=vectors[:, 1])
+
+
+def crosses(increment, store):
+    """Moreau 1997, figure 2: principal stresses of each grain and of each cell of the continuum."""
+    state, found = increment.state, {}
+    if not state:
+        return found
+    places = {"discrete": ("discrete/", state["discrete/position"]),
+              "continuum": ("cells/continuum_", state["cells/corners"].mean(axis=1))}
+    for panel, (prefix, centre) in places.items():
+        major, minor, angle = (state[prefix + name] for name in PRINCIPAL)
+        known = np.flatnonzero(np.isfinite(major) & np.isfinite(minor) & np.isfinite(angle))
+        chosen = np.sort(known[np.argsort(-np.abs(major[known]), kind="stable")[:MOST_DRAWN]])
+        found[panel] = _stored(store, chosen, x=centre[:, 0], y=centre[:, 1], s1=major, s2=minor, a=angle)
+    return found
+
+
+def cross_unit(increments):
+    """Half length of the line of a stress of 1 P [d], so that the crosses of the continuum fill their cells."""
+    units = []
+    for state in (i.state for i in increments if i.state):
+        side = np.sqrt(np.ptp(state["cells/corners"], axis=1).prod(axis=1).mean())
+        units.append(0.5 * side / max(np.nanpercentile(state["cells/continuum_major_stress"], 98), 1e-9))
+    return short(np.median(units)) if units else 0.5
+
+
+def forces(increment, store):
+    """Moreau 1997, figure 3: contact forces, averaged over the stage [P d]."""
+    if not increment.state:
+        return None
+    point, force = increment.state["window/point"], increment.state["window/force"]
+    size = np.linalg.norm(force, axis=1)
+    chosen = np.sort(np.argsort(-size, kind="stable")[:MOST_DRAWN])
+    chosen = chosen[size[chosen] > 0]
+    return _stored(store, chosen, x=point[:, 0], y=point[:, 1], f=size, a=np.arctan2(force[:, 1], force[:, 0]))
+
+
+def force_unit(increments):
+    """Thickness of the line of a force of 1 P d [d], so that the largest 1 % are at least 0.7 d thick."""
+    found = [i.state["window/force"] for i in increments if i.state]
+    largest = [np.percentile(np.linalg.norm(force, axis=1), 99) for force in found if len(force)]
+    return short(0.7 / max(np.median(largest), 1e-9)) if largest else 0.1
+
+
+def probes(increment):
+    """Rectangles with their principal stresses, and the circle, of the stage that ends here."""
+    found = {}
+    for panel in PANEL_NAMES:
+        record = increment.end_panel(panel)
+        rectangles = [{"name": p["name"], "polygon": short(p["polygon"]),
+                       **{key: short(plain(p[key])) for key in ("s1", "s2", "direction_deg", "t_over_s")}}
+                      for p in record.get("probes") or [] if p["polygon"]]
+        circle = record.get("circular_probe")
+        found[panel] = {"rectangles": rectangles, "circle": short([*circle["centre"], circle["radius"]]) if circle else None}
+    return found

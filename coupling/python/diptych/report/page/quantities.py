@@ -1,0 +1,121 @@
+# diptych: the quantities that the maps can show
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A new quantity is one entry of QUANTITIES with its datasets and colours. Titles, units and meanings come from the datasets."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..data.panels import PANEL_NAMES
+from ..tables.wording import suffix, typeset
+
+PLACES = ("discs", "cells", "grid")  # the grains are shown as discs, or as means on the cells of the mesh or of a regular grid
+BOTH = "{panel}_"                    # prefix of a dataset on cells that both panels may have
+DEGREES = 180 / np.pi
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """name: dataset of the grains, and with `prefix` that of the cells. continuum: dataset of the continuum, if it differs.
+
+    component: (row, column) of a tensor. home: the place shown first. Limits: from_zero, or signed (symmetric about 0), or percentiles
+    at both ends. per_progress: an increment, whose limits grow with its range of progress. of_state: only stages store it; a window
+    shows the stage that ends with it. per_cent: shown times 100.
+    """
+
+    key: str
+    group: str
+    name: str
+    continuum: str = ""
+    prefix: str = BOTH
+    component: tuple = ()
+    title: str = ""
+    colour_map: str = "viridis"
+    home: str = "cells"
+    from_zero: bool = False
+    signed: bool = False
+    per_progress: bool = False
+    of_state: bool = False
+    per_cent: bool = False
+    grains_only: bool = False
+
+    def path(self, place, panel):
+        """Path of the dataset in the group of an increment."""
+        if place == "discs" and panel == "discrete":
+            return "discrete/" + self.name
+        name = self.continuum or self.name if panel == "continuum" else self.name
+        return f"{'grid' if place == 'grid' else 'cells'}/{self.prefix.format(panel=panel)}{name}"
+
+    def values(self, increment, result, place, panel):
+        """One number per grain or cell; None: not stored. With the place "discs" the continuum shows its cells."""
+        if self.grains_only and panel == "continuum":
+            return None
+        path = self.path(place, panel)
+        values = (increment.state if self.of_state else increment.arrays).get(path)
+        if values is None or not np.isfinite(values).any():
+            return None
+        values = np.asarray(values, dtype=float)
+        return self.factor(result) * (values[(slice(None), *self.component)] if self.component else values)
+
+    def described(self, result):
+        """Description of the first stored dataset, or None."""
+        paths = [self.path(place, panel) for place in PLACES for panel in PANEL_NAMES]
+        return next((result.arrays[path] for path in paths if path in result.arrays), None)
+
+    def factor(self, result):
+        found = self.described(result)
+        return 100.0 if self.per_cent else DEGREES if found and found.unit == "rad" else 1.0
+
+    def full_title(self, result):
+        return self.title or getattr(self.described(result), "title", "") or self.key
+
+    def label(self, result):
+        """Title and unit for a colour bar."""
+        found = self.described(result)
+        unit = "%" if self.per_cent else "degrees" if found and found.unit == "rad" else suffix(found.unit if found else "").strip()
+        return self.full_title(result) + (f" ({unit})" if unit else "")
+
+    def meaning(self, result, place):
+        """Meaning of the datasets of a place: "grains: ...; continuum: ..."."""
+        parts = []
+        for panel, name in PANEL_NAMES.items():
+            text = getattr(result.arrays.get(self.path(place, panel)), "meaning", "")
+            if text and not (self.grains_only and panel == "continuum"):
+                parts.append(text if text.startswith(name.lower()) else f"{name.lower()}: {text}")
+        sentence = typeset("; ".join(parts))
+        return sentence[:1].upper() + sentence[1:] + ("." if sentence else "")
+
+
+def corners(increment, mesh):
+    """(C, 4, 2) [d]: corners of the mesh of an increment, or of the stage that ends with it."""
+    own = increment.arrays.get(mesh + "/corners")
+    return increment.state.get(mesh + "/corners") if own is None else own
+
+
+MOTION = {"group": "Motion"}
+TURN = {"group": "Motion", "colour_map": "RdBu_r", "signed": True, "per_progress": True}
+STRESS = {"group": "Stress", "colour_map": "cividis", "of_state": True}
+GRAINS_ONLY = {"group": "Grains only", "of_state": True, "grains_only": True}
+QUANTITIES = (
+    Quantity("shear", name="shear_strain_increment", title="shear strain increment ε₁ − ε₂", home="discs", from_zero=True,
+             per_progress=True, per_cent=True, **MOTION),
+    Quantity("displacement", name="displacement_over_platen", home="discs", from_zero=True, **MOTION),
+    # The continuum is quasi-static: relative to the platen, its velocity equals its displacement increment.
+    Quantity("velocity", name="speed_over_platen", continuum="displacement_over_platen", home="discs", from_zero=True,
+             of_state=True, **MOTION),
+    Quantity("rotation", name="rotation_increment", **TURN),
+    Quantity("spin", name="spin_increment", **TURN),
+    Quantity("turn", name="relative_rotation", **TURN),
+    Quantity("s", name="mean_stress", **STRESS),
+    Quantity("t_over_s", name="stress_ratio", from_zero=True, **STRESS),
+    Quantity("xx", name="stress", component=(0, 0), title="stress σ_xx", **STRESS),
+    Quantity("yy", name="stress", component=(1, 1), title="stress σ_yy", **STRESS),
+    Quantity("xy", name="stress", component=(0, 1), title="stress σ_xy", signed=True, **{**STRESS, "colour_map": "RdBu_r"}),
+    Quantity("yx", name="stress", component=(1, 0), title="stress σ_yx", signed=True, **{**STRESS, "colour_map": "RdBu_r"}),
+    Quantity("couple", name="couple_stress_size", from_zero=True, **STRESS),
+    Quantity("dissipation", name="dissipation", from_zero=True, **{**STRESS, "colour_map": "viridis"}),
+    Quantity("solid_fraction", name="solid_fraction", prefix="", **GRAINS_ONLY),
+    Quantity("coordination", name="coordination_number", **GRAINS_ONLY),
+    Quantity("temperature", name="granular_temperature", from_zero=True, **GRAINS_ONLY),
+    Quantity("error", name="standard_error", from_zero=True, **GRAINS_ONLY),
+)

@@ -1,0 +1,89 @@
+# diptych: report.html of a result folder
+# SPDX-License-Identifier: LGPL-2.1-or-later
+
+from ..charts import chains, circular, histories, ledgers, probes, profiles, resolution, strips, style, trends
+from ..charts.style import Pair
+from ..data.result import load
+from . import viewer
+from .writing import template, write
+from ..tables import accounts, accuracy, bands, stage, summary, wording
+
+
+def end_of(increments):
+    """Progress at which the page opens: the end of the last window, or of the last stage if there is no window."""
+    windows = [i for i in increments if i.kind == "window"]
+    return (windows or increments)[-1].end
+
+
+def opens_at(increments, end):
+    """The first increment that reaches `end`, or the last one; windows come before stages."""
+    return next((i for i in increments if i.end >= end - 1e-9), increments[-1])
+
+
+class Part:
+    """A part of the page with one pane per increment.
+
+    maps: name of a pair of maps that draw.js draws, or "". content(increment): charts, tables and notes below the maps, by name;
+    the template shows them. end: all parts open at the increment that ends there.
+    """
+
+    def __init__(self, name, title, increments, end, content, maps=""):
+        self.name, self.title, self.maps = name, title, maps
+        first = opens_at(increments, end)
+        self.items = [{"key": i.key, "label": i.label, "kind": i.kind, "title": i.title, "end": f"{i.end:.9g}",
+                       "open": i is first, **content(i)} for i in increments]
+
+
+def parts(result):
+    """The parts in the order of the page. A new part is an entry here and its explanation in templates/result.html."""
+    every, stages, end = result.increments, result.stages, end_of(result.increments)
+    return [
+        Part("maps", "Grains and continuum at the same instant", every, end, lambda i: {
+            "tables": [bands.bands(result, i)], "notes": bands.notes(result, i)}, "quantity"),
+        Part("difference", "Difference on the same cells", every, end, lambda i: {
+            "tables": [stage.stress_difference(result, i), stage.dissipation(result, i)],
+            "notes": paragraph((i.record.get("difference") or {}).get("stress_verdict"))}, "difference"),
+        Part("arrows", "Displacements and velocities", every, end, lambda i: {}, "arrows"),
+        Part("strips", "Sixteen strips parallel to the band", every, end, lambda i: {"pair": strips.pair(i)}),
+        Part("profiles", "Profiles across the band", [i for i in every if i.kind == "window"] or stages, end, lambda i: {"pair": profiles.pair(i)}),
+        Part("probes", "Probes: mean stress and contact normals", stages, end, lambda i: {
+            "roses": probes.roses(i), "notes": [], "tables": [
+                stage.probes(result, i), stage.differences(result, i), stage.grain_pressures(result, i)]}, "probes"),
+        Part("crosses", "Internal moments of single grains", stages, end, lambda i: {
+            "pair": Pair(chains.distribution(i), chains.traction(i)),
+            "tables": [stage.chains(result, i)], "notes": paragraph(stage.chains_verdict(i))}, "crosses"),
+        Part("forces", "Contact forces", stages, end, lambda i: {}, "forces"),
+        Part("circle", "Circular probe", stages, end, lambda i: {"pair": circular.pair(i)}),
+    ]
+
+
+def paragraph(sentence):
+    """[A verdict with capital letter and full stop], or [] for an empty one."""
+    return [wording.typeset(sentence[0].upper() + sentence[1:].rstrip(".") + ".")] if sentence else []
+
+
+def draw(folder, next_folder=None):
+    """Writes the page to next_folder, whose files take the place of older ones in folder; default: folder. Raises InputError if a
+    file is missing, broken or has another format."""
+    result = load(folder, next_folder or folder)
+    style.set_up()
+    write(next_folder or folder, page(result))
+
+
+def page(result):
+    study = result.part("resolution_study")
+    return template("result.html").render(
+        comparison=result.comparison, imported=result.imported, parts=parts(result), maps=viewer.data(result),
+        curves=histories.figures(result) + ledgers.figures(result),
+        solver=ledgers.solver(result), trends=trends.figures(result),
+        resolution=resolution.figures(study), resolution_verdict=paragraph(study.get("verdict") or ""),
+        stages=bands.stages(result), mapping=stage.mapping(result), accuracy=accuracy.table(result),
+        first=summary.first(result.comparison), discrete_summary=summary.table(result, "discrete_summary"),
+        continuum_summary=summary.table(result, "continuum_summary"),
+        coarse=result.part("continuum_coarse"), cost=accounts.cost(result), provenance=accounts.provenance(result),
+        law=accounts.law_parameters(result), law_name=result.part("continuum_summary").get("law") or "",
+        scene_text=result.scene_text, number=wording.number,
+        fitted=result.part("continuum_summary").get("parameters_from"), absent=wording.ABSENT,
+        thickness_note=bands.thickness_note(result),
+        thickness_reason=wording.MESH_SET_REASON if bands.internal_length(result) is None else wording.LENGTH_SET_REASON,
+        loading_variable=result.loading_variable, averaging=result.averaging)

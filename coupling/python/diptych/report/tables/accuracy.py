@@ -1,0 +1,89 @@
+# diptych: table of the accuracy of a result: solver, balances, mapping, mesh and step
+# SPDX-License-Identifier: LGPL-2.1-or-later
+
+from ..data.files import number as parsed
+from ..data.numbers import plain
+from ..data.scene import scene_value
+from .wording import ABSENT, EXPECTED, number, rounded, shown_unit
+
+MAPPING = {"total_relative_error": "conservative: round-off", "nodal_residual": "identity of virtual power: round-off",
+           "couple_residual": "balance of moment: round-off",
+           "outside_share": "the program warns above 5 %"}
+
+
+def table(result):
+    """Rows: quantity, value, expected value."""
+    return {"head": ["", "value", "expected"], "rows": _grains(result) + _mapping(result) + _continuum(result)}
+
+
+def _row(result, part, key, digits=4):
+    """A number of a summary, with its meaning from the program."""
+    place = f"{part}/{key}"
+    panel = "grains" if part == "discrete_summary" else "continuum"
+    text = number(result.part(part).get(key), shown_unit(result.numbers, place), digits)
+    return [f"{panel}: {result.numbers.meaning(place)}", text, EXPECTED.get(key, "")]
+
+
+def _grains(result):
+    part, summary = "discrete_summary", result.part("discrete_summary")
+    rows = [_row(result, part, "residual"), _row(result, part, "solver_noise", 2), _grain_stress_error(result, summary)]
+    if summary.get("snapshots_sampled"):
+        rows.append(["grains: snapshots with the required accuracy of grain stress",
+                     f"{number(summary.get('snapshots_accurate'))} of {number(summary['snapshots_sampled'])}",
+                     "means over a stage need less accuracy than single snapshots"])
+    spin, acceleration = (number(_largest(result, key), "", 2) for key in ("dynamic_share", "acceleration_share"))
+    return rows + [_row(result, part, "expected_strength_error", 2), _row(result, part, "impact_share", 2), _row(result, part, "energy_residual"), _row(result, part, "momentum_residual"),
+                   ["grains: dynamic terms over the mean stress, largest of the stages: spin; acceleration in one step",
+                    f"{spin}; {acceleration}", "Moreau (1997): below 10⁻³"],
+                   _row(result, part, "max_penetration_d"), _row(result, part, "step_length"),
+                   _row(result, part, "mean_inertial_number")]
+
+
+def _largest(result, key):
+    """Largest magnitude of a number over the stages of the grains, or None."""
+    return max((abs(plain(s.panel("discrete").get(key))) for s in result.stages
+                if plain(s.panel("discrete").get(key)) is not None), default=None)
+
+
+def _grain_stress_error(result, summary):
+    label = "grains: " + result.numbers.meaning("discrete_summary/grain_stress_error")
+    if plain(summary.get("grain_stress_error")) is not None:
+        factor = number(summary.get("residual_factor"), "", 2)
+        return [label, number(summary["grain_stress_error"], "%", 2), f"{factor} × residual, measured on the first snapshot"]
+    change, reached = plain(summary.get("residual_factor_error")), plain(summary.get("residual_factor_reference_residual"))
+    if change is None:
+        return [label, ABSENT, ""]
+    return [label, "unknown", f"the first snapshot, solved further to a residual of {number(reached)}, changed by "
+            f"{number(change, '%', 2)}, too much for an estimate"]
+
+
+def _mapping(result):
+    kept = [stage.record.get("mapping") or {} for stage in result.stages]
+    rows = []
+    for key, expected in MAPPING.items():
+        values = [plain(m.get(key)) for m in kept if plain(m.get(key)) is not None]
+        unit = shown_unit(result.numbers, f"stages/mapping/{key}")
+        rows.append([f"mapping: {result.numbers.meaning(f'stages/mapping/{key}')}, largest of the stages",
+                     number(max(values), unit, 2) if values else ABSENT, expected])
+    return rows
+
+
+def _continuum(result):
+    summary, coarse = result.part("continuum_summary"), result.part("continuum_coarse")
+    tolerance = parsed(scene_value(result.scene_text, "continuum", "tolerance"))
+    rows = [["continuum: element size; tolerance of the equilibrium",
+             f"{number(summary.get('element_size_d'), ' d')}; {number(tolerance)}", ""],
+            _row(result, "continuum_summary", "platen_unbalance", 2)]
+    if coarse:
+        rows.append(["continuum: peak stress ratio; on the coarse mesh",
+                     f"{rounded(summary.get('peak_stress_ratio'), '')}; {rounded(coarse.get('peak_stress_ratio'), '')}",
+                     f"coarse mesh: elements of {number(coarse.get('element_size_d'), ' d')}"])
+        rows.append(["continuum: band width, last window; on the coarse mesh", "; ".join(_widths(result, coarse)),
+                     "the width is reliable only if both agree"])
+    return rows + [_row(result, "continuum_summary", "share_zz_not_intermediate")]
+
+
+def _widths(result, coarse):
+    fine = result.windows[-1].bands("continuum") if result.windows else []
+    rough = (coarse.get("windows") or [{}])[-1].get("bands") or []
+    return [rounded(bands[0].get("width_10_90_d"), " d") if bands else "no band" for bands in (fine, rough)]

@@ -1,0 +1,174 @@
+# diptych: tables of an ensemble of seeds
+# SPDX-License-Identifier: LGPL-2.1-or-later
+
+import os
+
+from ..data.ensemble import MOST_CURVES
+from ..data.panels import PANEL_NAMES
+from .wording import DECIMALS, UNBROKEN, ending, fixed, number, rounded, shown_unit
+
+NUMERICAL = ("grains_step", "mesh", "load_step")  # parts of u_num
+AXIS_UNITS = {"": "", "%": " (%)", "°": " (°)", " d": " (d)"}
+
+
+def place_of(verdict):
+    """("window 0-0.01", "angle_deg") or ("", "peak_stress_ratio")."""
+    words = verdict["quantity"].split(" band ")
+    return (words[0], words[1]) if len(words) == 2 else ("", words[0])
+
+
+def described_at(verdict):
+    """Place of the quantity of a verdict in the list of numbers of a comparison."""
+    place, key = place_of(verdict)
+    return f"{place.split(' ')[0]}s/discrete/bands/{key}" if place else f"discrete_summary/{key}"
+
+
+def own_text(results, verdict):
+    """("inclination of the band", unit of wording.rounded)."""
+    at = described_at(verdict)
+    words = results.numbers.meaning(at).split(",")[0] + (" of the band" if place_of(verdict)[0] else "")
+    return words, shown_unit(results.numbers, at)
+
+
+def text_of(results, verdict):
+    """"inclination of the band, 0–1 %"."""
+    place, text = place_of(verdict)[0], own_text(results, verdict)[0]
+    return f"{text}, {results.place(place)[1]}" if place else text
+
+
+def panel_quantities(results, verdict):
+    place, key = place_of(verdict)
+    names = {p: f"{place} {p} band {key}" if place else f"{p}_summary {key}" for p in PANEL_NAMES}
+    return {p: results.quantities.get(name) for p, name in names.items()}
+
+
+def with_interval(record, unit):
+    """"16.9 [14.7, 19.1] d", with the unit once so that columns stay narrow."""
+    if record is None or record["mean"] is None:
+        return "–"
+    text = fixed(record["mean"], unit)
+    if record["low"] is not None and record["high"] is not None:
+        text += f" [{fixed(record['low'], unit)}, {fixed(record['high'], unit)}]"
+    return text + ending(unit)
+
+
+def verdict_rows(results):
+    """One row per verdict: text, means, difference, intervals, margin, pairs, verdict."""
+    rows = []
+    for verdict in results.record["verdicts"]:
+        own_unit = own_text(results, verdict)[1]
+        unit, decimals = ("%", 1) if verdict["relative"] else (own_unit, DECIMALS.get(own_unit, 3))
+        means = panel_quantities(results, verdict)
+        margin = 100 * verdict["margin"] if unit == "%" else verdict["margin"]
+        rows.append({
+            "text": text_of(results, verdict), "relative": verdict["relative"],
+            "means": [with_interval(means[p], own_unit) for p in PANEL_NAMES],
+            "difference": _signed(verdict["difference"]["value"], unit, decimals, ending(unit)),
+            "intervals": [_ends(verdict[key], unit, decimals) for key in ("difference_90", "difference")],
+            "margin": "± " + number(margin) + ending(unit), "n": verdict["n"], "verdict": verdict["verdict"]})
+    return rows
+
+
+def validation_table(results):
+    """Errors and their uncertainty in the sense of ASME V&V 20, for quantities with a value in both panels."""
+    rows = []
+    for verdict, one in zip(results.record["verdicts"], results.record.get("validation", [])):
+        if not one["n"]:
+            continue
+        unit, missing = own_text(results, verdict)[1], one["not_known"]
+        label = text_of(results, verdict) + (f" [{unit.strip()}]" if unit else "")
+        factor = 100 if unit == "%" else 1
+        cells = [_digits(value, factor, 3) for value in (one["S"], one["D"], one["E"]["value"])]
+        uncertainties = [one["parts"][name] for name in NUMERICAL] + [one["u_input"], one["u_D"]]
+        cells += [_digits(u, factor, 2) for u in uncertainties]
+        cells.append(_digits(one["u_val"], factor, 2, "≥ " if missing else ""))
+        cells.append(_digits(one["ratio"], 1, 2, "≤ " if missing else ""))
+        rows.append([label, *cells, one["verdict"] + (f" (without {', '.join(missing)})" if missing else "")])
+    return {"head": ["", ("S", "continuum"), ("D", "grains"), ("E", "S − D"), ("u_num", "grains’ step"), ("u_num", "mesh"),
+                     ("u_num", "load step"), ("u_input", "parameters"), ("u_D", "samples"), ("u_val", "together"),
+                     "|E| / u_val", "verdict"], "rows": rows}
+
+
+def _digits(value, factor, digits, before=""):
+    text = "not known" if value is None else before + number(factor * value, "", digits)
+    return text.replace(" ", UNBROKEN)
+
+
+def _signed(value, unit, decimals, suffix=""):
+    if value is None:
+        return "–"
+    text = fixed(value, unit, decimals)
+    return ("" if text.startswith("−") or float(text) == 0 else "+") + text + suffix
+
+
+def _ends(interval, unit, decimals):
+    if interval["low"] is None or interval["high"] is None:
+        return "unknown"
+    return f"{_signed(interval['low'], unit, decimals)} to {_signed(interval['high'], unit, decimals)}{ending(unit)}"
+
+
+def captions(results):
+    """[(verdict, axis label, factor of the axis, caption)] for the chart of every verdict."""
+    found = {band["name"]: band["text"] for band in results.record["bands"]}
+    rows = []
+    for verdict in results.record["verdicts"]:
+        place = place_of(verdict)[0]
+        text, unit = own_text(results, verdict)
+        caption = text_of(results, verdict)
+        if place:
+            caption += ". Bands found, grains: " + "; continuum: ".join(found.get(f"{place} {p}", "–") for p in PANEL_NAMES)
+        rows.append((verdict, text + AXIS_UNITS.get(unit, ""), 100 if unit == "%" else 1, caption + "."))
+    return rows
+
+
+def curve_caption(results):
+    """Explains the lines in the charts of histories."""
+    more = "" if len(results.record["done"]) <= MOST_CURVES else f" Curves of the first {MOST_CURVES} seeds."
+    width = "" if results.averaging is None else f", mean over the last {results.span(results.averaging)} of {results.loading_variable.word}"
+    return (f" Thin: every seed{width}. Thick: mean of the seeds. Shaded: 95 % interval of this mean (Student)." + more)
+
+
+def band_table(results):
+    """Number of bands in every stage and window."""
+    texts = {band["name"]: band["text"] for band in results.record["bands"]}
+    places = [name.removesuffix(" discrete") for name in texts if name.endswith(" discrete")]
+    rows = [[" ".join(results.place(place))] + [texts.get(f"{place} {p}", "–") for p in PANEL_NAMES] for place in places]
+    return {"head": ["", "grains", "continuum"], "rows": rows}
+
+
+def members(results):
+    """Every seed with its state and links to its report and its messages."""
+    record = results.record
+    failed = {member["seed"]: member for member in record["failed"]}
+    place = {seed: k for k, seed in enumerate(record["done"])}
+    peaks = [results.quantities.get(f"{p}_summary peak_stress_ratio") for p in PANEL_NAMES]
+    rows = []
+    for seed in record["seeds"]:
+        row = {"seed": seed, "log": f"seed_{seed}.log", "report": None, "values": ["–", "–"]}
+        if seed in place:
+            row["state"] = "done"
+            row["values"] = [rounded(q["values"][place[seed]], "") if q else "–" for q in peaks]
+            if os.path.isfile(os.path.join(results.folder, f"seed_{seed}", "report.html")):
+                row["report"] = f"seed_{seed}/report.html"
+        elif seed in failed:
+            row["state"] = f"failed, exit code {failed[seed]['exit_code']}: {failed[seed]['message']}"
+        else:
+            row["state"] = "interrupted"
+        rows.append(row)
+    return rows
+
+
+def quantity_table(results):
+    rows = [[q["name"], q["unit"], str(q["n"])] + ["–" if q[key] is None else number(q[key]) for key in
+                                                   ("mean", "deviation", "low", "high")] for q in results.record["quantities"]]
+    return {"head": ["quantity", "unit", "n", "mean", "deviation", "95 % from", "to"], "rows": rows}
+
+
+def provenance(results):
+    source = results.provenance
+    rows = [[words, str(source[key])] for key, words in (("program", "program"), ("version", "version"),
+                                                          ("git_revision", "revision"), ("command", "command"),
+                                                          ("date", "run on")) if source.get(key) is not None]
+    rows += [[f"time of the {phase['name']}", f"{number(phase.get('wall_s'), ' s', 3)}, CPU {number(phase.get('cpu_s'), ' s', 3)}"]
+             for phase in source.get("phases") or []]
+    return {"head": ["", ""], "rows": rows}

@@ -1,0 +1,121 @@
+# diptych: tables of a study
+# SPDX-License-Identifier: LGPL-2.1-or-later
+
+import os
+
+from ..data.study import CLASSES
+from .wording import number
+
+
+def share(value, relative, signed=True):
+    """A relative error as "+3.4 %", another one with three digits; an en dash for None."""
+    if value is None:
+        return "–"
+    text = f"{100 * value:+.1f}" if relative else f"{value:+.3g}"
+    text = text if signed else text.lstrip("+")
+    return text.replace("-", "−") + ("\u00a0%" if relative else "")
+
+
+def with_ends(error, relative):
+    """"+3.4 [+2.1, +4.7] %"."""
+    if error["value"] is None:
+        return "–"
+    unit = "\u00a0%" if relative else ""
+    text = share(error["value"], relative).removesuffix("\u00a0%")
+    if error["low"] is not None and error["high"] is not None:
+        text += " [" + ", ".join(share(error[end], relative).removesuffix("\u00a0%") for end in ("low", "high")) + "]"
+    return text + unit
+
+
+def seconds(value):
+    return "–" if value is None else f"{value:.3g}\u00a0s"
+
+
+def accuracy_of(study, row):
+    if not row["quantity"]:
+        return f"{row['accuracy']:g} × every limit"
+    relative = next(q["relative"] for q in study.quantities if q["name"] == row["quantity"])
+    return share(row["accuracy"], relative, signed=False)
+
+
+def cheapest(study):
+    """One row per quantity and accuracy: [text, accuracy, point, seconds, errors, sure or not]."""
+    rows = []
+    for row in study.bill["cheapest"]:
+        known = row["point"] >= 0
+        errors = study.points[row["point"]]["quantities"] if known else []
+        text = "; ".join(f"{of['name']} {with_ends(q['error'], of['relative'])}" for q, of in zip(errors, study.quantities)
+                         if of["limit"] and row["quantity"] in ("", of["name"]))
+        sure = "–" if not known else "yes" if row["certain"] else "no, within the scatter of the samples"
+        reference = ", ".join(study.points[row["reference"]]["labels"])
+        rows.append([(row["quantity"] or "all with a limit") + (f" ({reference})" if reference else ""), accuracy_of(study, row), study.name(row["point"]) if known else "none of these",
+                     seconds(row["cpu_s"]), text or "–", sure])
+    return {"head": ["quantity", "error at most", "cheapest point", "CPU per sample", "error [95 %]", "sure"], "rows": rows}
+
+
+def points(study):
+    """One row per point: name, class, errors, cost, messages."""
+    rows = []
+    for k, point in enumerate(study.points):
+        cost = study.cost.get(k)
+        messages = [point["words"]] if point["words"] else []
+        if point["warned"]:
+            messages.append(f"warned in {point['warned']} of {len(point['folders'])}")
+        if point["halved_steps"]:
+            messages.append(f"{point['halved_steps']} steps halved")
+        if point["cut_backs"]:
+            messages.append(f"{point['cut_backs']:g} load steps halved")
+        judged = {"kind": point["class"], "sure": point["certain"],
+                  "colour": CLASSES[point["class"]][0], "ink": CLASSES[point["class"]][1],
+                  "errors": [with_ends(q["error"], of["relative"]) for q, of in zip(point["quantities"], study.quantities)]} \
+            if study.has_reference else {}
+        rows.append({"place": k, "name": study.name(k), **judged,
+                     "cost": seconds(cost["cpu_s"] if cost else None), "messages": "; ".join(messages),
+                     "log": point["folders"][0] + ".log" if os.path.isfile(os.path.join(study.folder, point["folders"][0] + ".log"))
+                     else ""})
+    return rows
+
+
+def orders(study):
+    rows = []
+    for row in study.record["orders"]:
+        others = ", ".join(f"{axis['name']} {label}" for axis, label in zip(study.family(row["family"])["axes"], row["labels"]) if label)
+        rows.append([row["quantity"], f"{row['family']}: {row['axis']}".lstrip(": "), others or "–", row["points"],
+                     _interval(row["order"], 2), _interval(row["limit"], 4)])
+    return {"head": ["quantity", "along", "at", "points", "order [95 %]", "limit [95 %]"], "rows": rows}
+
+
+def _interval(record, digits):
+    text = f"{record['value']:.{digits}g}"
+    if record["low"] is not None and record["high"] is not None:
+        text += f" [{record['low']:.{digits}g}, {record['high']:.{digits}g}]"
+    return text.replace("-", "−")
+
+
+def counts(study):
+    """"7 right, 3 silently wrong"."""
+    found = {}
+    for k, point in enumerate(study.points):
+        if study.is_reference(k):
+            continue
+        found[point["class"]] = found.get(point["class"], 0) + 1
+    return ", ".join(f"{found[kind]} {kind}" for kind in CLASSES if kind in found)
+
+
+def disturbed(study):
+    """A warning about the CPU times, or ""."""
+    if not study.bill["disturbed"]:
+        return ""
+    return (f"During {study.bill['disturbed']} of {study.bill['runs']} runs other programs used the machine. "
+            "The CPU times of these runs may be too large.")
+
+
+def provenance(study):
+    record, bill = study.record, study.bill
+    return {"head": ["", ""], "rows": [
+        ["scene", record["scene"]], ["command", "diptych " + record["command"]],
+        ["settings of all points", "; ".join(record["settings"]) or "those of the scene"],
+        *([["reference", "; ".join(study.points[0]["settings"]) or "the unchanged scene"]] if study.has_reference else []),
+        ["samples", f"{len(record['seeds'])}: seeds {', '.join(map(str, record['seeds']))}" if record["seeds"] else "the sample of the scene"],
+        ["program", record["revision"]], ["phases counted", ", ".join(bill["phases"])],
+        ["all runs", f"{bill['runs']} runs, {number(bill['total_cpu_s'])} CPU seconds"]]}

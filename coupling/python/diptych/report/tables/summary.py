@@ -1,0 +1,36 @@
+# diptych: tables of the numbers of a whole run
+# SPDX-License-Identifier: LGPL-2.1-or-later
+
+from ..data.numbers import plain
+from .wording import EXPECTED, NULLS, ORDER, number, shown_unit, suffix, typeset
+
+LEFT_OUT = ("law", "parameters_from")  # shown elsewhere on the page
+
+
+def first(record):
+    """The numbers that a user asks for first, from comparison.json or ensemble.json."""
+    rows = [[typeset(row["quantity"])] + ["–" if plain(row[of]) is None else number(row[of], suffix(row["unit"]), 3)
+                                          for of in ("grains", "continuum", "difference")] + [row["verdict"]]
+            for row in record.get("summary", [])]
+    return {"head": ["", "grains", "continuum", "difference [95 %]", "verdict"], "rows": rows}
+
+
+def table(result, part):
+    """Rows of a group of the comparison: meaning, number, expected value. Empty texts are left out."""
+    rows = []
+    values = result.part(part)
+    for key in sorted(values, key=lambda name: (ORDER.index(name) if name in ORDER else len(ORDER), name)):
+        value = values[key]
+        if key in LEFT_OUT or value == "" or isinstance(value, list) or (isinstance(value, dict) and "value" not in value):
+            continue
+        place = f"{part}/{key}"
+        rows.append([result.numbers.meaning(place), _text(result, place, key, value), EXPECTED.get(key, "")])
+    return {"head": ["", "value", "expected"], "rows": rows}
+
+
+def _text(result, place, key, value):
+    if value is None and key in NULLS:
+        return NULLS[key]
+    if result.numbers.unit(place) == "strain or time" and isinstance(value, (int, float)):
+        return result.loading_variable.text(value)
+    return number(value, shown_unit(result.numbers, place))
