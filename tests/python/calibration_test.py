@@ -13,16 +13,17 @@ from conftest import QUICK
 import diptych
 from diptych import scenes
 from diptych.campaigns.calibration import noise
-from diptych.campaigns.calibration.calibration import Calibrator, empty_record
+from diptych.campaigns.calibration.calibration import calibrate, empty_record
 from diptych.campaigns.runs.coordinates import Coordinates, Parameter
 from diptych.campaigns.calibration.calibration_file import Calibration, Target, read_calibration, read_curve
 from diptych.campaigns.calibration.findings import predictions
 from diptych.campaigns.calibration.grains import mean_of
 from diptych.campaigns.calibration.noise import Data, Noise, Observable
 from diptych.campaigns.calibration.profiles import PROFILE, STRIPS
-from diptych.campaigns.calibration.calibration_runs import Observation, Path, observe_curve, observe_history
+from diptych.campaigns.calibration.observations import Observation, Path, observe_curve, observe_history
 from diptych.campaigns.calibration.search import least_squares
 from diptych.campaigns.calibration.standard import standard_calibration
+from diptych.campaigns.calibration.trials import Trials
 from diptych.campaigns.runs.histories import mean_over
 from diptych.campaigns.runs.input_file import Setting
 
@@ -64,8 +65,8 @@ def calibration(parameters=SIX, targets=("only",), fixed=(), **options):
 
 @pytest.fixture(autouse=True)
 def few_steps(monkeypatch):
-    monkeypatch.setattr("diptych.campaigns.calibration.calibration.STEPS", 500)
-    monkeypatch.setattr("diptych.campaigns.calibration.calibration.SHORT", 200)
+    monkeypatch.setattr("diptych.campaigns.calibration.posterior.STEPS", 500)
+    monkeypatch.setattr("diptych.campaigns.calibration.posterior.SHORT", 200)
 
 
 EXACT = {"stress_level": 1e-5, "stress_shape": 1e-5, "volume_start": 1e-6, "volume_growth": 1e-6}
@@ -77,9 +78,8 @@ def path_of(target, data):
 
 def calibrated(c, paths):
     record = empty_record("c")
-    Calibrator(c, Coordinates(c.parameters, {}), paths,
-               lambda on, points, fine, step: [[Observation(response(s, path.data.observables)) for path, s in zip(on, point)]
-                                               for point in points], record).calibrate()
+    calibrate(Trials(c, Coordinates(c.parameters, {}), paths, lambda on, points, fine, step: [
+        [Observation(response(s, path.data.observables)) for path, s in zip(on, point)] for point in points], record))
     return record
 
 
@@ -216,8 +216,8 @@ def test_failed_runs_are_left_out_and_told():
 
     path = path_of(c.targets[0], Data(c.observables_of(SCENE), [truth, truth]))
     path.target.before = [Setting("continuum", "friction_angle_peak", "20", "")]
-    Calibrator(c, Coordinates(c.parameters, {}), [path], lambda on, points, fine, step: [
-        [observed(s, on[0].data.observables, fine) for s in point] for point in points], record).calibrate()
+    calibrate(Trials(c, Coordinates(c.parameters, {}), [path], lambda on, points, fine, step: [
+        [observed(s, on[0].data.observables, fine) for s in point] for point in points], record))
     assert record["status"] == "finished"
     assert [p["number"] for p in record["parameters"]] == pytest.approx(TRUTHS, rel=1e-2)
     assert any("rests on the coarse mesh" in words for words in record["words"])
@@ -336,8 +336,8 @@ def test_friction_of_noisy_grains_is_found_within_its_interval():
         given = np.sqrt(np.diag(noise.covariance(USUAL, Data(observables, 0 * x))) / 16)
         path = path_of(c.targets[0], Data(observables, lab, given, 8))
         path.scatter, record = Data(observables, [one.values for one in samples([])]), empty_record("c", "grains")
-        Calibrator(c, Coordinates(c.parameters, {}), [path],
-                   lambda on, points, fine, step: [[mean_of(samples(point[0]), 0.005)] for point in points], record).calibrate()
+        calibrate(Trials(c, Coordinates(c.parameters, {}), [path],
+                   lambda on, points, fine, step: [[mean_of(samples(point[0]), 0.005)] for point in points], record))
         found.append(record["parameters"][0])
     assert sum(p["number_low"] < 0.4 < p["number_high"] for p in found) >= 7
     assert np.sqrt(np.mean([(p["value"] - 0.4) ** 2 for p in found])) < 0.04
@@ -369,8 +369,8 @@ def test_a_profile_gives_the_internal_length_and_no_more_for_finer_strips(parts)
     mean, c.noise = banded([Setting("continuum", "internal_length", str(truth), "")], observables), Noise(width_discrepancy=1e-3)
     for seed in range(8):
         data, record = drawn(Noise(0, 0, 0, 0, 0, 0.2, 0.08), observables, mean, 4, seed), empty_record("c")
-        Calibrator(c, Coordinates(c.parameters, {}), [path_of(c.targets[0], data)], lambda on, points, fine, step: [
-            [Observation(banded(s, observables)) for s in point] for point in points], record).calibrate()
+        calibrate(Trials(c, Coordinates(c.parameters, {}), [path_of(c.targets[0], data)], lambda on, points, fine, step: [
+            [Observation(banded(s, observables)) for s in point] for point in points], record))
         [p] = record["parameters"]
         held += p["number_low"] < truth < p["number_high"]
         deviations.append(np.log(p["draws"]).std())

@@ -17,8 +17,9 @@ from ...arrays import Array, Interval
 from ..runs.coordinates import Coordinates
 from .noise import Noise, covariance, covariance_of_mean
 from .posterior import Draws
-from .calibration_runs import Observation, Path
-from .search import NORMAL, PRIOR
+from .observations import Observation, Path
+from .search import NORMAL, PRIOR, Fit, difference_jacobian
+from .trials import Trials
 from ..runs.folders import write_json, write_text
 from ..runs.input_file import seeds_text
 from ..runs.statistics import Difference, line_statistics, paired, statistics
@@ -172,6 +173,62 @@ def with_scatter(key: str, curves: Array) -> dict[str, Array]:
     """Mean of curves (sample, point), plus and minus two deviations of one sample; NaN for a single one."""
     spread = 2 * curves.std(0, ddof=1) if len(curves) > 1 else np.full(curves.shape[1], np.nan)
     return {key: curves.mean(0), key + "_low": curves.mean(0) - spread, key + "_high": curves.mean(0) + spread}
+
+
+def report(trials: Trials, fine: Fit, coarse: Fit, draws: Draws) -> None:
+    record = trials.record
+    record["parameters"] = parameter_records(trials.coordinates, draws.points, fine.point)
+    record["correlation"] = np.corrcoef(draws.points, rowvar=False).reshape(2 * (len(trials.coordinates),))
+    record["discrepancy"] = discrepancy_record(trials.noise, draws, len(trials.fitted))
+    record["words"] += parameter_words(record["parameters"]) + discrepancy_words(record["discrepancy"])
+    searches = [("on the samples' own mesh ", fine, "fine_jacobians"), ("on the coarse mesh ", coarse, "jacobians")]
+    if fine is coarse:
+        searches = [("", fine, "jacobians")]
+    record["words"] += [f"{mesh}{fit.note}; allow more Jacobians by `{key}`" for mesh, fit, key in searches if fit.note]
+    record["words"] += trials.failure_words()
+
+
+def predict(trials: Trials, best: Array, jacobian: Array, draws: Draws) -> None:
+    """All paths on their own meshes: before, calibrated, and calibrated with half the load step."""
+    trials.keep(best)
+    jacobian = trials.data.unweighted(jacobian[:len(trials.data.mean)])
+    spread, curve = np.atleast_2d(np.cov(draws.points, rowvar=False)), iter(draws.curve.T)
+    trials.record["other_runs"] += 3 * len(trials.paths)
+    calibrated = [trials.settings(best, path.target.name) for path in trials.paths]
+    before, after = trials.run(trials.paths, [[path.target.before for path in trials.paths], calibrated], True,
+                             trials.calibration.load_step)
+    halved = trials.run(trials.paths, [calibrated], True, 0.5 * trials.calibration.load_step)[0]
+    used = iter(trials.data.used)
+    for path, *runs in zip(trials.paths, before, after, halved):
+        here = _jacobian_on(trials, path, best, jacobian)
+        deviations = np.sqrt(np.diag(here @ spread @ here.T))
+        trials.record["paths"].append(path_record(path, trials.noise, runs, deviations))
+        for one in trials.record["paths"][-1]["observables"] if path.target.is_fitted else ():
+            one["counts"], (one["discrepancy"], one["discrepancy_deviation"]) = bool(next(used)), next(curve)
+    for key, runs in (("chi2_before", before), ("chi2", after)):
+        values = [one.values for path, one in zip(trials.paths, runs) if path.target.is_fitted]
+        trials.record[key] = trials.chi2(trials.data.residual(np.concatenate(values)))
+
+
+def _jacobian_on(trials: Trials, path: Path, best: Array, jacobian: Array) -> Array:
+    """(observables, parameters) of one path: the fit's if the path was fitted, on these or other samples; else differences
+    on the coarse mesh."""
+    n, at = len(path.data.observables), 0
+    for other in trials.fitted:
+        same = all(p.is_of(path.target.name) == p.is_of(other.target.name) for p in trials.coordinates.parameters)
+        if same and path.target.is_same_path(other.target):
+            return jacobian[at:at + n]
+        at += len(other.data.observables)
+
+    def values(points: Sequence[Array]) -> list[Array]:
+        return [runs[0].values for runs in trials.runs(points, [path], False, "other_runs")]
+
+    here = values([best])[0]
+    measured, result = np.isfinite(here), np.full((n, len(best)), np.nan)
+    if measured.any():
+        result[measured] = difference_jacobian(lambda points: [one[measured] for one in values(points)], best,
+                                               here[measured], trials.difference)
+    return result
 
 
 def summary(record: dict[str, Any], cpu_s: float) -> str:

@@ -12,7 +12,8 @@ import pandas as pd
 
 from .calibration_file import Target
 from .noise import Data
-from .calibration_runs import CalibrationRuns, Observation, Path, half_step, observe_curve, observe_history, read_target
+from .calibration_runs import CalibrationRuns
+from .observations import Observation, Path, half_step, observe_curve, observe_history, read_target
 from ..runs.folders import SceneRun
 from ..runs.histories import panel_table, running_mean
 from ..runs.input_file import Setting

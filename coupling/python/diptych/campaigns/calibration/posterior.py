@@ -22,12 +22,15 @@ from ...arrays import Array
 from ..runs.coordinates import Coordinates
 from .emulator import Emulator
 from .noise import KINDS, Data, FittedData, discrepancy, tolerance_covariance
-from .search import PRIOR
+from .search import PRIOR, Fit
+from .trials import Trials
 
 SPREAD = 0.7  # deviation of ln(size) and of ln(correlation strain) before the data: a factor of two
 SHARE_OF_STRAIN = 0.25  # correlation strain of the discrepancy before the data / largest strain
 SCALED = (("stress_level",), ("volume_start", "volume_growth"), ("profile_stretch",))  # with a sampled factor if samples gave them
 WALKERS, DRAWS = 48, 1000
+STEPS = 1500  # of the sampling
+MORE_RUNS, SHORT = 20, 500  # coarse runs at points of the posterior, after so many steps of a first sampling
 CANDIDATES, HEAT = 1000, 3.0  # for the starts of the walkers; they are drawn with the posterior^(1 / heat)
 FARTHEST, LARGE = 6.0, 1e30  # ln of a factor of a variance: two samples bound it nowhere; a number without effect
 
@@ -130,3 +133,24 @@ class Posterior:
         curve[:, self.used] = means.mean(0), np.sqrt(means.var(0) + left.mean(0))
         return Draws(z[:, :n], np.exp(z[:, n:n + 3]) * [1, 1, self.strain], self.strain, curve,
                      float(sampler.acceptance_fraction.mean()), float(sampler.get_autocorr_time(tol=0, quiet=True)[:n].max()))
+
+
+def sample_posterior(trials: Trials, fit: Fit) -> Draws:
+    """The posterior by an emulator of all runs. A first, short sampling tells where more coarse runs improve it."""
+    n = trials.calibration.more_runs or min(MORE_RUNS, 3 * len(fit.point))
+    first = _posterior(trials).sample(fit.point, fit.jacobian, trials.calibration.seed, SHORT)
+    more = first.points[np.linspace(0, len(first.points) - 1, n).astype(int)]
+    failed = sum(any(one.failure for one in runs) for runs in trials.runs(more, trials.fitted, False, "coarse_runs"))
+    if failed:
+        trials.record["words"].append(f"{failed} of {n} runs at draws of the posterior failed; it omits what is nearest to them")
+    posterior = _posterior(trials)
+    draws = posterior.sample(fit.point, fit.jacobian, trials.calibration.seed, STEPS)
+    trials.record["emulator"] = {
+        "runs": len(posterior.emulator.points), "more_runs": n, "failed": failed, "acceptance": draws.acceptance,
+        "steps": STEPS, "autocorrelation": draws.autocorrelation,
+        "left_out": float(np.sqrt(np.mean(posterior.left_out[~posterior.emulator.is_fine.astype(bool)][-n:] ** 2)))}
+    return draws
+
+
+def _posterior(trials: Trials) -> Posterior:
+    return Posterior(trials.data, trials.coordinates, *(np.array(column) for column in zip(*trials.tried)))

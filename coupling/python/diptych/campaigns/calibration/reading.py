@@ -1,0 +1,120 @@
+# diptych: the first phase of a calibration: what is fitted to which data
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Everything is checked before a run changes the folder. Afterwards the data are checked for the step of their grains."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from ...errors import SceneError
+from ..runs.coordinates import Coordinates
+from ..runs.input_file import settings_of
+from .calibration_file import OF_BANDS, Calibration, Target, is_element
+from .calibration_runs import CalibrationRuns
+from .noise import Data, noise_of
+from .observations import Path, observe_curve, read_target
+from .profiles import PROFILE
+from .standard import standard_calibration
+
+
+def _check_target(calibration: Calibration, coordinates: Coordinates, target: Target) -> Data:
+    """The start must be a scene for every target. Returns data of the same shape as the samples will give."""
+    read_target(target, target.before)
+    try:
+        scene = read_target(target, [*calibration.fixed, *coordinates.settings(coordinates.start, target.name)])
+    except SceneError as error:
+        raise SceneError(f"{calibration.file}: with every parameter at its start: {error}; change start or set") from error
+    if not calibration.of_grains and not is_element(scene):
+        importlib.import_module("diptych._continuum").require_continuum(scene)
+    if not calibration.of_grains and scene.dict()["continuum"]["initial_stress"] == "mapped":
+        raise SceneError(f"{target.scene}: continuum/initial_stress = mapped has no place in a calibration: one mesh serves "
+                         "all samples")
+    place = f"{calibration.file}: target '{target.name}': "
+    law = scene.dict()["continuum"]["law"]
+    if PROFILE in calibration.kinds and not is_element(scene) and not law.startswith("cosserat"):
+        raise SceneError(f"{place}{PROFILE} needs a law with rotations; continuum/law = {law} has none; use ln_width")
+    try:
+        observables = calibration.observables_of(scene, bool(target.curve))
+    except ValueError as error:
+        raise SceneError(place + str(error)) from error
+    for kind in calibration.kinds:
+        if target.is_fitted and not (target.curve or is_element(scene)) and kind not in [one.kind for one in observables]:
+            raise SceneError(f"{place}no bin or window of {kind} lies within its loading")
+    for p in coordinates.parameters:
+        if p.is_of(target.name) and p.key in (unused := scene.unused_keys()):
+            raise SceneError(f"{calibration.file}: parameters: {p.key} is read by no law of target '{target.name}': "
+                             f"continuum/{unused[p.key]}")
+    if target.curve:
+        sample, deviations = observe_curve(scene, observables, target.curve)
+        if not target.seeds:
+            return Data(observables, sample.values, deviations)
+    return Data(observables, np.zeros((len(target.seeds), len(observables))))
+
+
+def checked(calibration: Calibration) -> Coordinates:
+    """Checks a calibration before anything is changed. Shares and drops refer to fixed keys, else to those of the
+    first fitted scene. Whether the scatter can be estimated follows from the number of samples alone."""
+    first = next(target for target in calibration.targets if target.is_fitted)
+    values = {**read_target(first).dict()["continuum"], **{one.key: one.value for one in calibration.fixed}}
+    try:
+        coordinates = Coordinates(calibration.parameters, pd.to_numeric(pd.Series(values), errors="coerce").dropna().to_dict())
+        noise_of([_check_target(calibration, coordinates, target) for target in calibration.targets], calibration.noise)
+    except SceneError:
+        raise
+    except ValueError as error:
+        raise SceneError(f"{calibration.file}: {error}") from error
+    return coordinates
+
+
+def check_data(calibration: Calibration, paths: Sequence[Path], runs: CalibrationRuns, record: dict[str, Any]) -> None:
+    """With coarser steps of the grains the fit would describe the step and not the material."""
+    noise = noise_of([path.of_noise for path in paths], calibration.noise)
+    for path in paths:
+        target = path.target
+        if not target.is_fitted:
+            continue
+        if target.curve:
+            if not target.seeds:
+                record["words"].append(f"target '{target.name}' is a measured curve: nothing was run again")
+        elif path.scene.dict()["discrete"]["method"] == "imported":
+            stages = path.scene.stages()  # between frames nothing is known of the grains
+            path.left_out = ["" if one.kind in OF_BANDS or any(one.low <= at <= one.high for at in stages)
+                             else "no frame lies in it" for one in path.data.observables]
+            record["words"].append(f"target '{target.name}' is imported: nothing was run again, and only bins that hold a "
+                                   "frame count")
+        elif calibration.check_samples == 0 or target.results:
+            record["words"].append(f"target '{target.name}' was not checked for the step of its grains")
+        else:
+            path.left_out = runs.unsteady(path, noise)
+            record["words"] += [f"left out: {target.name}, {one.kind} from {one.low:.3g} to {one.high:.3g}: {why}"
+                                for one, why in zip(path.data.observables, path.left_out) if why]
+        if PROFILE in calibration.kinds:
+            path.left_out = [why or ("the profile shows it" if one.kind == "ln_width" else "")
+                             for one, why in zip(path.data.observables, path.left_out)]
+
+
+def inputs_of(calibration: Calibration) -> list[tuple[str, str]]:
+    inputs = [("the calibration", calibration.file)]
+    for target in calibration.targets:
+        own = [("the scene", target.scene), *(("results", folder) for folder in target.results), ("curve", target.curve)]
+        inputs += [(f"targets: '{target.name}': {what}", path) for what, path in own if path]
+        inputs += read_target(target).input_files()
+    return inputs
+
+
+def standard_contents(line: argparse.Namespace) -> dict[str, Any] | None:
+    """Contents of the standard calibration of a scene; None for a calibration file."""
+    is_file = line.target.endswith(".json")
+    if is_file and (line.seeds or line.set or line.set_file):
+        raise SceneError(f"--seeds, --set and --set-file belong to a scene; {line.target} is a calibration file, whose targets "
+                         "have seeds and set")
+    if not is_file and not line.seeds:
+        raise SceneError(f"{line.target}: a scene needs the samples of the fit, for example --seeds 1-4; it then takes the "
+                         "standard parameters. Other parameters need a calibration file, .json")
+    return None if is_file else standard_calibration(line.target, line.seeds, settings_of(line.set, line.set_file))
