@@ -9,7 +9,6 @@
 
 #include "continuum/elements/element_kernels.h"
 #include "continuum/equilibrium/initial_points.h"
-#include "continuum/equilibrium/law_failure.h"
 #include "continuum/equilibrium/point_operations.h"
 #include "continuum/laws/plastic_flow.h"
 #include "continuum/equilibrium/loads.h"
@@ -212,15 +211,12 @@ namespace diptych::continuum
 
   template <class L, class Element> void BoundaryValueProblem::update_points(const L &law, Element, std::vector<double> &force)
   {
-    const double        d_time = step_end - state.progress;
-    std::size_t         c      = 0;
-    unsigned int        q      = 0;
-    const WatchedLaw<L> watch(law, [&] { return name_of_point(mesh, state.displacement, c, q); });
-    for (c = 0; c < mesh.cells.size(); ++c)
+    const double d_time = step_end - state.progress;
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
       {
         const auto             u = gather<Element>(mesh.cells[c], trial_increment);
         ElementVector<Element> f{};
-        for (q = 0; q < Element::n_points; ++q)
+        for (unsigned int q = 0; q < Element::n_points; ++q)
           {
             const std::size_t point = c * Element::n_points + q;
             const Increment  &step = increments[point] = Increment(motion_at<Element>(mesh.reference, current.cells[c], q, u),

@@ -87,6 +87,9 @@ namespace diptych::continuum
     const dealii::TrilinosWrappers::SparseMatrix &tangent_matrix() const { return tangent.matrix(); } // as last assembled
     const dealii::AffineConstraints<double>      &correction_constraints() const { return conditions->correction(); }
 
+    // A failure of a law from a library in the trial state, on any process; empty for other laws. Collective.
+    std::string law_failure() const;
+
     // Whether the trial state inverts an element. Collective.
     bool is_folded() const;
 

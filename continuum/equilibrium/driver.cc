@@ -129,7 +129,7 @@ namespace diptych::continuum
             continue;
           }
         d_share /= 2;
-        if (d_share < 1e-3 || report.law_is_broken)
+        if (d_share < 1e-3)
           return "no equilibrium at rest under the loads (" + report.message + ")" +
                  (progress > 0 ? " after a refinement"
                                : ": the initial stress does not fit a free edge or a wavy outline, or exceeds the strength");
@@ -208,8 +208,6 @@ namespace diptych::continuum
             accept(increment, size, report.iterations);
             return refine_and_equilibrate();
           }
-        if (report.law_is_broken)
-          return report.message;
         now.step      = size / 2;
         now.is_smooth = false;
         if (now.step >= options.min_step)

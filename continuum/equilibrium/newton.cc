@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "continuum/equilibrium/law_failure.h"
-
 namespace diptych::continuum
 {
   namespace
@@ -58,15 +56,16 @@ namespace diptych::continuum
     auto         correction = problem.zero_vector();
     while (true)
       {
-        report.residual                   = imbalance.relative();
-        best                              = std::min(best, imbalance.residual);
-        const LibraryLaw::Failure failure = law_failure(problem.law(), problem.discretisation().communicator());
-        report.law_is_broken              = failure.is_broken; // perhaps in a trial of the line search
+        report.residual = imbalance.relative();
+        best            = std::min(best, imbalance.residual);
         if (imbalance.n_inverted > 0)
           report.message = "an element is inverted";
-        else if (!is_usable(imbalance) || report.law_is_broken)
-          report.message = "the law failed at " + std::to_string(imbalance.n_failed) + " points" +
-                           (failure.text.empty() ? "" : ", such as: " + failure.text);
+        else if (!is_usable(imbalance))
+          {
+            const std::string failure = problem.law_failure();
+            report.message            = "the law failed at " + std::to_string(imbalance.n_failed) + " points" +
+                             (failure.empty() ? "" : ", such as: " + failure);
+          }
         else if (report.residual <= options.tolerance)
           {
             report.converged = !problem.is_folded();

@@ -19,12 +19,11 @@ namespace diptych::continuum
 
   struct NewtonReport
   {
-    bool        converged     = false;
-    bool        stopped       = false; // on request
-    bool        law_is_broken = false; // a smaller step does not help
-    int         iterations    = 0;
-    double      residual      = 0; // relative residual at the end
-    std::string message;           // reason for failure
+    bool        converged  = false;
+    bool        stopped    = false; // on request
+    int         iterations = 0;
+    double      residual   = 0; // relative residual at the end
+    std::string message;        // reason for failure
   };
 
   // Brings the trial state to equilibrium, starting from the first guess `increment`, which must already contain the platen

@@ -159,6 +159,13 @@ namespace diptych::continuum
         const bool     failed = answer.verdict == Verdict::failed, is_small = e.norm() < 2e-4;
         if (is_small)
           note(answers, failed ? 1 : 0);
+        if (const auto *library = std::get_if<LibraryLaw>(&law); failed && library != nullptr)
+          {
+            // An answer that is not finite is a fault even in a step that the law may refuse.
+            const LibraryLaw::Failure why = library->failure(state, e, d_time);
+            if ((is_small || why.is_not_finite) && answers.trouble.empty())
+              answers.trouble = why.text;
+          }
         if (failed)
           return false;
         note(repeatability, same_bits(answer, answer_of(law, state, e)) ? 0 : 1);
@@ -216,15 +223,7 @@ namespace diptych::continuum
 
   std::vector<LawCheck> check_law(const Law &law, const Units &units)
   {
-    std::vector<LawCheck> checks = Checks(law, units).made();
-    if (const auto *library = std::get_if<LibraryLaw>(&law))
-      {
-        if (library->failure().is_broken || !checks.front().holds())
-          checks.front().trouble = library->failure().text;
-        else
-          checks.front().trouble = library->first_not_finite(); // also in a step that the law may refuse
-      }
-    return checks;
+    return Checks(law, units).made();
   }
 
   double largest_in_tension(const MaterialState &state)

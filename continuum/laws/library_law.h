@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -13,7 +12,7 @@
 
 namespace diptych::continuum
 {
-  // Calls the functions of diptych_law.h. A NaN, a crash or an exception in them makes the answer `failed`.
+  // Calls the functions of diptych_law.h. A NaN in an answer makes it `failed`; an exception ends the process as a crash does.
   class LibraryLaw
   {
   public:
@@ -39,38 +38,22 @@ namespace diptych::continuum
     const LawLibrary &library() const { return *opened; }
     unsigned int      n_components() const { return unsigned(opened->law->n_components); }
 
-    // The last failure since forget_failure(). `is_broken`: the first crash or exception, after which no smaller step helps; it
-    // is not forgotten.
+    // Why update() fails with these arguments: it calls the library again. `where` names the point, such as "element 3, point 1
+    // (x = 1, y = 2)"; it may be empty.
     struct Failure
     {
       std::string text;
-      bool        is_broken = false;
+      bool        is_not_finite = false; // the library gave an answer
     };
-    const Failure &failure() const { return last_failure; }
-
-    // The first answer with a number that is not finite; empty if there was none.
-    const std::string &first_not_finite() const { return not_finite; }
-    void               forget_failure() const
-    {
-      if (!last_failure.is_broken)
-        last_failure = {};
-    }
-
-    // Names the point of the present call in a failure, such as "element 3, point 1 (x = 1, y = 2)"; may be empty.
-    mutable std::function<std::string()> where;
+    Failure failure(const MaterialState &s0, const Strain &d_strain, double d_time, const std::string &where = "") const;
 
   private:
-    struct Reply;
-    Reply call(const MaterialState &s0, const Strain &d_strain, double d_time) const;
-    void  take(const Reply &reply, MaterialUpdate &answer) const;
-    void  note(const std::string &what, bool is_broken, const MaterialState &s0, const Strain &d_strain) const;
+    diptych_verdict call(const MaterialState &s0, const Strain &d_strain, double d_time, MaterialUpdate &answer) const noexcept;
 
     const LawLibrary   *opened = nullptr;
     std::string         path;
     std::vector<double> parameters; // converted to stresses and lengths
     ElasticModuli       moduli_;
     Tangent             elastic;
-    mutable Failure     last_failure;
-    mutable std::string not_finite;
   };
 } // namespace diptych::continuum

@@ -65,11 +65,7 @@ namespace diptych::continuum
             report.rows.push_back(row_since(before, share < 1 ? p0 + share * (p1 - p0) : p1));
           }
         if constexpr (std::is_same_v<AnyLaw, LibraryLaw>)
-          {
-            report.variables = variable_names(law.library());
-            if (law.failure().is_broken)
-              report.status = MaterialPointStatus::law_failed;
-          }
+          report.variables = variable_names(law.library());
         report.message = message_of(report);
         return report;
       }
@@ -86,10 +82,11 @@ namespace diptych::continuum
             const double end = std::min(1., share + size), d_progress = (end - share) * length;
             target                      = target_at(row, end);
             const Eigen::Vector3d guess = last_length > 0 ? Eigen::Vector3d(d_progress / last_length * last) : last;
-            const Trial           trial = solve(path.progress.empty() ? 0 : d_progress, guess);
+            const Trial           trial = solve(time_of(d_progress), guess);
             status                      = status_of(trial);
             if (status != MaterialPointStatus::finished)
               {
+                note_failure(trial, d_progress);
                 size /= 2;
                 continue;
               }
@@ -270,11 +267,19 @@ namespace diptych::continuum
         if (report.status == MaterialPointStatus::finished)
           text << "finished at ";
         text << "progress " << end.progress;
-        if constexpr (std::is_same_v<AnyLaw, LibraryLaw>)
-          if (report.status == MaterialPointStatus::law_failed)
-            text << ": " << law.failure().text;
+        if (report.status == MaterialPointStatus::law_failed)
+          text << library_failure;
         return text.str();
       }
+
+      void note_failure(const Trial &trial, const double d_progress)
+      {
+        if constexpr (std::is_same_v<AnyLaw, LibraryLaw>)
+          if (!std::isfinite(trial.error))
+            library_failure = ": " + law.failure(now.state, strain_of_law(trial.d_strain), time_of(d_progress)).text;
+      }
+
+      double time_of(const double d_progress) const { return path.progress.empty() ? 0 : d_progress; }
 
       const AnyLaw                     &law;
       const PointPath                  &path;
@@ -283,6 +288,7 @@ namespace diptych::continuum
       Eigen::Vector3d                   target      = Eigen::Vector3d::Zero(); // of the present step, tension positive
       Eigen::Vector3d                   last        = Eigen::Vector3d::Zero(); // strain increment of the last step
       double                            last_length = 0;                       // its progress; 0: there is none
+      std::string                       library_failure;
     };
   } // namespace
 
