@@ -15,6 +15,7 @@ import sys
 
 import h5py
 import numpy
+from scipy.integrate import trapezoid
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, os.path.dirname(HERE)]
@@ -35,7 +36,7 @@ def strength(columns):
     if "t" not in columns:
         half, shear = 0.5 * (columns["sxx"] - columns["syy"]), 0.5 * (columns["sxy"] + columns["syx"])
         columns = {**columns, "t": numpy.hypot(half, shear), "s": 0.5 * (columns["sxx"] + columns["syy"])}
-    t, s = (numpy.trapz(columns[name][inside], x[inside]) for name in ("t", "s"))
+    t, s = (trapezoid(columns[name][inside], x[inside]) for name in ("t", "s"))
     return t / s, columns["volumetric_strain"][inside][-1]
 
 

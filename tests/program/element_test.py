@@ -9,6 +9,7 @@ import signal
 import time
 
 import numpy
+from scipy.integrate import trapezoid
 
 from running import SOURCE, Folder, content, diptych, finished, history, main, read_json, setting, start, write
 
@@ -26,7 +27,7 @@ class Element(Folder):
         samples, [law] = self.histories("discrete.csv"), self.histories("material_point.csv")
         self.assertEqual((record["done"], record["failed"], len(samples)), ([1, 2], [], 2))
         # The parts of the path are equal, so that the mean of their means is the mean over the path. The grains begin with a step.
-        means = [(one["syy"][0] * one["progress"][0] + numpy.trapz(one["syy"], one["progress"])) / 0.01 for one in [*samples, law]]
+        means = [(one["syy"][0] * one["progress"][0] + trapezoid(one["syy"], one["progress"])) / 0.01 for one in [*samples, law]]
         self.assertAlmostEqual(curves["grains_syy"].mean(), numpy.mean(means[:2]), places=8)
         self.assertAlmostEqual(curves["law_syy"].mean(), means[2], places=8)
         numpy.testing.assert_allclose(curves["law_sxx"], 1, rtol=1e-9)  # both carry the lateral pressure, the grains on average

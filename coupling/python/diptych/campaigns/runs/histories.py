@@ -9,7 +9,7 @@ import os
 
 import numpy as np
 import pandas as pd
-from scipy.integrate import cumulative_trapezoid
+from scipy.integrate import cumulative_trapezoid, trapezoid
 
 from ... import _diptych
 
@@ -43,7 +43,7 @@ def mean_over(x: np.ndarray, y: np.ndarray, begin: float, end: float) -> float:
         return float(np.interp(begin, x, y))
     inside = x[(x > begin) & (x < end)]
     at = np.concatenate([[begin], inside, [end]])
-    return float(np.trapz(np.interp(at, x, y), at) / (end - begin))
+    return float(trapezoid(np.interp(at, x, y), at) / (end - begin))
 
 
 def stress_ratio_of_means(table: pd.DataFrame, begin: float, end: float) -> float:

@@ -3,6 +3,7 @@
 
 import numpy as np
 from matplotlib.figure import Figure
+from scipy.integrate import trapezoid
 
 from .style import CONTINUUM, FAINT, GRAINS, INK, ruled, svg
 from ..data.calibration import label, numbers
@@ -104,7 +105,7 @@ def corner(calibration):
             at = np.linspace(low, high, 100)
             axes.hist(draws[j], bins=np.linspace(low, high, 41), density=True, color=CONTINUUM, alpha=0.6)
             prior = np.exp(-0.5 * ((at - start) / (0.25 * (high - low))) ** 2)
-            axes.plot(at, prior / np.trapz(prior, at), color=FAINT, linewidth=1)
+            axes.plot(at, prior / trapezoid(prior, at), color=FAINT, linewidth=1)
         elif i > j:
             axes.plot(draws[j], draws[i], ".", color=CONTINUUM, markersize=1.6, alpha=0.6)
             axes.set_ylim(ends[i][0], ends[i][2])
