@@ -21,11 +21,11 @@ namespace diptych::coupling
     }
   } // namespace
 
-  const std::vector<double> &column(const HistoryTable &table, const std::string name)
+  const std::vector<double> &column(const HistoryTable &table, const std::string_view name)
   {
     const auto found = table.find(name);
     if (found == table.end())
-      throw std::invalid_argument("the history has no column '" + name + "'");
+      throw std::invalid_argument("the history has no column '" + std::string(name) + "'");
     return found->second;
   }
 

@@ -5,12 +5,13 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
 namespace diptych::coupling
 {
-  using HistoryTable = std::map<std::string, std::vector<double>>; // by column name, one entry per row
+  using HistoryTable = std::map<std::string, std::vector<double>, std::less<>>; // by column name, one entry per row
 
   // The numeric columns of rows. visit_columns() must exist for the type of the rows.
   template <class Row> HistoryTable history_table(const std::vector<Row> &rows)
@@ -25,7 +26,7 @@ namespace diptych::coupling
   }
 
   // Column by name. Throws std::invalid_argument if it is missing.
-  const std::vector<double> &column(const HistoryTable &table, std::string name);
+  const std::vector<double> &column(const HistoryTable &table, std::string_view name);
 
   // True if progress > from. `progress` is a sum of steps, and their rounding does not count.
   inline bool is_beyond(const double progress, const double from)
