@@ -107,6 +107,15 @@ namespace diptych::coupling
     return unsigned(size_of(MPI_COMM_WORLD));
   }
 
+  void leave_for_mpi_abort(const int code)
+  {
+    if (n_processes() == 1)
+      throw std::runtime_error(
+        "a library of the continuum called MPI_Abort, often because memory is short; see its message above");
+    PMPI_Abort(MPI_COMM_WORLD, code);
+    std::abort();
+  }
+
   int on_first_process(const std::function<int()> &work)
   {
     if (n_processes() == 1)

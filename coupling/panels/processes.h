@@ -17,6 +17,10 @@ namespace diptych::coupling
   bool         is_first_process();
   unsigned int n_processes();
 
+  // For MPI_Abort, which ML calls if memory is short, and which would end the process without a message. A single process goes on
+  // as from what any library throws; of several all end with this exit code.
+  [[noreturn]] void leave_for_mpi_abort(int code);
+
   // Runs `work`, which reads and writes files, on the first process only. All processes return its value or throw its
   // exception, so that none waits for another.
   int on_first_process(const std::function<int()> &work);

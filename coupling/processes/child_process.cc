@@ -42,6 +42,8 @@ namespace diptych::coupling
       return result;
     }
 
+    std::string program_path; // empty: this process's
+
     std::set<int> &held()
     {
       static std::set<int> descriptors;
@@ -130,6 +132,11 @@ namespace diptych::coupling
 
   std::string own_path()
   {
-    return std::filesystem::read_symlink("/proc/self/exe").string();
+    return program_path.empty() ? std::filesystem::read_symlink("/proc/self/exe").string() : program_path;
+  }
+
+  void set_own_path(const std::string &path)
+  {
+    program_path = path;
   }
 } // namespace diptych::coupling

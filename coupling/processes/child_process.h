@@ -18,5 +18,7 @@ namespace diptych::coupling
   // stop request it kills the program and throws StoppedOnRequest.
   [[nodiscard]] int run_program(const std::vector<std::string> &words);
 
+  // The program `diptych`; a process of Python has its path from the one that started it.
   std::string own_path();
+  void        set_own_path(const std::string &path);
 } // namespace diptych::coupling

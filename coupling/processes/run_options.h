@@ -12,7 +12,6 @@ namespace diptych::coupling
   struct RunOptions
   {
     int         threads   = 1;     // --threads: threads of the contact solver
-    int         jobs      = 0;     // --jobs: number of runs at the same time; 0: as many as the cores allow
     bool        resume    = false; // --resume
     bool        overwrite = false; // --overwrite
     bool        quiet     = false; // --quiet: neither progress nor messages

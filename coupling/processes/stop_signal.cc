@@ -13,9 +13,12 @@ namespace diptych::coupling
   {
     constexpr int stop_signals[] = {SIGINT, SIGTERM, SIGHUP};
 
-    volatile std::sig_atomic_t stop     = 0;
-    volatile pid_t             parent   = 0; // 0: this process may outlive its parent
-    volatile unsigned int      patience = 0;
+    constexpr int all_signals[] = {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ};
+
+    struct sigaction           at_second_interrupt = {}; // the system's: it kills
+    volatile std::sig_atomic_t stop                = 0;
+    volatile pid_t             parent              = 0; // 0: this process may outlive its parent
+    volatile unsigned int      patience            = 0;
 
     // A handler may only use calls that are safe there.
     void request_stop(const int signal)
@@ -24,7 +27,7 @@ namespace diptych::coupling
       // A second Ctrl-C kills. SIGTERM may arrive several times for one reason: if a parent with several threads is killed,
       // each ending thread sends one. The checkpoint must still be written.
       if (signal == SIGINT)
-        std::signal(signal, SIG_DFL);
+        sigaction(signal, &at_second_interrupt, nullptr);
       if (parent != 0 && getppid() != parent)
         alarm(patience);
     }
@@ -68,6 +71,22 @@ namespace diptych::coupling
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
     unblock_stop_signals();
+  }
+
+  TakenSignals::TakenSignals()
+  {
+    for (std::size_t k = 0; k < before.size(); ++k)
+      sigaction(all_signals[k], nullptr, &before[k]);
+    at_second_interrupt = before[0];
+    install_signals();
+  }
+
+  TakenSignals::~TakenSignals()
+  {
+    for (std::size_t k = 0; k < before.size(); ++k)
+      sigaction(all_signals[k], &before[k], nullptr);
+    at_second_interrupt = {};
+    stop                = 0;
   }
 
   bool stop_requested()

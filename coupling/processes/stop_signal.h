@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <array>
+#include <csignal>
 #include <stdexcept>
 #include <string>
 
@@ -13,6 +15,19 @@ namespace diptych::coupling
   // a run. SIGXFSZ too: a file size limit is reported like a full disk.
   void install_signals();
   bool stop_requested();
+
+  // install_signals() while it lives; then the handlers of before are back, and no request is left. For a process that goes on.
+  class TakenSignals
+  {
+  public:
+    TakenSignals();
+    TakenSignals(const TakenSignals &)            = delete;
+    TakenSignals &operator=(const TakenSignals &) = delete;
+    ~TakenSignals();
+
+  private:
+    std::array<struct sigaction, 5> before;
+  };
 
   // Makes signals wait until install_signals(), also across exec. Otherwise they would kill a program that has just started.
   void block_stop_signals();

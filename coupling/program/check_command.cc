@@ -12,21 +12,20 @@
 #include "coupling/program/compare_command.h"
 #include "coupling/program/resource_estimate.h"
 #include "coupling/scene/scene_error.h"
-#include "coupling/scene/seed_list.h"
 
 namespace diptych::coupling
 {
   namespace
   {
     // Every sample of an ensemble of imported ones must be there, each once.
-    void check_imported_seeds(const CommandLine &line, Scene &scene)
+    void check_imported_seeds(Scene &scene, const std::vector<int> &seeds)
     {
       if (scene.discrete.method.method != discrete::Method::imported)
         return;
       if (scene.discrete.method.file.find("{seed}") == std::string::npos)
-        throw SceneError("--seeds " + line.seeds + ": discrete/file = '" + scene.discrete.method.file +
+        throw SceneError("--seeds: discrete/file = '" + scene.discrete.method.file +
                          "' is one sample; write {seed} in its path where the samples differ");
-      for (const int seed : read_seeds(line.seeds))
+      for (const int seed : seeds)
         {
           scene.sample.seed = seed;
           (void)load_imported(scene);
@@ -34,18 +33,15 @@ namespace diptych::coupling
     }
 
     // Everything that would make all members of an ensemble fail is refused here.
-    void check_seeds(const CommandLine &line, Scene scene)
+    void check_seeds(Scene scene, const std::vector<int> &seeds)
     {
-      for (const std::string &text : line.overrides)
-        if (text.rfind("sample/seed=", 0) == 0)
-          throw SceneError("--set " + text + ": --seeds " + line.seeds + " sets the seed of each member");
       if (!scene.sample.file.empty())
-        throw SceneError("--seeds " + line.seeds + ": sample/file = '" + scene.sample.file +
+        throw SceneError("--seeds: sample/file = '" + scene.sample.file +
                          "' is one sample; only samples that are generated depend on a seed");
-      check_imported_seeds(line, scene);
+      check_imported_seeds(scene, seeds);
     }
 
-    // What all samples have in common is found wrong with the first, before the folder is opened.
+    // Checks the first sample before the folder is opened; its errors are those of all samples.
     void check_first_sample(const CommandLine &line, Scene scene, const int seed)
     {
       scene.sample.seed = seed;
@@ -58,12 +54,10 @@ namespace diptych::coupling
     }
   } // namespace
 
-  int check_run(const CommandLine &line)
+  int check_run(const CommandLine &line, const Scene &scene, const std::vector<int> &seeds)
   {
-    const std::vector<int> seeds = line.seeds.empty() ? std::vector<int>() : read_seeds(line.seeds);
-    const Scene            scene = scene_of(line);
     if (!seeds.empty())
-      check_seeds(line, scene);
+      check_seeds(scene, seeds);
     require_continuum(scene);
     check_comparable(scene);
     require_platen_travel(scene);

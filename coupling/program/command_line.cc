@@ -13,8 +13,8 @@
 #include <CLI/Formatter.hpp>
 
 #include "coupling/program/built_with.h"
-#include "coupling/program/completion.h"
 #include "coupling/program/option_values.h"
+#include "coupling/program/python_commands.h"
 #include "coupling/program/refused_line.h"
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_file.h"
@@ -42,9 +42,8 @@ namespace diptych::coupling
         app.footer(footer);
         app.set_version_flag("--version", built_with());
         add_run();
-        add_study();
-        add_plan();
-        add_calibrate();
+        for (const auto &[name, description] : python_commands)
+          app.add_subcommand(name, description);
         add_panels();
         add_solve();
         add_results();
@@ -83,7 +82,6 @@ namespace diptych::coupling
       void add_scene_output_set(CLI::App *to) { add_scene(to); add_output(to); add_set(to); }
       void add_threads(CLI::App *to) { to->add_option("--threads", line.threads, "threads of the contact solver; every number gives the same bits")->check(in_range(1, 1024)); }
       void add_resume(CLI::App *to, const std::string &what) { to->add_flag("--resume", line.resume, "continue the results in the folder: " + what); }
-      void add_seeds(CLI::App *to, const char *what) { to->add_option("--seeds", ignored, what)->type_name("LIST"); }
       void add_quiet(CLI::App *to) { to->add_flag("--quiet", line.quiet, "print neither progress nor notes"); }
       // clang-format on
 
@@ -96,36 +94,12 @@ namespace diptych::coupling
           overwrite->excludes(resume);
       }
 
-      CLI::Option *add_jobs(CLI::App *to, const std::string &when)
-      {
-        return to
-          ->add_option("--jobs", line.jobs,
-                       when + "number of runs at once (default: usable cores / threads; under mpirun one for each process)")
-          ->check(in_range(1, 4096));
-      }
-
       // A value of an enum that has a table of names.
       template <class Choice, class Take> void add_choice(CLI::App *to, const char *option, const char *meaning, const Take &take)
       {
         to->add_option_function<std::string>(
             option, [take](const std::string &name) { take(*discrete::value_of<Choice>(name)); }, meaning)
           ->check(one_of(choices_of(Choice())));
-      }
-
-      void add_many_runs(CLI::App *to)
-      {
-        add_set(to);
-        add_threads(to);
-        add_jobs(to, "");
-        add_resume(to, "keep finished runs, compute the others");
-        add_overwrite(to);
-        add_quiet(to);
-      }
-
-      CLI::Option *add_levels(CLI::App *to)
-      {
-        return to->add_option("--levels", ignored, "auto, or two accuracies: means of the grains in the limit of short steps")
-          ->type_name("LEVELS");
       }
 
       void add_run()
@@ -135,66 +109,12 @@ namespace diptych::coupling
         add_threads(run);
         add_resume(run, "an interrupted run, or other keys of the continuum or the comparison");
         add_overwrite(run);
-        auto *seeds = run->add_option(
-          "--seeds", line.seeds,
-          "run the samples of a list like 1-8 or 1,3,5-7, each in DIR/seed_K; then compute means, intervals "
-          "and verdicts (default folder: results/<scene name>_ensemble; also under mpirun)");
-        seeds->type_name("LIST")->check(
-          [](const std::string &list) { return list.empty() ? "the list is empty; a list like 1-8" : ""; });
-        add_levels(run)->needs(seeds);
-        add_jobs(run, "with --seeds: ")->needs(seeds);
+        const auto never = [](const std::string &) {}; // Python has the words with --seeds
+        run->add_option_function<std::string>("--seeds", never, "compute many samples: a list like 1-8 or 1,3,5-7")
+          ->type_name("LIST");
+        run->footer("Other options of many samples, such as --jobs and --levels: diptych run --seeds 1-8 --help");
         run->add_flag("--check", line.checks_only, "check the scene and its first sample, print the resources, compute nothing");
         add_quiet(run);
-      }
-
-      void add_study()
-      {
-        CLI::App *study = add(Command::study,
-                              "vary keys of a scene over many samples: quantities over keys, or errors against a reference");
-        study->add_option("SCENE", line.target, "scene file with --vary, or study file, .json")->required();
-        study
-          ->add_option("--vary", ignored_words,
-                       "values of a key, such as discrete/friction=0.2,0.3,0.5; repeated: all combinations")
-          ->allow_extra_args(false)
-          ->type_name("KEY=VALUES");
-        add_seeds(study, "with --vary: samples of each point, a list like 1-4 (default: the scene's one)");
-        study->add_option("--panels", ignored, "with --vary: the panels that run (default: both, which bands need)")
-          ->check(one_of({"both", "discrete", "continuum"}));
-        add_levels(study);
-        add_output(study, "folder of the study (default: results/<name>_study)");
-        add_many_runs(study);
-      }
-
-      void add_calibrate()
-      {
-        CLI::App *calibrate = add(Command::calibrate, "fit a continuum, or the friction of grains, to curves of grains or tests; "
-                                                      "report parameters that the data cannot determine");
-        calibrate
-          ->add_option("SCENE", line.target,
-                       "scene file with --seeds, which takes the standard parameters, or calibration file, .json")
-          ->required();
-        add_seeds(calibrate, "with a scene: samples of the fit, a list like 1-4");
-        add_output(calibrate, "folder of the calibration (default: results/<name>_calibration)");
-        add_many_runs(calibrate);
-      }
-
-      void add_plan()
-      {
-        CLI::App *plan = add(Command::plan, "find step, elements, load steps, law and number of samples for an accuracy, from "
-                                            "short pilot runs");
-        add_scene(plan);
-        plan
-          ->add_option("--accuracy", ignored,
-                       "relative, of the means: 2 % or 0.02; covers errors of the method and the 95 % interval")
-          ->required();
-        add_output(plan, "folder of the plan (default: results/<scene name>_plan)");
-        plan
-          ->add_option("--for", ignored,
-                       "quantities, separated by commas: peak_stress_ratio, strength (both by default), final_volumetric_strain, "
-                       "width_10_90, angle, or a number of comparison.json; for one panel, put discrete. or continuum. before it")
-          ->type_name("NAMES");
-        plan->add_flag("--run", "also run the planned samples");
-        add_many_runs(plan);
       }
 
       void add_panels()
@@ -222,13 +142,6 @@ namespace diptych::coupling
         point->add_option("--path", line.path, path_help())->check(path_or_table)->type_name("PATH");
         add_overwrite(point);
         add_quiet(point);
-
-        CLI::App *element = add(Command::element,
-                                "drive grains and the law's point along one path and draw them beside each other");
-        add_scene(element);
-        add_seeds(element, "samples of the grains, a list like 1-4 (default: the scene's one)");
-        add_output(element, "folder of the results (default: results/<scene name>_element)");
-        add_many_runs(element);
 
         CLI::App *law = add(Command::check_law, "check tangent, objectivity, dissipation, repeatability of a law of your own");
         law->add_option("SCENE", line.target, "scene file, or a shared library, .so, with its usual parameters")->required();
@@ -267,27 +180,6 @@ namespace diptych::coupling
 
       void add_exchange()
       {
-        CLI::App *in = add(Command::import_sample, "check a sample of another code and store it like results of the grains");
-        in->add_option("FORMAT", line.target, "code that wrote the files, or a Python file that registers your own reader")
-          ->required()
-          ->check(format_or_file);
-        in->add_option("FILES", ignored_words, "files of grains, contacts and walls, in any order")->required();
-        in->add_option("--output", line.output, "folder of the imported sample")->check(is_filled)->type_name("DIR")->required();
-        add_import_options(in);
-        add_overwrite(in);
-        add_quiet(in);
-
-        CLI::App *homogenise = add(Command::homogenise, "stress, strain, fabric and band of grains without a continuum");
-        homogenise->add_option("SOURCE", line.target, "folder with grains, or a format or reader as for import, then FILES")
-          ->required();
-        homogenise->add_option("FILES", ignored_words, "files of grains, contacts and walls of another code");
-        homogenise->add_option("--grid", ignored_number, "size of the cells in mean diameters (default: 3)")
-          ->check(in_range(0.5, 1000.0));
-        add_output(homogenise, "folder of the results (default: FOLDER_homogenised; required with FILES)");
-        add_import_options(homogenise);
-        add_overwrite(homogenise);
-        add_quiet(homogenise);
-
         CLI::App *out = add(Command::export_sample,
                             "write a sample of a result folder for another code, or all stages for OVITO");
         out->add_option("FOLDER", line.target, "result folder")->required();
@@ -298,27 +190,6 @@ namespace diptych::coupling
         out->add_option("--stage", line.exported.stage, "number of the snapshot (default: 0, the prepared sample); not for dump")
           ->check(in_range(0, 1000000));
         add_quiet(out);
-      }
-
-      void add_import_options(CLI::App *in)
-      {
-        in->add_option("--columns", ignored_words,
-                       "KIND=NAME,NAME,...: names of columns that the files do not name; KIND: particles, contacts or walls; "
-                       "may be repeated")
-          ->allow_extra_args(false)
-          ->type_name("KIND=NAMES");
-        const auto number = [&](const char *name, const char *meaning) {
-          in->add_option(name, ignored_number, meaning)->check(CLI::Range(1e-30, 1e30))->type_name("NUMBER");
-        };
-        number("--thickness", "thickness of a layer of spheres; divides forces and masses; 1 keeps forces per length");
-        number("--timestep", "time step, for codes that count steps");
-        number("--density", "mass per area, if no file contains masses");
-        number("--pressure", "lateral pressure (default: that of the right wall in the first frame with forces)");
-        number("--mean-diameter", "unit d of the results (default: mean of the grains)");
-        in->add_option("--gravity", ignored, "acceleration of the grains (default: that of the files)")->type_name("GX,GY");
-        in->add_option("--frames", ignored, "only these frames, such as 10-20,30; counted from 0 in ascending order")
-          ->type_name("LIST");
-        in->add_flag("--walls-touch", "put walls without a place in the files where the grains reach farthest");
       }
 
       void add_others()
@@ -333,20 +204,25 @@ namespace diptych::coupling
             "a section, a key or a word in names of keys; results: the content of result files (default: all sections)")
           ->type_name("{" + discrete::joined(section_names(), ",") + ",results}");
         explain->add_option("WORD", line.word, "after results: only entries whose file, name or meaning contains this word");
-        add(Command::completion, "print a script that completes command lines: source <(diptych completion bash)")
+        add(Command::completion,
+            "print a script that completes command lines; zsh loads it, too: source <(diptych completion bash)")
           ->add_option("SHELL", line.target)
           ->required()
-          ->check(one_of({"bash", "zsh", "fish"}));
+          ->check(one_of({"bash"}));
       }
 
       CommandLine                  &line;
       CLI::App                      app;
-      std::string                   ignored; // options that Python parses again
-      std::vector<std::string>      ignored_words;
-      double                        ignored_number = 0;
       std::map<CLI::App *, Command> by_parser;
     };
   } // namespace
+
+  void require_text(const std::vector<std::string> &words)
+  {
+    for (const std::string &word : words)
+      if (discrete::first_non_utf8(word) != std::string::npos || word.find('\n') != std::string::npos)
+        throw SceneError("an argument contains a line break or is not valid UTF-8: '" + word + "'");
+  }
 
   ParsedLine parse_command_line(const std::vector<std::string> &words)
   {
@@ -362,24 +238,11 @@ namespace diptych::coupling
         parsed.exit_code = words.empty() ? wrong_input : done;
         return parsed;
       }
-    for (const std::string &word : words)
-      if (discrete::first_non_utf8(word) != std::string::npos || word.find('\n') != std::string::npos)
-        {
-          std::cerr << "diptych: an argument contains a line break or is not valid UTF-8: '" << word << "'" << std::endl;
-          parsed.exit_code = wrong_input;
-          return parsed;
-        }
     try
       {
-        const std::vector<std::string> joined_words = with_joined_per_cent(words);
-        app.parse(std::vector<std::string>(joined_words.rbegin(), joined_words.rend()));
+        app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
         parsed.line.command = commands.chosen();
         take_set_files(parsed.line);
-        if (parsed.line.command == Command::completion)
-          {
-            std::cout << completion_script(app, parsed.line.target);
-            parsed.exit_code = done;
-          }
       }
     catch (const CLI::Success &asked) // for help or the version
       {

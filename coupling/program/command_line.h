@@ -18,20 +18,14 @@ namespace diptych::coupling
   enum class Command
   {
     run,
-    study,
-    plan,
-    calibrate,
     discrete,
     continuum,
     material_point,
-    element,
     check_law,
     solve,
     compare,
     report,
-    import_sample,
     export_sample,
-    homogenise,
     new_scene,
     explain,
     completion
@@ -57,11 +51,9 @@ namespace diptych::coupling
     std::vector<std::string> overrides;             // --set section/key=value, after the keys of --set-file
     std::vector<std::string> set_files;             // --set-file
     bool                     study_of_step = false; // discrete: --study step
-    std::string              seeds;                 // run: --seeds: "1-8", "1,3,5-7"
-    bool                     checks_only = false;   // run: --check
+    bool                     checks_only   = false; // run: --check
   };
 
-  // The options of a command are those of its struct; the campaigns read theirs in Python.
   struct CommandLine : RunOptions, SceneOptions
   {
     Command       command = Command::explain;
@@ -86,6 +78,9 @@ namespace diptych::coupling
 
   std::string name_of(Command command);
 
+  // Throws SceneError for a word that cannot stand in a message or a file.
+  void require_text(const std::vector<std::string> &words);
+
   // Puts the keys of --set-file before those of --set.
   void take_set_files(CommandLine &line);
 
@@ -94,4 +89,5 @@ namespace diptych::coupling
 
   // The scene of a command line, with its output folder. Its warnings go to standard error.
   Scene scene_of(const CommandLine &line);
+  Scene with_options(const CommandLine &line, Scene scene); // the same for a scene that is already read
 } // namespace diptych::coupling

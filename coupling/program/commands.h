@@ -7,23 +7,25 @@
 namespace diptych::coupling
 {
   // Each returns an ExitCode. Wrong input is thrown as std::invalid_argument, a system failure as std::runtime_error.
+  // The scene is that of the line.
 
-  int run_both(const CommandLine &line);      // run SCENE: both panels, comparison, report
-  int run_discrete(const CommandLine &line);  // discrete SCENE
-  int run_continuum(const CommandLine &line); // continuum SCENE; on all processes together
+  int run_both(const CommandLine &line, const Scene &scene);           // run SCENE: both panels, comparison, report
+  int run_discrete(const CommandLine &line, const Scene &scene);       // discrete SCENE
+  int run_continuum(const CommandLine &line, const Scene &scene);      // continuum SCENE; on all processes together
+  int run_material_point(const CommandLine &line, const Scene &scene); // material-point SCENE: writes material_point.csv
+
   int compare_again(const CommandLine &line); // compare DIR: a result folder or an ensemble
   int report_again(const CommandLine &line);  // report DIR: comparison, ensemble, study or calibration
   int export_sample(const CommandLine &line); // export DIR
 
   int print_template(const CommandLine &line); // new [TEMPLATE]
-
-  int run_material_point(const CommandLine &line); // material-point SCENE: writes material_point.csv
+  int print_completion();                      // completion bash
 
   int check_law_of(const CommandLine &line); // check-law SCENE or LIBRARY.so; wrong_input if a check fails
 
-  // run SCENE --check: checks the scene and its first sample and prints the resources of all samples (--seeds), as before an
+  // run SCENE --check: checks the scene and its first sample and prints the resources of all samples. seeds: those of an
   // ensemble. With --resume the sample is not prepared.
-  int check_run(const CommandLine &line);
+  int check_run(const CommandLine &line, const Scene &scene, const std::vector<int> &seeds = {});
 
   // solve PROBLEM.h5: solves a problem in the layout of FCLIB from r = 0 to line.solve.tolerance (natural map relative to |r|).
   // Prints the cost, one `name: value` per line. With --output it writes the problem and the reached solution, converged or not.

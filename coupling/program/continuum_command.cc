@@ -242,9 +242,8 @@ namespace diptych::coupling
     return continuum_panel(line, next, task);
   }
 
-  int run_continuum(const CommandLine &line)
+  int run_continuum(const CommandLine &line, const Scene &scene)
   {
-    const Scene scene = scene_of(line);
     require_continuum(scene);
     announce_resources(line, scene, {false, true});
     std::optional<FolderLock> lock;

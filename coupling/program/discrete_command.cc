@@ -332,9 +332,8 @@ namespace diptych::coupling
     return say_how_it_ended(line, scene, report);
   }
 
-  int run_discrete(const CommandLine &line)
+  int run_discrete(const CommandLine &line, const Scene &scene)
   {
-    const Scene scene = scene_of(line);
     if (line.study_of_step)
       check_study(scene);
     if (scene.discrete.method.method == discrete::Method::imported)

@@ -1,5 +1,6 @@
 // diptych: the program; commands that need deal.II run in a second one, diptych-panels, so that the others start at once
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -18,6 +19,7 @@
 #include "coupling/program/commands.h"
 #include "coupling/program/discrete_command.h"
 #include "coupling/program/explain_command.h"
+#include "coupling/program/python_commands.h"
 #include "coupling/program/python_package.h"
 #include "coupling/program/report_command.h"
 #include "coupling/scene/scene_error.h"
@@ -73,34 +75,24 @@ namespace
         }
     throw std::runtime_error(name + " is not beside " + own_path() + "; the installation is broken");
   }
-
-  // Commands of many runs are written in Python.
-  bool is_campaign(const CommandLine &line)
-  {
-    return line.command == Command::study || line.command == Command::plan || line.command == Command::calibrate ||
-           line.command == Command::element || line.command == Command::homogenise ||
-           (line.command == Command::run && !line.seeds.empty() && !line.checks_only) ||
-           (line.command == Command::compare && is_ensemble_folder(line.target));
-  }
 #else
   const std::vector<std::function<ResultList()>> result_lists = {discrete_result_entries};
 
-  bool is_campaign(const CommandLine &)
+  [[noreturn]] void refuse_without_continuum(const std::string &command)
   {
-    return false;
+    throw SceneError("diptych " + command +
+                     ": this program was built without the continuum; it has discrete, study, solve, report, import, export, "
+                     "explain and new");
   }
 
   int compare(const CommandLine &)
   {
-    throw SceneError("diptych compare: this program was built without the continuum; it has discrete, solve, report, import, "
-                     "export and explain");
+    refuse_without_continuum("compare");
   }
 
   [[noreturn]] void start_the_panels(char **argv)
   {
-    throw SceneError(
-      std::string("diptych ") + argv[1] +
-      ": this program was built without the continuum; it has discrete, solve, report, import, export and explain");
+    refuse_without_continuum(argv[1]);
   }
 #endif
 
@@ -121,10 +113,19 @@ namespace
     return true;
   }
 
+  // Commands of many runs and importers are written in Python, which parses their words.
+  bool is_for_python(const std::vector<std::string> &words)
+  {
+    const auto is_seeds = [](const std::string &word) { return word == "--seeds" || word.rfind("--seeds=", 0) == 0; };
+    const auto is_named = [&](const PythonCommand &command) { return words[0] == command.name; };
+    return !words.empty() && (std::any_of(std::begin(python_commands), std::end(python_commands), is_named) ||
+                              (words[0] == "run" && std::any_of(words.begin(), words.end(), is_seeds)));
+  }
+
   int execute_command(const CommandLine &line, char **argv)
   {
-    if (is_campaign(line))
-      become_python(argv[1], "diptych.campaigns", argv + 1);
+    if (line.command == Command::compare && is_ensemble_folder(line.target))
+      become_python(argv + 1);
     switch (line.command)
       {
       case Command::run:
@@ -144,19 +145,19 @@ namespace
     switch (line.command)
       {
       case Command::discrete:
-        return run_discrete(line);
+        return run_discrete(line, scene_of(line));
       case Command::solve:
         return solve_stored_problem(line);
       case Command::compare:
         return compare(line);
       case Command::report:
         return report_again(line);
-      case Command::import_sample:
-        become_python(argv[1], "diptych.importers", argv + 2);
       case Command::export_sample:
         return export_sample(line);
       case Command::new_scene:
         return print_template(line);
+      case Command::completion:
+        return print_completion();
       default:
         return explain(line, result_lists);
       }
@@ -187,7 +188,7 @@ namespace
   // Commands whose only result is their output.
   bool prints_only(const CommandLine &line)
   {
-    return line.command == Command::explain || line.command == Command::new_scene ||
+    return line.command == Command::explain || line.command == Command::new_scene || line.command == Command::completion ||
            (line.command == Command::solve && line.output.empty());
   }
 
@@ -209,7 +210,11 @@ int main(int argc, char **argv)
   try
     {
       require_working_directory();
-      const ParsedLine parsed = parse_command_line({argv + 1, argv + argc});
+      const std::vector<std::string> words(argv + 1, argv + argc);
+      require_text(words);
+      if (is_for_python(words))
+        become_python(argv + 1);
+      const ParsedLine parsed = parse_command_line(words);
       const int        code   = parsed.exit_code ? *parsed.exit_code : execute(parsed.line, argv);
       if (code == done && (parsed.exit_code || prints_only(parsed.line)))
         require_output();

@@ -96,10 +96,9 @@ namespace diptych::coupling
     }
   } // namespace
 
-  int run_material_point(const CommandLine &given)
+  int run_material_point(const CommandLine &given, const Scene &scene)
   {
-    const Scene scene = scene_of(given);
-    CommandLine line  = given;
+    CommandLine line = given;
     if (line.path.empty())
       line.path = scene.loading.mode == discrete::LoadingMode::path ? scene.loading.path.text : "drained";
     const continuum::PointPath path = path_of(line, scene);

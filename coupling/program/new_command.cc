@@ -1,4 +1,4 @@
-// diptych: new TEMPLATE: a commented scene to begin with
+// diptych: new TEMPLATE, a commented scene to begin with; completion bash
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/program/commands.h"
 
@@ -39,6 +39,12 @@ namespace diptych::coupling
                        discrete::nearest_name(line.target, names) + "'");
     else
       std::cout << stream(line.target).rdbuf();
+    return done;
+  }
+
+  int print_completion()
+  {
+    std::cout << std::ifstream(shared_file("completion.bash")).rdbuf();
     return done;
   }
 } // namespace diptych::coupling

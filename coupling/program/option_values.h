@@ -46,16 +46,6 @@ namespace diptych::coupling
     });
   }
 
-  // A format of the importers, or a Python file with a reader.
-  inline std::string format_or_file(const std::string &text)
-  {
-    const std::vector<std::string> names   = {"lammps", "liggghts", "yade", "lmgc90", "mercurydpm", "csv"};
-    const bool                     is_good = std::count(names.begin(), names.end(), text) > 0 || CLI::ExistingFile(text).empty();
-    return is_good ? ""
-                   : "'" + text + "' is neither a format (" + discrete::listed(names) + "; the nearest is '" +
-                       discrete::nearest_name(text, names) + "') nor a Python file";
-  }
-
   inline std::string path_help()
   {
     return "path of the loading: " + discrete::listed(choices_of(continuum::NamedPath())) +
@@ -73,27 +63,4 @@ namespace diptych::coupling
                        discrete::nearest_name(text, names) + "') nor a file";
   }
 
-  // The choices of an option, separated by spaces; empty if it has none. CLI11 describes them as TEXT:{a,b}.
-  inline std::string values_of(const CLI::Option &option)
-  {
-    const std::string type = option.get_type_name();
-    const std::size_t open = type.find('{'), close = type.find('}');
-    if (open == std::string::npos || close == std::string::npos)
-      return "";
-    std::string values = type.substr(open + 1, close - open - 1);
-    std::replace(values.begin(), values.end(), ',', ' ');
-    return values;
-  }
-
-  // Joins the two words of "--accuracy 2 %".
-  inline std::vector<std::string> with_joined_per_cent(const std::vector<std::string> &words)
-  {
-    std::vector<std::string> joined_words;
-    for (const std::string &word : words)
-      if (word == "%" && joined_words.size() > 1)
-        joined_words.back() += " %";
-      else
-        joined_words.push_back(word);
-    return joined_words;
-  }
 } // namespace diptych::coupling

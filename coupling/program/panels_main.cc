@@ -9,9 +9,6 @@
 #include "coupling/panels/processes.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/program/commands.h"
-#include "coupling/program/continuum_command.h"
-#include "coupling/program/discrete_command.h"
-#include "coupling/program/worker_command.h"
 #include "coupling/scene/scene_error.h"
 
 namespace
@@ -30,13 +27,11 @@ namespace
     switch (line.command)
       {
       case Command::run:
-        return line.checks_only ? check_run(line) : run_both(line);
-      case Command::discrete: // as a task of a study
-        return run_discrete(line);
+        return line.checks_only ? check_run(line, scene_of(line)) : run_both(line, scene_of(line));
       case Command::continuum:
-        return run_continuum(line);
+        return run_continuum(line, scene_of(line));
       case Command::material_point:
-        return run_material_point(line);
+        return run_material_point(line, scene_of(line));
       case Command::check_law:
         return check_law_of(line);
       default:
@@ -45,29 +40,15 @@ namespace
   }
 } // namespace
 
-// Where its memory ends, Trilinos (ML) has MPI end the process, with exit code 1 and nothing kept or said. Alone, this process
-// goes on from there as from what any library throws.
-extern "C" int MPI_Abort(MPI_Comm communicator, int)
+extern "C" int MPI_Abort(MPI_Comm, int)
 {
-  if (n_processes() == 1)
-    throw std::runtime_error("a library of the continuum gave up, as where memory is short; its words stand above");
-  PMPI_Abort(communicator, system_failure);
-  std::abort();
+  leave_for_mpi_abort(system_failure);
 }
 
 int main(int argc, char **argv)
 {
   install_signals(); // those that came while the program began, too
   avoid_mpi_daemon();
-  if (argc == 2 && std::string(argv[1]) == worker_word)
-    {
-      constexpr unsigned int most_seconds = 60; // of a worker that nobody waits for any more: a step and its checkpoint
-      end_after_parent(most_seconds);
-      block_stop_signals();
-      dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-      install_signals(); // once more: the libraries that begin with MPI give signals their default actions
-      return run_and_report([] { return work_for_parent(execute); }, code_of, text_of_end);
-    }
   // Words of the command line, before there is any other process to answer to.
   ParsedLine parsed = parse_command_line({argv + 1, argv + argc});
   if (parsed.exit_code)

@@ -56,13 +56,13 @@ namespace diptych::coupling
     setenv("DIPTYCH_PROGRAM", own_path().c_str(), 1);
   }
 
-  void become_python(const char *command, const std::string &module, char *const *words)
+  void become_python(char *const *words)
   {
-    use_python_package(command);
-    std::vector<const char *> all = {python, "-m", module.c_str()};
-    for (; *words != nullptr; ++words)
-      all.push_back(*words);
+    use_python_package(words[0]);
+    std::vector<const char *> all = {python, "-m", "diptych"};
+    for (char *const *word = words; *word != nullptr; ++word)
+      all.push_back(*word);
     all.push_back(nullptr);
-    become(command, python, const_cast<char *const *>(all.data()));
+    become(words[0], python, const_cast<char *const *>(all.data()));
   }
 } // namespace diptych::coupling

@@ -21,6 +21,6 @@ namespace diptych::coupling
   // it.
   void use_python_package(const char *command);
 
-  // This process becomes `python3 -m MODULE WORDS...` with this package. Throws as become() and use_python_package().
-  [[noreturn]] void become_python(const char *command, const std::string &module, char *const *words);
+  // This process becomes `python3 -m diptych WORDS...` with this package. Throws as become() and use_python_package().
+  [[noreturn]] void become_python(char *const *words);
 } // namespace diptych::coupling

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/program/refused_line.h"
 
-#include "coupling/program/completion.h"
 #include "coupling/scene/keys.h"
 #include "discrete/files/nearest_name.h"
 #include "discrete/files/words.h"
@@ -16,6 +15,16 @@ namespace diptych::coupling
       std::vector<std::string> names;
       for (const CLI::App *command : app.get_subcommands({}))
         names.push_back(command->get_name());
+      return names;
+    }
+
+    // Options of a command in their typed form: --set, --help.
+    std::vector<std::string> option_names(CLI::App &command)
+    {
+      std::vector<std::string> names;
+      for (const CLI::Option *option : command.get_options())
+        for (const std::string &name : option->get_lnames())
+          names.push_back("--" + name);
       return names;
     }
 

@@ -50,9 +50,8 @@ namespace diptych::coupling
     }
   } // namespace
 
-  int run_both(const CommandLine &line)
+  int run_both(const CommandLine &line, const Scene &scene)
   {
-    const Scene scene = scene_of(line);
     require_continuum(scene);
     check_comparable(scene);
     require_platen_travel(scene);

@@ -11,7 +11,7 @@ namespace diptych::coupling
 {
   Opening opening_of(const CommandLine &line, const bool adds)
   {
-    Opening opening{line.resume, line.overwrite, adds, line.command != Command::import_sample, line.text, {}};
+    Opening opening{line.resume, line.overwrite, adds, true, line.text, {}};
     if (std::error_code none; std::filesystem::is_regular_file(line.target, none))
       opening.inputs.emplace_back("the scene", line.target);
     for (const std::string &file : line.set_files)
@@ -22,20 +22,14 @@ namespace diptych::coupling
   std::string name_of(const Command command)
   {
     constexpr std::pair<Command, const char *> names[] = {{Command::run, "run"},
-                                                          {Command::study, "study"},
-                                                          {Command::plan, "plan"},
-                                                          {Command::calibrate, "calibrate"},
                                                           {Command::discrete, "discrete"},
                                                           {Command::continuum, "continuum"},
                                                           {Command::material_point, "material-point"},
-                                                          {Command::element, "element"},
                                                           {Command::check_law, "check-law"},
                                                           {Command::solve, "solve"},
                                                           {Command::compare, "compare"},
                                                           {Command::report, "report"},
-                                                          {Command::import_sample, "import"},
                                                           {Command::export_sample, "export"},
-                                                          {Command::homogenise, "homogenise"},
                                                           {Command::new_scene, "new"},
                                                           {Command::explain, "explain"},
                                                           {Command::completion, "completion"}};
@@ -60,7 +54,11 @@ namespace diptych::coupling
 
   Scene scene_of(const CommandLine &line)
   {
-    Scene scene = read_scene(line.target, line.overrides, line.command == Command::run);
+    return with_options(line, read_scene(line.target, line.overrides, line.command == Command::run));
+  }
+
+  Scene with_options(const CommandLine &line, Scene scene)
+  {
     if (!line.output.empty())
       scene.output.directory = line.output;
     scene.discrete.threads = line.threads;

@@ -154,6 +154,7 @@ namespace diptych::python
   {
     bind_scenes(m);
     bind_folders(m);
+    py::class_<TakenSignals>(m, "TakenSignals").def(py::init<>()); // they are given back when it is deleted
     m.def("install_signals", &install_signals);
     m.def("stop_requested", &stop_requested);
   }

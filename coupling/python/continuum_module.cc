@@ -11,11 +11,14 @@
 #include "coupling/panels/continuum_loading.h"
 #include "coupling/panels/continuum_mesh.h"
 #include "coupling/panels/initial_stress.h"
+#include "coupling/processes/stop_signal.h"
+#include "coupling/program/commands.h"
 #include "coupling/python/bindings.h"
 #include "coupling/python/driven_panel.h"
 #include "coupling/python/law_binding.h"
 #include "coupling/python/mpi.h"
 #include "coupling/python/panel_results.h"
+#include "coupling/python/run_binding.h"
 
 namespace diptych::python
 {
@@ -141,6 +144,19 @@ namespace diptych::python
       return report;
     }
 
+    // Raises what makes all samples with these seeds fail; prints their resources.
+    void check(const coupling::Scene &scene, const std::vector<int> &seeds, const py::dict &options)
+    {
+      coupling::CommandLine line;
+      line.command = coupling::Command::run;
+      line.threads = options["threads"].cast<int>();
+      line.quiet   = options["quiet"].cast<bool>();
+      line.resume  = options["resume"].cast<bool>();
+      const coupling::TakenSignals taken;
+      coupling::check_run(line, coupling::with_options(line, scene), seeds);
+      coupling::leave_if_stopped("checking the scene");
+    }
+
     void bind_panel(py::module_ &m)
     {
       py::class_<ContinuumPanel>(m, "ContinuumPanel")
@@ -166,6 +182,14 @@ PYBIND11_MODULE(_continuum, m)
   translate_errors();
   bind_panel(m);
   bind_laws(m);
+  using namespace diptych::coupling;
+  bind_runs(m,
+            {{"run", {Command::run, run_both}},
+             {"discrete", {Command::discrete, run_discrete}},
+             {"continuum", {Command::continuum, run_continuum}},
+             {"material-point", {Command::material_point, run_material_point}}},
+            start_mpi);
+  m.def("check", &check);
   m.def("require_continuum", &diptych::coupling::require_continuum);
   m.def("write_mesh",
         [](const diptych::coupling::Scene &scene, const diptych::discrete::Snapshot &grains, const std::string &file) {

@@ -10,6 +10,13 @@
 #include <sc.h>
 
 #include "coupling/panels/processes.h"
+#include "coupling/program/exit_code.h"
+
+// Exported, so that the libraries that this module loads call it.
+extern "C" __attribute__((visibility("default"))) int MPI_Abort(MPI_Comm, int)
+{
+  diptych::coupling::leave_for_mpi_abort(diptych::coupling::system_failure);
+}
 
 namespace diptych::python
 {

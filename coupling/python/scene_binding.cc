@@ -8,6 +8,7 @@
 
 #include <pybind11/stl.h>
 
+#include "coupling/program/python_commands.h"
 #include "coupling/python/bindings.h"
 #include "coupling/scene/derived_keys.h"
 #include "coupling/scene/identity.h"
@@ -130,6 +131,12 @@ namespace diptych::python
     m.def("read_scene", read, py::arg("file"), py::arg("changes"), py::arg("compares"));
     m.def("described_keys", described);
     m.def("section_names", &coupling::section_names);
+    m.def("commands", [] { // those of Python: name -> its line in `diptych --help`
+      py::dict lines;
+      for (const auto &[name, description] : coupling::python_commands)
+        lines[name] = description;
+      return lines;
+    });
     m.attr("__version__")  = coupling::version;
     m.attr("git_revision") = coupling::git_revision;
   }

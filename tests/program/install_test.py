@@ -72,21 +72,12 @@ class Package(unittest.TestCase):
             self.assertIn("material-point", told.stdout)
 
     def test_shells_complete_keys(self):
-        script = os.path.join(self.share, "bash-completion", "completions", "diptych")
-        told = subprocess.run(["bash", "-c", f"source {script}; COMP_WORDS=(diptych run --set discrete/fric); COMP_CWORD=3; _diptych; "
-                               "echo ${COMPREPLY[@]}"], capture_output=True, text=True, check=True).stdout
-        self.assertEqual(told, "discrete/friction=\n")
-        script_of_zsh = content(os.path.join(self.share, "zsh", "vendor-completions", "_diptych"))
-        self.assertTrue(script_of_zsh.startswith(b"#compdef diptych\n"))
-        script = os.path.join(self.share, "fish", "vendor_completions.d", "diptych.fish")
-        if not shutil.which("fish"):
-            self.skipTest("no fish on the PATH: test.sh installs it")
-        for line, offered in (("run --set discrete/fric", "discrete/friction="), ("run --set discrete/lateral=per", "discrete/lateral=periodic"),
-                              ("run --se", "--seeds"), ("mat", "material-point"), ("solve --solver n", "nsgs")):
-            told = subprocess.run(["fish", "--no-config", "-c", f"source {script}; complete -C 'diptych {line}'"], capture_output=True,
-                                  text=True, check=True, env={"PATH": "/usr/bin:/bin", "HOME": self.work})
-            self.assertEqual(told.stderr, "")
-            self.assertIn(offered, [word.split("\t")[0] for word in told.stdout.split("\n")], line)
+        for script in (("bash-completion", "completions", "diptych"), ("zsh", "vendor-completions", "_diptych")):
+            path = os.path.join(self.share, *script)
+            self.assertTrue(content(path).startswith(b"#compdef diptych\n"))
+            told = subprocess.run(["bash", "-c", f"source {path}; COMP_WORDS=({self.program} run --set discrete/fric); COMP_CWORD=3; _diptych; "
+                                   "echo ${COMPREPLY[@]}"], capture_output=True, text=True, check=True).stdout
+            self.assertEqual(told, "discrete/friction=\n")
 
     def test_another_project_links_the_library(self):
         build = os.path.join(self.work, "external")

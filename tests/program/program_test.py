@@ -13,7 +13,7 @@ import unittest
 import numpy
 
 import browser
-from running import QUICK, SOURCE, diptych, finished, half_files, history, main, read_json, setting, temporary, write
+from running import PROGRAM, QUICK, SOURCE, diptych, finished, half_files, history, main, read_json, setting, temporary, write
 
 
 def number(value):
@@ -224,15 +224,15 @@ class CommandLine(unittest.TestCase):
             done = diptych(command, scene, *short)
             self.assertEqual(done.returncode, 0, name + done.stderr)
 
-
     def test_completion_offers_commands_options_keys_and_values(self):
         script = write(os.path.join(temporary(self), "completion"), diptych("completion", "bash").stdout)
         for words, offered in ((["ru"], "run"), (["run", "scene.prm", "--see"], "--seeds"), (["solve", "--solver", ""], "psor"),
                                (["solve", "--form", "lo"], "local"), (["explain", "samp"], "sample"), (["explain", "res"], "results"),
-                               (["completion", ""], "fish"), (["run", "--set", "discrete/fric"], "discrete/friction="),
+                               (["completion", ""], "bash"), (["study", "scene.prm", "--va"], "--vary"), (["study", "--panels", "d"], "discrete"),
+                               (["run", "--set", "discrete/fric"], "discrete/friction="),
                                (["run", "--set", "continuum/law", "=", "mo"], "mohr_coulomb"),
                                (["run", "--set", "discrete/lateral", "="], "periodic")):
-            quoted = " ".join(f"'{word}'" for word in ["diptych", *words])
+            quoted = " ".join(f"'{word}'" for word in [PROGRAM, *words])
             told = subprocess.run(["bash", "-c", f"source {script}; COMP_WORDS=({quoted}); COMP_CWORD={len(words)}; _diptych; "
                                    "echo ${COMPREPLY[@]}"], capture_output=True, text=True, check=True).stdout.split()
             self.assertIn(offered, told, words)

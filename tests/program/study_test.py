@@ -63,7 +63,7 @@ class Study(Folder):
                 except OSError:
                     continue
                 begun = [name for name in listing(self.folder) if name.endswith("stage_0000.h5")]
-                if b"--worker" in words and int(parent) == process.pid and begun:
+                if b"diptych.campaigns.runs.worker" in words and int(parent) == process.pid and begun:
                     return int(number)
             time.sleep(0.002)
         return self.fail("it ended before its worker was found")

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Mapping
 from typing import Any
 
@@ -12,6 +11,7 @@ import numpy as np
 
 from . import _diptych, scenes
 from .arrays import Array, History, Record
+from .compiled import continuum
 from .errors import NotConverged
 
 
@@ -64,7 +64,7 @@ def integrate(law: Any, path: Any, stress: Any = None, pressure: float = 1.0, ti
         raise ValueError(f"path has {len(columns)} columns ({', '.join(columns)}); give three, for example eyy, sxx, exy")
     arrays = np.broadcast_arrays(*(np.asarray(column, dtype=float) for column in columns.values()))
     start = (pressure * np.eye(2) if stress is None else np.asarray(stress, dtype=float), pressure)
-    compiled = importlib.import_module("diptych._continuum")
+    compiled = continuum("a law")
     named = {name: np.atleast_1d(array) for name, array in zip(columns, arrays)}
     rows, failure = compiled.integrate(_law_scene(law, pressure), start, named, time)
     result = Record({"stress": _tensors(rows, "s"), "stress_zz": rows["szz"], "strain": _tensors(rows, "e"),
@@ -87,7 +87,7 @@ def biaxial(law: Any, axial_strain: float = 0.1, pressure: float = 1.0, step: fl
     Returns the columns of material_point.csv (axial_strain, volumetric_strain, stress_ratio, ...). Raises NotConverged, whose
     `reached` is the result so far, if there is no such stress or strain, SceneError, ValueError.
     """
-    compiled = importlib.import_module("diptych._continuum")
+    compiled = continuum("a law")
     columns, failure = compiled.named_path(_law_scene(law, pressure), path, axial_strain, step)
     result = History(columns, compiled.point_columns())
     if failure:

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import importlib
 import os
 from collections.abc import Callable, Mapping
 from typing import Any, Optional
@@ -13,6 +12,7 @@ import numpy as np
 
 from . import _diptych, scenes
 from .arrays import Array, History, Record
+from .compiled import continuum
 from .errors import NotConverged
 
 OnStep = Optional[Callable[[dict[str, Any]], Any]]
@@ -168,5 +168,5 @@ class ContinuumPanel(_Panel):
 
     def __init__(self, scene: scenes.SceneLike, grains: Any = None, on_step: OnStep = None) -> None:
         read = scenes.read(scene)
-        compiled = importlib.import_module("diptych._continuum")  # loads deal.II only now
+        compiled = continuum("ContinuumPanel")
         super().__init__(read, lambda: compiled.ContinuumPanel(read, grains), on_step)

@@ -1,15 +1,13 @@
 # diptych: studies, ensembles, plans and calibrations from Python scripts
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""study(), ensemble(), plan() and calibrate() run the program and return its tables as DataFrames."""
+"""study(), ensemble(), plan() and calibrate() do what the commands do, and return their tables as DataFrames."""
 
 from __future__ import annotations
 
 import itertools
 import json
 import os
-import subprocess
-import tempfile
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from numbers import Integral
@@ -19,7 +17,8 @@ import pandas as pd
 
 from ..errors import NotConverged, SceneError, Stopped
 from ..scenes import SceneLike, changes, text_of
-from .runs.engine import DONE, NOT_CONVERGED, WRONG_INPUT, environment, program
+from .commands import do
+from .runs.engine import stop_signals
 from .runs.folders import read_json
 
 PathLike = str | os.PathLike[str]
@@ -192,22 +191,9 @@ def _seeds(seeds: Any) -> str:
     return text_of(seeds).replace(" ", "")
 
 
-def _run(words: Sequence[str]) -> tuple[int, str, bool]:
-    """Runs the program; returns its exit code, its messages, and whether Ctrl-C was pressed. It then keeps what is done."""
-    with tempfile.TemporaryFile("w+", encoding="utf-8") as errors:
-        process, stopped = subprocess.Popen([program(), *words], env=environment(), stderr=errors), False
-        try:
-            process.wait()
-        except KeyboardInterrupt:
-            process.terminate()
-            stopped = True
-        code = process.wait()
-        errors.seek(0)
-        return code, errors.read().strip(), stopped
-
-
 def _result(kind: type[Result], command: str, contents: Mapping[str, Any] | PathLike, output: PathLike,
             options: dict[str, Any]) -> Result:
+    """Does a command in this process. On Ctrl-C it keeps what is done and raises Stopped."""
     output = os.fspath(output)
     words = ["--output", output, "--quiet"]
     for key, value in options.pop("set", {}).items():
@@ -218,15 +204,13 @@ def _result(kind: type[Result], command: str, contents: Mapping[str, Any] | Path
     for name, value in options.items():
         if value is not False:
             words += ["--" + name] if value is True else ["--" + name, str(value)]
-    with _file_of(command, holds_scene, contents, output) as file:
-        code, text, stopped = _run([command, file, *words])
-    if stopped:
-        text = text.partition("; to go on")[0] or "stopped on request"
-        raise Stopped(f"{text}; the same call with resume=True goes on")
-    if code not in (DONE, NOT_CONVERGED) or not os.path.isdir(output):
-        raise (SceneError if code == WRONG_INPUT else RuntimeError)(text)
-    if code == NOT_CONVERGED:
-        raise NotConverged(f"{text}; {kind.__name__}.load('{output}') reads what is there")
+    with _file_of(command, holds_scene, contents, output) as file, stop_signals():
+        try:
+            do([command, file, *words])
+        except Stopped as stopped:
+            raise Stopped(f"{str(stopped).partition('; to go on')[0]}; the same call with resume=True goes on") from None
+        except NotConverged as error:
+            raise NotConverged(f"{error}; {kind.__name__}.load('{output}') reads what is there") from None
     return kind.load(output)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 
 from ...errors import NotConverged, Stopped
-from ..runs.engine import DONE, NOT_CONVERGED, Options, complain, say, tell
+from ..runs.engine import Options, say, tell
 from ..runs.folders import Folder, draw
 from .calibration_file import read_calibration
 from .calibration_runs import CalibrationRuns
@@ -42,15 +42,16 @@ def calibrate(trials: Trials) -> pd.DataFrame:
     return posterior_table(trials.coordinates, draws.points)
 
 
-def run_calibration(line: argparse.Namespace, options: Options) -> int:
-    """The command `diptych calibrate FILE`, or SCENE with --seeds. line: target, seeds, set, set_file and output. Returns its
-    exit code; 3: stopped, or no convergence, with the best point so far in the folder."""
+def run_calibration(line: argparse.Namespace, options: Options) -> None:
+    """The command `diptych calibrate FILE`, or SCENE with --seeds. line: target, seeds, set, set_file and output. Raises Stopped or
+    NotConverged, with the best point so far in the folder."""
     contents = standard_contents(line)
     text = json.dumps(contents, indent=1) + "\n" if contents else ""
     calibration = read_calibration(line.target, contents)
     coordinates = checked(calibration)
     directory = line.output or f"results/{calibration.name}_calibration"
     record, posterior = empty_record(calibration.title, "grains" if calibration.of_grains else "continuum"), None
+    ended: Stopped | NotConverged | None = None
     with Folder(directory) as folder:
         folder.open_runs("calibration", line.target, options, lambda: inputs_of(calibration), text)
         if contents:
@@ -61,12 +62,11 @@ def run_calibration(line: argparse.Namespace, options: Options) -> int:
             check_data(calibration, paths, runs, record)
             posterior = calibrate(Trials(calibration, coordinates, paths, runs.evaluate, record))
         except (Stopped, NotConverged) as error:
-            record["status"] = str(error)
+            record["status"], ended = str(error), error
         write_calibration(directory, record, runs.cpu_s, posterior)
-        if record["status"] != "finished":
-            complain(f"diptych: {record['status']}; what was found is kept in {directory}; to go on: {options.again}")
-            return NOT_CONVERGED
-        tell(summary(record, runs.cpu_s["discrete" if calibration.of_grains else "continuum"]))
-        draw(options, "calibration", directory)
-        say(options, f"{directory}/calibrated.prm, calibration.json, calibration.csv")
-    return DONE
+        if not ended:
+            tell(summary(record, runs.cpu_s["discrete" if calibration.of_grains else "continuum"]))
+            draw(options, "calibration", directory)
+            say(options, f"{directory}/calibrated.prm, calibration.json, calibration.csv")
+    if ended:
+        raise type(ended)(f"{ended}; what was found is kept in {directory}; to go on: {options.again}")

@@ -5,7 +5,6 @@ element test."""
 
 from __future__ import annotations
 
-import importlib
 import os
 from collections.abc import Sequence
 from dataclasses import replace
@@ -14,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from ... import _diptych, operators
+from ...compiled import continuum
 from ...errors import NotConverged, SceneError, Stopped
 from ..runs.engine import Options
 from ..runs.folders import Runs, SceneRun, read_json
@@ -83,7 +83,7 @@ class CalibrationRuns:
         if mesh in ("outline", "rectangle"):
             os.makedirs(self.runs.directory + "/meshes", exist_ok=True)
             mesh = os.path.abspath(f"{self.runs.directory}/meshes/path_{1 + len(self.outlines)}.msh")
-            importlib.import_module("diptych._continuum").write_mesh(scene, first, mesh)  # loads deal.II only now
+            continuum("calibrate").write_mesh(scene, first, mesh)
         return Outline(*np.ptp(sides, axis=0), float(np.pi * (first.radius**2).sum() / first.area), frames, [], mesh)
 
     def _path(self, target: Target) -> Path:

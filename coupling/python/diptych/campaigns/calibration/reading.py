@@ -5,13 +5,13 @@
 from __future__ import annotations
 
 import argparse
-import importlib
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
+from ...compiled import continuum, demand_continuum
 from ...errors import SceneError
 from ..runs.coordinates import Coordinates
 from ..runs.input_file import settings_of
@@ -30,8 +30,10 @@ def _check_target(calibration: Calibration, coordinates: Coordinates, target: Ta
         scene = read_target(target, [*calibration.fixed, *coordinates.settings(coordinates.start, target.name)])
     except SceneError as error:
         raise SceneError(f"{calibration.file}: with every parameter at its start: {error}; change start or set") from error
+    if not calibration.of_grains:
+        demand_continuum("calibrate")
     if not calibration.of_grains and not is_element(scene):
-        importlib.import_module("diptych._continuum").require_continuum(scene)
+        continuum("calibrate").require_continuum(scene)
     if not calibration.of_grains and scene.dict()["continuum"]["initial_stress"] == "mapped":
         raise SceneError(f"{target.scene}: continuum/initial_stress = mapped has no place in a calibration: one mesh serves "
                          "all samples")

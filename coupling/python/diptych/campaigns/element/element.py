@@ -13,9 +13,9 @@ from typing import Any
 import pandas as pd
 
 from ... import _diptych
-from ...errors import SceneError
+from ...errors import NotConverged, SceneError, Stopped
 from .curves import BINS, Curves, key_numbers, observed, rms_differences, table_of
-from ..runs.engine import DONE, NOT_CONVERGED, WRONG_INPUT, Options, complain, say
+from ..runs.engine import DONE, WRONG_INPUT, Options, say
 from ..runs.folders import Folder, Runs, SceneRun, draw, write_json, write_text
 from ..runs.histories import panel_table
 from ..runs.input_file import Setting, read_seeds, settings_of
@@ -72,9 +72,9 @@ def _write(directory: str, record: dict[str, Any], curves: Curves) -> None:
     write_json(os.path.join(directory, "element.json"), record)
 
 
-def run_element(line: argparse.Namespace, options: Options) -> int:
-    """diptych element SCENE. line: target, seeds, output, set, set_file. Returns the exit code; 3: a run ended before the end
-    of the path, or stopped on request."""
+def run_element(line: argparse.Namespace, options: Options) -> None:
+    """diptych element SCENE. line: target, seeds, output, set, set_file. Raises NotConverged if a run ended before the end of the
+    path, or Stopped."""
     settings = settings_of(line.set, line.set_file)
     scene = _diptych.read_changed_scene(line.target, settings, False)
     if scene.dict()["discrete"]["lateral"] != "cell":
@@ -96,9 +96,8 @@ def run_element(line: argparse.Namespace, options: Options) -> int:
             [failure] = _done(runs, [law], options)
         stopped = "stopped on request" in (failure, *failures)
         if stopped or not tables:
-            complain(f"diptych: {'stopped on request' if stopped else failures[0]}; finished samples are kept in {directory}; "
-                     f"to go on: {options.again}")
-            return NOT_CONVERGED
+            why = "stopped on request" if stopped else failures[0]
+            raise (Stopped if stopped else NotConverged)(f"{why}; to go on: {options.again}")
         point = panel_table(runs.path(law), "material_point")
         end = max(float(table["progress"].iloc[-1]) for table in (*tables.values(), point) if table is not None)
         curves = observed(list(tables.values()), point, end, scene.dict()["loading"]["pressure"])
@@ -110,7 +109,7 @@ def run_element(line: argparse.Namespace, options: Options) -> int:
         _write(directory, record, curves)
         draw(options, "element", directory)
         say(options, _text(record["quantities"]))
-        for name, text in [*((f"seed {one['seed']}", one["message"]) for one in record["failed"]), ("the law", failure)]:
-            if text:
-                complain(f"diptych: {name} ended before the end of the path: {text}")
-    return NOT_CONVERGED if record["failed"] or failure else DONE
+    ends = [f"{name} ended before the end of the path: {text}" for name, text in
+            [*((f"seed {one['seed']}", one["message"]) for one in record["failed"]), ("the law", failure)] if text]
+    if ends:
+        raise NotConverged("; ".join(ends))

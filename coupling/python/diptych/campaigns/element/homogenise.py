@@ -8,7 +8,6 @@ import argparse
 import os
 import shlex
 import time
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -16,28 +15,15 @@ import numpy as np
 from ... import _diptych
 from ...errors import SceneError
 from ...homogenisation import Homogenised, homogenise
-from ...importers.command import add_options, format_of, with_joined_gravity
+from ...importers.command import format_of
 from ...importers.frames import Options as ImportOptions
 from ...importers.readers import read_frames
-from ..runs.engine import DONE, Options, say, tell
+from ..runs.engine import Options, say, tell
 from ..runs.folders import Folder, draw, write_json, write_text
 
 SHOWN = {"progress": "progress", "t_over_s": "t/s", "direction_deg": "direction", "solid_fraction": "solid fr.",
          "coordination_number": "contacts/grain", "anisotropy": "anisotropy", "band_angle_deg": "band angle",
          "band_width_10_90_d": "band width/d"}
-
-
-def parsed(words: Sequence[str]) -> argparse.Namespace:
-    """The words of the command line, which the program has checked."""
-    parser = argparse.ArgumentParser(prog="diptych", allow_abbrev=False)
-    parser.add_argument("command")
-    parser.add_argument("target")
-    parser.add_argument("files", nargs="*")
-    parser.add_argument("--grid", type=float, default=3.0)
-    parser.add_argument("--output", default="")
-    add_options(parser)
-    parser.set_defaults(jobs=0, threads=1, resume=False)
-    return parser.parse_intermixed_args(with_joined_gravity(words))
 
 
 def _source(line: argparse.Namespace) -> tuple[str, str]:
@@ -98,8 +84,8 @@ def _print(found: Homogenised, options: Options) -> None:
         tell(f"missing: {entry['quantity']}: {entry['reason']}")
 
 
-def run_homogenise(line: argparse.Namespace, options: Options) -> int:
-    """The commands `diptych homogenise FOLDER` and `diptych homogenise FORMAT FILES`. Returns the exit code."""
+def run_homogenise(line: argparse.Namespace, options: Options) -> None:
+    """The commands `diptych homogenise FOLDER` and `diptych homogenise FORMAT FILES`."""
     folder, grains = _source(line)
     began = time.perf_counter(), time.process_time()
     with Folder(folder) as locked:
@@ -120,4 +106,3 @@ def run_homogenise(line: argparse.Namespace, options: Options) -> int:
         _diptych.record_phase(folder, ("", [], shlex.join(["diptych", *options.words])), cost)
         _print(found, options)
         draw(options, "homogenised", folder)
-    return DONE

@@ -17,14 +17,15 @@ import numpy as np
 import pandas as pd
 
 from ... import _diptych
-from ...errors import SceneError
+from ...compiled import continuum
+from ...errors import NotConverged, SceneError, Stopped
 from . import summary as summaries
 from . import validation
-from ..runs.engine import DONE, NOT_CONVERGED, Options, Run, complain, execute, panels, run_program, say
+from ..runs.engine import Options, Run, execute, say
 from .profiles import profile_arrays
 from ..runs.folders import Folder, Runs, draw, read_json, write_arrays, write_json, write_text
 from ..runs.histories import panel_table, resampled, running_mean
-from ..runs.input_file import read_seeds, settings_of
+from ..runs.input_file import Setting, read_seeds, settings_of
 from ..studies.level_runs import (Levels, add_summary, demand_rule, ensemble_levels, ensemble_quantities, fine_runs, of_members, paired_points,
                          read_levels)
 from ..runs.members import Member, member_of
@@ -243,9 +244,10 @@ def _origin(text: str) -> str:
     return f"\033[1m{plain}\033[0m" if sys.stdout.isatty() else plain
 
 
-def run_ensemble(line: argparse.Namespace, options: Options) -> int:
-    """diptych run SCENE --seeds LIST. line: target, seeds, levels, output, set, set_file. Returns the exit code."""
-    scene_file, seeds = line.target, read_seeds(line.seeds)
+def run_ensemble(line: argparse.Namespace, options: Options) -> None:
+    """diptych run SCENE --seeds LIST. line: target, seeds, levels, check, output, set, set_file. Raises NotConverged if a seed
+    failed."""
+    compiled, scene_file, seeds = continuum("run --seeds"), line.target, read_seeds(line.seeds)
     levels = read_levels(line.levels, len(seeds))
     settings = settings_of(line.set, line.set_file)
     if levels:
@@ -255,21 +257,18 @@ def run_ensemble(line: argparse.Namespace, options: Options) -> int:
         demand_rule(read, levels)
     directory = line.output or (read.directory + "_ensemble" if read.directory == f"results/{read.name}" else read.directory)
     scene = read.in_folder(directory, read.name, read.dict()["sample"]["seed"])
-    words = [word for option, values in (("--set-file", line.set_file), ("--set", line.set)) for value in values
-             for word in (option, value)]
-    if levels:
-        words += ["--set", "discrete/accuracy=" + settings[-1].value]
     if not options.resume and not options.overwrite and _holds_finished(scene, seeds, levels):
         say(options, f"{directory} holds the finished ensemble of this scene; --overwrite runs it again")
         say(options, f"its table: diptych compare {directory}")
-        return 0
+        return
     if os.path.isdir(directory):
         _diptych.require_usable(directory, options.resume, options.overwrite)
-    flags = ["--resume"] * options.resume + ["--quiet"] * options.quiet
-    code = run_program([panels(), "run", scene_file, "--seeds", line.seeds, *words, "--output", directory, *flags, "--threads",
-                        str(options.threads), "--check"])  # whether scene, first sample and resources suffice
-    if code:
-        return code
+    for one in settings:
+        if (one.section, one.key) == ("sample", "seed"):
+            raise SceneError(f"--set sample/seed={one.value}: --seeds {line.seeds} sets the seed of each member")
+    compiled.check(scene, seeds, vars(options))  # whether scene, first sample and resources suffice
+    if line.check:
+        return
     variations = validation.variations(scene_file, settings, validation.draws_of(line.set_file, line.set))
     with Folder(directory) as folder:
         begin = os.times()
@@ -280,8 +279,9 @@ def run_ensemble(line: argparse.Namespace, options: Options) -> int:
         if finished:
             say(options, f"{len(finished)} of {len(seeds)} seeds are finished in {directory}: not run again")
         pending = [seed for seed in seeds if seed not in finished]
-        tasks = [Run("run", scene_file, member_folder(directory, seed), member_folder(directory, seed) + ".log",
-                     (*words, "--set", f"sample/seed={seed}", *["--resume"] * options.resume)) for seed in pending]
+        tasks = [Run(command="run", scene=scene_file, settings=[*settings, Setting("sample", "seed", str(seed), "--seeds")],
+                     folder=member_folder(directory, seed), log=member_folder(directory, seed) + ".log", resume=options.resume)
+                 for seed in pending]
         ends = list(zip(pending, execute(tasks, options, noun="seeds", finished=len(finished))))
         failed = [{"seed": seed, "exit_code": outcome.exit_code, "message": outcome.message}
                   for seed, outcome in ends if outcome.exit_code and not outcome.interrupted]
@@ -296,14 +296,14 @@ def run_ensemble(line: argparse.Namespace, options: Options) -> int:
         if scene.dict()["output"]["report"] and not record["interrupted"]:
             draw(options, "ensemble", directory)
         kept = f"{len(record['done'])} of {len(seeds)} seeds are done, kept in {directory}"
-        if failed:
-            complain(f"failed: seed {', '.join(str(one['seed']) for one in failed)}; {kept}")
-        if record["interrupted"]:
-            complain(f"stopped on request; {kept}; to go on: {options.again}")
-    return NOT_CONVERGED if failed or record["interrupted"] else DONE
+    lost = f"failed: seed {', '.join(str(one['seed']) for one in failed)}; " if failed else ""
+    if record["interrupted"]:
+        raise Stopped(f"{lost}stopped on request; {kept}; to go on: {options.again}")
+    if failed:
+        raise NotConverged(lost + kept)
 
 
-def compare_again(line: argparse.Namespace, options: Options) -> int:
+def compare_again(line: argparse.Namespace, options: Options) -> None:
     """diptych compare DIR of an ensemble: statistics and verdicts from the members' files; margins may be changed."""
     directory, overrides = line.target, [f"{s.section}/{s.key}={s.value}" for s in settings_of(line.set, line.set_file)]
     for text in overrides:
@@ -323,4 +323,3 @@ def compare_again(line: argparse.Namespace, options: Options) -> int:
         _write(scene, record, options, ("statistics", begin))
         if scene.dict()["output"]["report"]:
             draw(options, "ensemble", directory)
-    return DONE

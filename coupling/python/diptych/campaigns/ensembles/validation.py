@@ -167,7 +167,8 @@ def respond(directory: str, seed: int, scenes: Sequence[Any], goes_on: bool, opt
             _copy_grains(source, folder)
         write_text(folder + ".prm", scene.text())
     pending = [k for k, scene in enumerate(scenes) if not _diptych.holds_finished_run(scene)]
-    tasks = [Run("run", folders[k] + ".prm", folders[k], folders[k] + ".log", ("--resume",)) for k in pending]
+    tasks = [Run(command="run", scene=folders[k] + ".prm", folder=folders[k], log=folders[k] + ".log", resume=True)
+             for k in pending]
     outcomes = execute(tasks, options, noun="runs for the uncertainty of the continuum")
     if any(outcome.interrupted for outcome in outcomes):
         raise Stopped(f"stopped on request; the seeds are done; to go on: {options.again}")

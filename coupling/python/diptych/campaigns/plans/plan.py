@@ -6,7 +6,6 @@ study."""
 from __future__ import annotations
 
 import argparse
-import importlib
 import math
 import os
 from collections.abc import Sequence
@@ -16,8 +15,9 @@ from typing import Any
 import numpy as np
 
 from ... import _diptych
-from ...errors import Stopped
-from ..runs.engine import DONE, NOT_CONVERGED, Options, complain, tell
+from ...compiled import continuum
+from ...errors import NotConverged, Stopped
+from ..runs.engine import Options, tell
 from ..runs.folders import Folder, Runs, write_json, write_text
 from ..studies.levels import limit_of
 from .continuum import ContinuumPlan
@@ -144,12 +144,13 @@ def write_plan(directory: str, question: Question, plan: Plan) -> None:
     write_text(directory + "/planned.prm", "".join(lines) + text)
 
 
-def main_plan(args: argparse.Namespace, options: Options) -> int:
-    """The command `diptych plan SCENE --accuracy A`. args: target, accuracy, for, set, set_file, output and run."""
+def main_plan(args: argparse.Namespace, options: Options) -> None:
+    """The command `diptych plan SCENE --accuracy A`. args: target, accuracy, for, set, set_file, output and run. Raises
+    NotConverged if the accuracy is not reached."""
     question = read_question(args.target, args.accuracy, getattr(args, "for"), args.set, args.set_file)
     scene = _diptych.read_changed_scene(question.scene, question.changes, question.needs_comparison)
     if question.quantities["continuum"]:
-        importlib.import_module("diptych._continuum").require_continuum(scene)  # loads deal.II only now
+        continuum("plan").require_continuum(scene)
     directory = args.output or f"results/{scene.name}_plan"
     inputs = [*scene.input_files(), ("the scene", question.scene), *(("--set-file", file) for file in args.set_file)]
     with Folder(directory) as folder:
@@ -166,5 +167,4 @@ def main_plan(args: argparse.Namespace, options: Options) -> int:
             raise Stopped(f"{stopped}; to go on: {options.again}") from None
     tell(f"{text_of(plan)}\n{directory}/planned.prm, plan.json")
     if not reached:
-        complain(f"diptych: the accuracy of {percent(question.accuracy)} is not reached")
-    return DONE if reached else NOT_CONVERGED
+        raise NotConverged(f"the accuracy of {percent(question.accuracy)} is not reached")

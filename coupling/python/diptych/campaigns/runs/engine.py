@@ -1,12 +1,13 @@
-# diptych: many runs of the program, on workers of this machine and of the other processes of mpirun
+# diptych: many runs, on workers of this machine and of the other processes of mpirun
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A worker is a process of `diptych-panels` that does one command after another. It receives a line of JSON and answers with
-the exit code on a line. Threads hand the runs to workers; under mpirun each other process has a worker, too. Results depend
-neither on the number of workers nor on the order of the runs.
+"""A worker is a process of worker.py that does one run after another. It receives a line of JSON and answers with the exit
+code on a line. Threads hand the runs to workers; under mpirun each other process has a worker, too. Results depend neither on
+the number of workers nor on the order of the runs.
 """
 
 from __future__ import annotations
 
+import argparse
 import json
 import os
 import queue
@@ -15,19 +16,29 @@ import shlex
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass
+from contextlib import contextmanager
+from dataclasses import dataclass, fields
 from datetime import timedelta
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ... import _diptych
-from ...errors import Stopped
+from ...errors import NotConverged, Stopped
+
+if TYPE_CHECKING:
+    from .input_file import Setting
 
 DONE, WRONG_INPUT, NOT_CONVERGED, SYSTEM_FAILURE = 0, 2, 3, 4  # exit codes of the program
-THREADED = ("discrete", "run")  # commands with --threads
 KEPT_OPEN: set[int] = set()  # descriptors that workers inherit: locks, which then hold until the last worker has ended
 _JOB_VARIABLES = ("OMPI_", "PMIX_", "PMI_", "PRTE_", "ORTE_")
+
+
+def code_and_text(error: Exception) -> tuple[int, str]:
+    """Exit code and message of what ended a command."""
+    if isinstance(error, (Stopped, NotConverged)):
+        return NOT_CONVERGED, str(error)
+    return WRONG_INPUT if isinstance(error, ValueError) else SYSTEM_FAILURE, str(error) or "out of memory"
 
 
 @dataclass
@@ -41,6 +52,12 @@ class Options:
     overwrite: bool = False
     words: Sequence[str] = ()  # the command line
 
+    @staticmethod
+    def of(line: argparse.Namespace, words: Sequence[str]) -> Options:
+        """Those of a parsed command line; a command may lack some."""
+        names = [one.name for one in fields(Options) if one.name in line]
+        return Options(**{name: getattr(line, name) for name in names}, words=words)
+
     @property
     def again(self) -> str:
         """The command that goes on with this one."""
@@ -48,22 +65,23 @@ class Options:
         return f"{job}diptych {shlex.join(word for word in self.words if word not in ('--overwrite', '--resume'))} --resume"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Run:
-    """One run of the program."""
+    """One run of a scene."""
 
     command: str
-    scene: str  # path of a .prm file
+    scene: str  # path of its file
+    settings: Sequence[Setting] = ()
     folder: str  # result folder
     log: str  # output and errors are appended to this file
-    extra: tuple[str, ...] = ()
+    resume: bool = False
 
     def line(self, threads: int) -> str:
-        """The task as a worker reads it."""
-        words = [self.command, self.scene, "--quiet", "--output", self.folder, *self.extra]
-        if self.command in THREADED:
-            words += ["--threads", str(threads)]
-        return json.dumps({"words": words, "log": self.log}) + "\n"
+        """The run as a worker reads it."""
+        sets = [word for one in self.settings for word in ("--set", f"{one.section}/{one.key}={one.value}")]
+        text = shlex.join(["diptych", self.command, self.scene, *sets, "--output", self.folder])
+        options = {"file": self.scene, "text": text, "threads": threads, "resume": self.resume}
+        return json.dumps({**vars(self), "options": options}) + "\n"
 
 
 @dataclass
@@ -122,17 +140,13 @@ def program() -> str:
     return os.path.realpath(first_file([os.environ.get("DIPTYCH_PROGRAM", ""), built, installed], otherwise))
 
 
-def panels() -> str:
-    """Path of `diptych-panels`, beside the program or in PREFIX/libexec."""
-    folder = os.path.dirname(program())
-    return first_file([os.path.join(folder, place, "diptych-panels") for place in ("", "../libexec/diptych")],
-                      f"diptych-panels is not beside {program()}; the installation is broken")
-
-
 def environment() -> dict[str, str]:
-    """The environment without that of an MPI job, which would make a program one of its ranks."""
-    return {name: value for name, value in os.environ.items()
-            if name.startswith("OMPI_ALLOW_RUN_AS_ROOT") or not name.startswith(_JOB_VARIABLES)}
+    """For a process of this package, without an MPI job, which would make a program one of its ranks."""
+    package = os.path.dirname(os.path.dirname(os.path.abspath(_diptych.__file__)))
+    path = os.pathsep.join(filter(None, [package, os.environ.get("PYTHONPATH")]))
+    own = {"DIPTYCH_PROGRAM": program(), "PYTHONPATH": path, "PYTHONSAFEPATH": "1"}  # no modules of the working directory
+    return own | {name: value for name, value in os.environ.items() if name not in own and
+                  (name.startswith("OMPI_ALLOW_RUN_AS_ROOT") or not name.startswith(_JOB_VARIABLES))}
 
 
 def run_program(words: Sequence[str]) -> int:
@@ -160,7 +174,8 @@ class Worker:
         if self._process is None or not self._send(line):
             self.close()
             # Its own process group: Ctrl-C reaches only this process, which then asks.
-            self._process = subprocess.Popen([panels(), "--worker"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0,
+            words = [sys.executable, "-m", __package__ + ".worker", str(os.getpid())]
+            self._process = subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0,
                                              env=environment(), process_group=0, pass_fds=tuple(KEPT_OPEN))
             self._send(line)
         asked = False
@@ -194,6 +209,16 @@ _remote_worker = Worker()
 
 def _remote(line: str) -> tuple[int, bool]:
     return _remote_worker.run(line)
+
+
+@contextmanager
+def stop_signals() -> Iterator[None]:
+    """Ctrl-C and the other stop signals are requests meanwhile, as in the program; then they are the caller's again."""
+    taken = _diptych.TakenSignals()
+    try:
+        yield
+    finally:
+        del taken
 
 
 def on_first_process(work: Callable[[], int]) -> int:

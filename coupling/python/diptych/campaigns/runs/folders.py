@@ -20,7 +20,7 @@ import numpy as np
 
 from ... import _diptych
 from ...arrays import Interval
-from ...errors import SceneError, Stopped
+from ...errors import NotConverged, SceneError, Stopped
 from .engine import (KEPT_OPEN, WRONG_INPUT, Options, Outcome, Run, complain, execute, last_words, n_seats, run_program, say)
 
 LAST_CODE_OF_A_RESULT = 3  # higher codes: the system failed, or a signal came
@@ -42,7 +42,8 @@ class Folder:
         KEPT_OPEN.discard(self._lock.descriptor)
         self._lock.release()
         if kept:
-            raise (Stopped if isinstance(error, Stopped) else RuntimeError)(f"{error}; {kept}") from error
+            kind = type(error) if isinstance(error, (Stopped, NotConverged)) else RuntimeError
+            raise kind(f"{error}; {kept}") from error
 
     def set_aside(self, inputs: Iterable[tuple[str, str]]) -> None:
         """Renames the results to DIRECTORY.1. Refuses to move one of the inputs: (what it is, path)."""
@@ -241,8 +242,8 @@ class Runs:
                 write_json(self.path(runs[k], ".json"), {"exit_code": outcome.exit_code, "revision": _diptych.git_revision,
                                                          "load": os.getloadavg()[0], "at_once": seats}, None)
 
-        tasks = [Run(run.command, self.path(run, ".prm"), self.path(run), self.path(run, ".log"),
-                     ("--resume",) if goes_on and run.command != "material-point" else ())
+        tasks = [Run(command=run.command, scene=self.path(run, ".prm"), folder=self.path(run), log=self.path(run, ".log"),
+                     resume=goes_on and run.command != "material-point")
                  for run, goes_on in zip(runs, resumes)]
         outcomes = execute(tasks, options, finished=total - len(runs), on_ended=on_ended)
         damaged = [k for k, outcome in enumerate(outcomes) if is_damaged(k, outcome)]

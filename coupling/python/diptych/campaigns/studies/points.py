@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ... import _diptych
+from ...compiled import demand_continuum
 from ...errors import SceneError
 from ..runs.engine import WRONG_INPUT
 from ..runs.folders import Runs, SceneRun, read_json, run_name
@@ -47,7 +48,10 @@ def on_sample(settings: Sequence[Setting], seed: int | None, file: str) -> list[
 
 
 def scene_run(scene: str, command: str, settings: Sequence[Setting]) -> SceneRun:
-    """The run of a scene with settings; one without a scene if they contradict each other. Runs draw no report."""
+    """The run of a scene with settings; one without a scene if they contradict each other. Runs draw no report. Raises SceneError
+    if the command needs the continuum and this build has none."""
+    if command != "discrete":
+        demand_continuum(command)
     try:
         read = _diptych.read_changed_scene(scene, [*settings, Setting("output", "report", "false", "")], command == "run")
         return SceneRun(command, run_name(read, command), read)

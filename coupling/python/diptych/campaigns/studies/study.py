@@ -18,7 +18,8 @@ import numpy as np
 import pandas as pd
 
 from ... import _diptych
-from ..runs.engine import DONE, NOT_CONVERGED, Options, complain, say
+from ...errors import NotConverged, Stopped
+from ..runs.engine import Options, complain, say
 from .effects import changes_of, effects_table, text_of_changes, text_of_means, text_of_quantity
 from .evaluation import CLASSES, Results, cost_of, evaluate, orders_of
 from ..runs.folders import Folder, Runs, draw, write_arrays, write_json, write_text
@@ -133,8 +134,9 @@ def _conclude(study: Study, points: Sequence[Point], record: dict[str, Any], opt
     return ": ".join([f"{n} points", *filter(None, [", ".join(f"{counts[name]} {name}" for name in CLASSES if counts[name])])])
 
 
-def run_study(line: argparse.Namespace, options: Options) -> int:
-    """diptych study FILE. line: target, output, set, set_file, vary, seeds, panels, levels. Returns the exit code."""
+def run_study(line: argparse.Namespace, options: Options) -> None:
+    """diptych study FILE. line: target, output, set, set_file, vary, seeds, panels, levels. Raises NotConverged if runs are
+    missing, or Stopped."""
     study, text = study_of_words(line)
     levels = levels_of_words(line, study)
     if study.ranges:
@@ -172,10 +174,8 @@ def run_study(line: argparse.Namespace, options: Options) -> int:
         say(options, f"{_conclude(study, points, record, options)}; tables: {directory}/study.json, study.csv"
             + (", sensitivity.csv" if study.ranges else ", effects.csv" if study.reference is None else ""))
         lost = sum(not all(run.known for run in of_point) for of_point in results)
-        if all(run.exit_code for run in read.values()):
-            complain(f"every run failed, the first with: {next(iter(read.values())).words}")
-            return NOT_CONVERGED
-        if left or lost:
-            why = f"stopped on request; {left} runs are left" if left else f"{lost} points have runs that the system ended"
-            complain(f"{why}, the rest is kept in {directory}; to go on: {options.again}")
-    return NOT_CONVERGED if left or lost else DONE
+    if all(run.exit_code for run in read.values()):
+        raise NotConverged(f"every run failed, the first with: {next(iter(read.values())).words}")
+    if left or lost:
+        why = f"stopped on request; {left} runs are left" if left else f"{lost} points have runs that the system ended"
+        raise (Stopped if left else NotConverged)(f"{why}, the rest is kept in {directory}; to go on: {options.again}")

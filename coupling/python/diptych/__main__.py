@@ -1,0 +1,31 @@
+# diptych: the commands in Python; the program `diptych` starts this module for them
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""python -m diptych WORDS; see `diptych --help`."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+from . import _diptych
+from .campaigns.commands import do
+from .campaigns.runs.engine import DONE, code_and_text, complain, on_first_process
+from .importers import command as importers
+
+
+def main(words: Sequence[str]) -> int:
+    """Does a command and returns its exit code; an error is a message."""
+    try:
+        do(words)
+        return DONE
+    except (ValueError, OSError, RuntimeError, MemoryError, ImportError) as error:
+        code, text = code_and_text(error)
+        complain(f"diptych: {text}")
+        return code
+
+
+if __name__ == "__main__":
+    if sys.argv[1] == "import":
+        sys.exit(importers.main(sys.argv[2:]))
+    _diptych.install_signals()
+    sys.exit(on_first_process(lambda: main(sys.argv[1:])))

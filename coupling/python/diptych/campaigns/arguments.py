@@ -1,0 +1,98 @@
+# diptych: the options of the commands of campaigns
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""One function adds the arguments of one command. It loads nothing that only a run needs, so that help comes at once."""
+
+from __future__ import annotations
+
+from ..importers.command import add_options
+from ..words import Parser, add_output, add_overwrite, add_quiet, number
+
+_LEVELS = "auto, or two accuracies: means of the grains in the limit of short steps"
+
+
+def _add_scene(parser: Parser, meaning: str = "scene file, .prm or .json") -> None:
+    parser.add_argument("target", metavar="SCENE", help=meaning)
+
+
+def _add_set(parser: Parser) -> None:
+    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[],
+                        help="section/key=value: change one key of the scene; may be repeated")
+    parser.add_argument("--set-file", metavar="FILE", action="append", default=[],
+                        help="file of keys as calibrate writes it (.prm); if a key is in both, --set wins")
+
+
+def _add_seeds(parser: Parser, meaning: str, required: bool = False) -> None:
+    parser.add_argument("--seeds", metavar="LIST", default="", required=required, help=meaning)
+
+
+def _add_runs(parser: Parser, folder: str) -> None:
+    add_output(parser, folder)
+    _add_set(parser)
+    parser.add_argument("--threads", metavar="N", type=number(1, 1024, True), default=1,
+                        help="threads of the contact solver; every number gives the same bits")
+    parser.add_argument("--jobs", metavar="N", type=number(1, 4096, True), default=0,
+                        help="number of runs at once (default: usable cores / threads; under mpirun one for each process)")
+    either = parser.add_mutually_exclusive_group()
+    either.add_argument("--resume", action="store_true",
+                        help="continue the results in the folder: keep finished runs, compute the others")
+    add_overwrite(either)
+    add_quiet(parser)
+
+
+def add_run(parser: Parser) -> None:
+    _add_scene(parser)
+    _add_seeds(parser, "samples, a list like 1-8 or 1,3,5-7, each in DIR/seed_K; then means, intervals and verdicts", True)
+    parser.add_argument("--levels", metavar="LEVELS", default="", help=_LEVELS)
+    parser.add_argument("--check", action="store_true",
+                        help="check the scene and its first sample, print the resources, compute nothing")
+    _add_runs(parser, "folder of the ensemble (default: results/<scene name>_ensemble)")
+
+
+def add_compare(parser: Parser) -> None:
+    parser.add_argument("target", metavar="DIR", help="folder of an ensemble")
+    _add_set(parser)
+    add_quiet(parser)
+
+
+def add_study(parser: Parser) -> None:
+    _add_scene(parser, "scene file with --vary, or study file, .json")
+    parser.add_argument("--vary", metavar="KEY=VALUES", action="append", default=[],
+                        help="values of a key, such as discrete/friction=0.2,0.3,0.5; repeated: all combinations")
+    _add_seeds(parser, "with --vary: samples of each point, a list like 1-4 (default: the scene's one)")
+    parser.add_argument("--panels", choices=("both", "discrete", "continuum"), default="",
+                        help="with --vary: the panels that run (default: both, which bands need)")
+    parser.add_argument("--levels", metavar="LEVELS", default="", help=_LEVELS)
+    _add_runs(parser, "folder of the study (default: results/<name>_study)")
+
+
+def add_plan(parser: Parser) -> None:
+    _add_scene(parser)
+    parser.add_argument("--accuracy", metavar="SHARE", required=True,
+                        help="relative, of the means: 2 %% or 0.02; covers errors of the method and the 95 %% interval")
+    parser.add_argument("--for", metavar="NAMES", default="",
+                        help="quantities, separated by commas: peak_stress_ratio, strength (both by default), "
+                             "final_volumetric_strain, width_10_90, angle, or a number of comparison.json; for one panel, put "
+                             "discrete. or continuum. before it")
+    parser.add_argument("--run", action="store_true", help="also run the planned samples")
+    _add_runs(parser, "folder of the plan (default: results/<scene name>_plan)")
+
+
+def add_calibrate(parser: Parser) -> None:
+    _add_scene(parser, "scene file with --seeds, which takes the standard parameters, or calibration file, .json")
+    _add_seeds(parser, "with a scene: samples of the fit, a list like 1-4")
+    _add_runs(parser, "folder of the calibration (default: results/<name>_calibration)")
+
+
+def add_element(parser: Parser) -> None:
+    _add_scene(parser)
+    _add_seeds(parser, "samples of the grains, a list like 1-4 (default: the scene's one)")
+    _add_runs(parser, "folder of the results (default: results/<scene name>_element)")
+
+
+def add_homogenise(parser: Parser) -> None:
+    parser.add_argument("target", metavar="SOURCE", help="folder with grains, or a format or reader as for import, then FILES")
+    parser.add_argument("files", metavar="FILES", nargs="*", help="files of grains, contacts and walls of another code")
+    parser.add_argument("--grid", metavar="D", type=number(0.5, 1000), default=3.0,
+                        help="size of the cells in mean diameters (default: 3)")
+    add_output(parser, "folder of the results (default: FOLDER_homogenised; required with FILES)")
+    add_options(parser)

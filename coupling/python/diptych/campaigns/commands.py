@@ -1,0 +1,39 @@
+# diptych: the commands of campaigns
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Parses the words of a command and does it; pandas and SciPy load only then."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Sequence
+
+from ..words import Parser
+from . import arguments
+from .runs.engine import Options
+
+# command: what adds its arguments, and the function that does it
+COMMANDS = {"run": (arguments.add_run, "ensembles.ensemble", "run_ensemble"),
+            "compare": (arguments.add_compare, "ensembles.ensemble", "compare_again"),
+            "study": (arguments.add_study, "studies.study", "run_study"),
+            "plan": (arguments.add_plan, "plans.plan", "main_plan"),
+            "calibrate": (arguments.add_calibrate, "calibration.calibration", "run_calibration"),
+            "element": (arguments.add_element, "element.element", "run_element"),
+            "homogenise": (arguments.add_homogenise, "element.homogenise", "run_homogenise")}
+
+
+def with_joined_per_cent(words: Sequence[str]) -> list[str]:
+    """The words with --accuracy 2 % as one word less."""
+    joined: list[str] = []
+    for word in words:
+        joined[-1:] = [joined[-1] + " %"] if word == "%" and joined else [*joined[-1:], word]
+    return joined
+
+
+def do(words: Sequence[str]) -> None:
+    """Does a command in this process. Raises SceneError for wrong words, and what went wrong."""
+    add_arguments, module, function = COMMANDS[words[0]]
+    parser = Parser(words[0])
+    add_arguments(parser)
+    line = parser.parse(with_joined_per_cent(words[1:]))
+    loaded = importlib.import_module("." + module, __package__)
+    getattr(loaded, function)(line, Options.of(line, words))
