@@ -3,85 +3,182 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: same_results.py PROGRAM OTHER_PROGRAM SOURCE_DIR [--keep DIR] [--relative R] [CASE ...]
 
-For a change that must change no result: OTHER_PROGRAM was built from the revision before. Every case is run by both. Compared
-are all datasets and attributes of discrete.h5 (bit by bit), the datasets of the last stage of continuum.h5 and every number of
-comparison.json except costs (equal, or within R relative). What is new is told; what is gone counts as a difference. Exit codes:
-0 the same, 1 a difference, 2 a run failed.
+For a change that must change no result: OTHER_PROGRAM was built from the revision before. Both run every case. The
+script compares all datasets and attributes of discrete.h5 bit by bit. The histories, the last stage of continuum.h5,
+the datasets of comparison.h5 and the numbers of comparison.json, except costs, must be equal, or within R relative. A
+name that is gone counts as a difference, a new one does not. Exit codes: 0 the same, 1 a difference or a failed run.
 --keep DIR: run folders stay there, and those of OTHER_PROGRAM that are there already are not run again.
 """
 
 import argparse
+import csv
 import json
-import math
 import os
 import subprocess
 import sys
 import tempfile
+from typing import NamedTuple
 
 import h5py
 import numpy
 
-# What a clock measured, what names the program itself, and sentences.
+# Costs, the program's own name and sentences.
 NOT_RESULTS = ("cost", "ns_per_update", "solver_share_of_cpu", "units", "numbers", "format", "message")
+
+
+class Case(NamedTuple):
+    scene: str
+    keys: dict
+    command: str = "run"
+
 
 SMALL = {"sample/grains": 300, "loading/inertial_number": 1e-3, "loading/axial_strain": 0.01, "discrete/step": 0.1,
          "discrete/tolerance": 1e-4, "discrete/snapshot_max_sweeps": 200, "discrete/reference_sweeps": 0,
          "comparison/window_edges": "0,0.01", "output/report": "false"}
 FIXED_WIDTH = {"discrete/lateral": "periodic", "discrete/side_motion": "velocity"}
+FREE_WIDTH = {"discrete/lateral": "periodic", "discrete/side_motion": "pressure", "continuum/platens": "smooth"}
+ROLLING = {"discrete/rolling_friction": 0.2, "discrete/platen_rolling_friction": 0.1}
+TIME = {"loading/mode": "time", "loading/duration": 4, "loading/stage_time": 2, "comparison/window_edges": "0,4",
+        "discrete/lateral": "rigid_walls", "continuum/initial_step": 0.5, "continuum/max_step": 0.5,
+        "continuum/min_step": 0.01}
+CELL = {"sample/grains": 150, "loading/axial_strain": 0.01, "loading/stages": "0.005,0.01", "discrete/step": 0.1,
+        "discrete/tolerance": 1e-4}
+CRITICAL = {"continuum/hardening": "critical_state", "continuum/youngs_modulus": 2000}
+TABLE = {"continuum/hardening": "table", "continuum/table_strain": "0,0.02,0.1",
+         "continuum/table_friction_angle": "15,24,20", "continuum/table_dilatancy_angle": "0,5,2",
+         "continuum/table_cohesion": "0.01,0.01,0.005"}
 
-# name: (scene, keys). The quick scene whole on two samples, and every loading mode, condition at the sides, law and averaging
-# method on a small one.
+# Files that the keys below name as {inputs}/NAME; law.so is compiled from SOURCE_DIR.
+INPUTS = {"platen.csv": "time,velocity\n0,0\n1,-0.02\n10,-0.02\n12,0.02\n20,0.02\n",
+          "side.csv": "time,force\n0,-20\n2,-15\n4,-25\n",
+          "cycle.csv": "progress,eyy,sxx,exy\n0,0,1,0\n0.01,0.01,1,0\n0.02,0,1,0\n0.03,0.01,1,0\n",
+          "path.csv": "progress,sxx,syy,sxy\n0,1,1,0\n0.005,0.8,1.2,0.05\n0.01,0.9,1.1,0.1\n"}
+LAW = os.path.join("benchmarks", "own_law", "mohr_coulomb.cc")
+
+
+def small(**keys):
+    return Case("moreau_quick", {**SMALL, **keys})
+
+
+def law(name, **keys):
+    return small(**{"continuum/law": name, **keys})
+
+
+def cell(**keys):
+    return Case("element", {**CELL, **keys}, "discrete")
+
+
+def point(name, path, **keys):
+    """A law without grains: one row of material_point.csv per step of the path."""
+    keys = {"continuum/law": name, "loading/path": path, "loading/axial_strain": 0.03, **keys}
+    return Case("element", keys, "material-point")
+
+
+# The quick scene whole; then each loading mode, condition at the sides, method, law, hardening and averaging method on
+# a small one.
 CASES = {
-    "quick_1": ("moreau_quick", {"output/report": "false"}),
-    "quick_2": ("moreau_quick", {"output/report": "false", "sample/seed": 2}),
-    "descent": ("moreau_quick", SMALL),
-    "shear": ("moreau_quick", {**SMALL, **FIXED_WIDTH, "loading/mode": "shear"}),
-    "plane_shear": ("moreau_quick", {**SMALL, **FIXED_WIDTH, "loading/mode": "plane_shear"}),
-    "time": ("moreau_quick", {**SMALL, "loading/mode": "time", "loading/duration": 4, "loading/stage_time": 2,
-                              "comparison/window_edges": "0,4", "discrete/lateral": "rigid_walls",
-                              "continuum/initial_step": 0.5, "continuum/max_step": 0.5, "continuum/min_step": 0.01,
-                              "discrete/drive_upper_y": "velocity -0.02"}),
-    "rigid_walls": ("rigid_walls", SMALL),
-    "periodic": ("periodic_sides", {**SMALL, "sample/grains": 400}),
-    "penalty": ("moreau_quick", {**SMALL, "sample/grains": 100, "discrete/method": "penalty"}),
-    "nsgs": ("moreau_quick", {**SMALL, "sample/grains": 150, "discrete/solver": "nsgs", "discrete/max_sweeps": 200000}),
-    "friction": ("moreau_quick", {**SMALL, "sample/target_solid_fraction": 0.82, "sample/radius_distribution": "uniform_by_mass"}),
-    "restitution": ("moreau_quick", {**SMALL, "discrete/normal_restitution": 0.3, "discrete/tangential_restitution": 0.2,
-                                     "discrete/penetration_correction": "soft_velocity"}),
-    "mapped_adaptive": ("moreau_quick", {**SMALL, "continuum/initial_stress": "mapped", "continuum/refinement": "adaptive"}),
-    "mohr_coulomb": ("moreau_quick", {**SMALL, "continuum/law": "mohr_coulomb", "continuum/viscosity": 1e-4}),
-    "drucker_prager": ("moreau_quick", {**SMALL, "continuum/law": "drucker_prager", "continuum/element": "q1_bbar",
-                                        "continuum/geometry": "small_strain"}),
-    **{method: ("moreau_quick", {**SMALL, "comparison/averaging": method}) for method in
+    "quick": Case("moreau_quick", {"output/report": "false"}),
+    "descent": small(),
+    "plane_shear": small(**FIXED_WIDTH, **{"loading/mode": "plane_shear"}),
+    "time": small(**TIME, **{"discrete/drive_upper_y": "velocity -0.02"}),
+    "rigid_walls": Case("rigid_walls", SMALL),
+    "side_tables": Case("moreau_quick", {**SMALL, **TIME, "discrete/drive_upper_y": "velocity {inputs}/platen.csv",
+                                         "discrete/drive_right_x": "force {inputs}/side.csv"}, "discrete"),
+    "reversal": Case("reversal", {**SMALL, "sample/width": 12, "sample/height": 12, "loading/duration": 20,
+                                  "loading/stages": "10,20", "discrete/drive_upper_y": "velocity {inputs}/platen.csv",
+                                  "comparison/window_edges": "0,20", "continuum/mesh": "outline",
+                                  "continuum/element_size": 4}),
+    "periodic": Case("periodic_sides", {**SMALL, "sample/grains": 400}),
+    "periodic_free": small(**FREE_WIDTH),
+    "periodic_penalty": small(**FREE_WIDTH, **{"sample/grains": 100, "discrete/method": "penalty"}),
+    "cell": cell(),
+    "cell_path": cell(**ROLLING, **{"loading/path": "{inputs}/path.csv"}),
+    "cell_shear": cell(**{"loading/path": "simple_shear", "discrete/method": "compliant"}),
+    "cell_penalty": cell(**{"loading/path": "constant_volume", "discrete/method": "penalty"}),
+    "penalty": small(**ROLLING, **{"sample/grains": 100, "discrete/method": "penalty"}),
+    "compliant": small(**{"discrete/method": "compliant"}),
+    "compliant_rolling": small(**ROLLING, **{"discrete/method": "compliant", "sample/grains": 150}),
+    "rolling": small(**ROLLING),
+    "nsgs": small(**{"sample/grains": 150, "discrete/solver": "nsgs", "discrete/max_sweeps": 200000}),
+    "friction": small(**{"sample/target_solid_fraction": 0.82, "sample/radius_distribution": "uniform_by_mass"}),
+    "restitution": small(**{"discrete/normal_restitution": 0.3, "discrete/tangential_restitution": 0.2,
+                            "discrete/penetration_correction": "soft_velocity"}),
+    "mapped_adaptive": small(**{"continuum/initial_stress": "mapped", "continuum/refinement": "adaptive"}),
+    "mohr_coulomb": law("mohr_coulomb", **{"continuum/viscosity": 1e-4, "continuum/hardening": "exponential"}),
+    "drucker_prager": law("drucker_prager", **TABLE, **{"continuum/element": "q1_bbar",
+                                                        "continuum/geometry": "small_strain"}),
+    "gradient": law("gradient_drucker_prager"),
+    "critical_state": law("cosserat_drucker_prager", **CRITICAL),
+    "library": law("library", **{"continuum/law_library": "{inputs}/law.so", "continuum/law.friction_angle": 25}),
+    **{method: small(**{"comparison/averaging": method}) for method in
        ("centroid", "laguerre", "kernel", "projection")},
+    "point_kinematic": point("cosserat_drucker_prager", "{inputs}/cycle.csv"),
+    "point_plane_kinematic": point("drucker_prager", "constant_volume"),
+    "point_shear": point("cosserat_mohr_coulomb", "simple_shear"),
+    "point_table": point("mohr_coulomb", "drained", **TABLE),
+    "point_critical": point("mohr_coulomb", "constant_mean_stress", **CRITICAL),
+    "point_gradient": point("gradient_mohr_coulomb", "drained", **{"continuum/hardening": "exponential"}),
+    "point_elastic": point("linear_elastic", "drained"),
+    "point_library": point("library", "drained", **{"continuum/law_library": "{inputs}/law.so"}),
 }
 
 
-def run(program, source, name, folder):
-    scene, keys = CASES[name]
-    words = [program, "run", os.path.join(source, "benchmarks", scene, "scene.prm"), "--quiet", "--output", folder]
-    for key, value in keys.items():
-        words += ["--set", f"{key}={value}"]
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
+def write_inputs(source, folder):
+    os.makedirs(folder, exist_ok=True)
+    for name, text in INPUTS.items():
+        with open(os.path.join(folder, name), "w", encoding="utf-8") as stream:
+            stream.write(text)
+    subprocess.run(["c++", "-std=c++17", "-shared", "-fPIC", "-O2", "-I" + os.path.join(source, "continuum", "laws"),
+                    os.path.join(source, LAW), "-o", os.path.join(folder, "law.so")], check=True)
+
+
+def run(words, name, program, folder):
+    case = CASES[name]
+    scene = os.path.join(words.source, "benchmarks", case.scene, "scene.prm")
+    line = [program, case.command, scene, "--quiet", "--output", folder]
+    for key, value in case.keys.items():
+        line += ["--set", f"{key}={value}".replace("{inputs}", words.inputs)]
+    done = subprocess.run(line, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         sys.exit(f"{name}: {program} ended with exit code {done.returncode}: {done.stderr}")
 
 
 def bits(path):
-    """Every dataset and attribute as (shape, bytes), by name."""
+    """Every dataset and attribute, by name."""
     found = {}
 
     def add(name, item):
         if isinstance(item, h5py.Dataset):
-            found[name] = (item.shape, item[()].tobytes())
+            found[name] = item[()]
         for key, value in item.attrs.items():
-            if key == "meaning":  # words
-                continue
-            found[name + "@" + key] = (numpy.shape(value), numpy.asarray(value).tobytes())
+            if key != "meaning":  # words
+                found[name + "@" + key] = value
 
     with h5py.File(path, "r") as file:
         file.visititems(add)
     return found
+
+
+def datasets(group):
+    found = {}
+    group.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
+    return found
+
+
+def arrays(path):
+    with h5py.File(path, "r") as file:
+        return datasets(file)
+
+
+def last_stage(path):
+    with h5py.File(path, "r") as file:
+        return datasets(file[max(name for name in file if name.startswith("stage_"))])
+
+
+def columns(path):
+    with open(path, newline="", encoding="utf-8") as stream:
+        names, *rows = csv.reader(stream)
+    return {name: numpy.array(column) for name, *column in zip(names, *rows) if not name.endswith("cpu_s")}
 
 
 def numbers(value, place=""):
@@ -94,58 +191,46 @@ def numbers(value, place=""):
         items = enumerate(value)
     else:
         return {place: value}
-    return {at: leaf for key, part in items if key not in NOT_RESULTS for at, leaf in numbers(part, f"{place}/{key}").items()}
+    return {at: leaf for key, part in items if key not in NOT_RESULTS
+            for at, leaf in numbers(part, f"{place}/{key}").items()}
 
 
-def comparison(folder):
-    with open(os.path.join(folder, "comparison.json"), encoding="utf-8") as file:
+def json_numbers(path):
+    with open(path, encoding="utf-8") as file:
         return numbers(json.load(file))
 
 
-def walked(name):
-    place = name.split("/")
-    walks = place[-1] == "axial_strain" and place[1] == "stages" or place[1:] == ["continuum_summary", "reached_axial_strain"]
-    return name.replace("axial_strain", "progress") if walks else name
+READERS = {"discrete.h5": bits, "discrete.csv": columns, "continuum.h5": last_stage, "continuum.csv": columns,
+           "comparison.h5": arrays, "comparison.json": json_numbers, "material_point.csv": columns}
 
 
 def same(a, b, relative):
-    if isinstance(a, (int, float)) and isinstance(b, (int, float)) and not isinstance(a, bool):
-        return a == b or math.isclose(a, b, rel_tol=relative, abs_tol=relative * 1e-3)
-    return a == b
+    a, b = numpy.asarray(a), numpy.asarray(b)
+    if a.shape != b.shape:
+        return False
+    if relative == 0 or b.size == 0:
+        return bool((a == b).all()) if a.dtype == object else a.tobytes() == b.tobytes()
+    try:
+        a, b = a.astype(float), b.astype(float)
+    except (TypeError, ValueError):  # words
+        return bool((a == b).all())
+    size = max(1e-3, numpy.nanmax(abs(b), initial=0))
+    return numpy.allclose(a, b, rtol=relative, atol=relative * size, equal_nan=True)
 
 
-def continuum_arrays(folder):
-    """Datasets of the last stage by name."""
-    with h5py.File(os.path.join(folder, "continuum.h5"), "r") as file:
-        last, found = file[sorted(name for name in file if name.startswith("stage_"))[-1]], {}
-        last.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
-    return found
+def read_all(folder):
+    """Every compared entry of a run folder by (file, name)."""
+    paths = [os.path.join(folder, file) for file in READERS]
+    return {(file, name): value for (file, read), path in zip(READERS.items(), paths) if os.path.exists(path)
+            for name, value in read(path).items()}
 
 
 def compare(one, other, relative):
-    """Sentences about what differs, and about what only one of the two has."""
-    different, new, gone, largest = [], [], [], 0.0
-    a, b = (bits(os.path.join(folder, "discrete.h5")) for folder in (one, other))
-    different += [f"discrete.h5 {name}" for name in sorted(a.keys() & b.keys()) if a[name] != b[name]]
-    new += [f"discrete.h5 {name}" for name in sorted(a.keys() - b.keys())]
-    gone += [f"discrete.h5 {name}" for name in sorted(b.keys() - a.keys())]
-    a, b = continuum_arrays(one), continuum_arrays(other)
-    different += [f"continuum.h5 {name}" for name in sorted(a.keys() & b.keys())
-                  if a[name].shape != b[name].shape
-                  or not numpy.allclose(a[name], b[name], rtol=relative, atol=relative * numpy.abs(b[name]).max(initial=0))]
-    gone += [f"continuum.h5 {name}" for name in sorted(b.keys() - a.keys())]
-    a, b = comparison(one), comparison(other)
-    if "/stages/0/progress" in a and "/stages/0/progress" not in b:  # before format 2 both were called axial strain
-        b = {walked(name): value for name, value in b.items()}
-    for name in sorted(a.keys() & b.keys()):
-        if not same(a[name], b[name], relative):
-            different.append(f"comparison.json {name}: {a[name]} for {b[name]}")
-        elif isinstance(a[name], float) and a[name] != b[name]:
-            size = max(abs(a[name]), abs(b[name]))
-            largest = max(largest, abs(a[name] - b[name]) / size if size > 1e-9 else 0)
-    new += [f"comparison.json {name}" for name in sorted(a.keys() - b.keys())]
-    gone += [f"comparison.json {name}" for name in sorted(b.keys() - a.keys())]
-    return different, new, gone, largest, len(a.keys() & b.keys())
+    """What differs, what is gone and what is new, and how many entries both have."""
+    a, b = read_all(one), read_all(other)
+    common = [key for key in b if key in a]
+    different = [key for key in common if not same(a[key], b[key], 0 if key[0] == "discrete.h5" else relative)]
+    return different, [key for key in b if key not in a], [key for key in a if key not in b], len(common)
 
 
 def main():
@@ -162,18 +247,20 @@ def main():
         parser.error(f"no case {', '.join(unknown)}; there are {', '.join(CASES)}")
     failed = False
     with tempfile.TemporaryDirectory() as scratch:
-        root = words.keep or scratch
+        root = os.path.abspath(words.keep or scratch)
+        words.inputs = os.path.join(root, "inputs")
+        write_inputs(words.source, words.inputs)
         for name in words.cases or CASES:
             one, other = os.path.join(root, "this", name), os.path.join(root, "other", name)
-            run(words.program, words.source, name, one)
-            if not os.path.exists(os.path.join(other, "comparison.json")):
-                run(words.other_program, words.source, name, other)
-            different, new, gone, largest, count = compare(one, other, words.relative)
+            run(words, name, words.program, one)
+            if not os.path.exists(os.path.join(other, "provenance.json")):
+                run(words, name, words.other_program, other)
+            different, gone, new, count = compare(one, other, words.relative)
             failed = failed or bool(different or gone)
-            print(f"{name}: {count} numbers, {len(different)} differ" + (f" (rest within {largest:.1e})" if largest else "")
-                  + f", {len(gone)} gone, {len(new)} new")
-            for text in different[:12] + ["gone: " + text for text in gone[:12]] + ["new: " + text for text in new[:12]]:
-                print("    " + text)
+            print(f"{name}: {count} entries, {len(different)} differ, {len(gone)} gone, {len(new)} new")
+            for label, keys in (("", different), ("gone: ", gone), ("new: ", new)):
+                for file, entry in keys[:12]:
+                    print(f"    {label}{file} {entry}")
             sys.stdout.flush()
     return 1 if failed else 0
 
