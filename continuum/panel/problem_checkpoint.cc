@@ -148,12 +148,15 @@ namespace diptych::continuum
     problem.go_on_counting({c.point_cpu_s, c.assembly_cpu_s, c.geometry_cpu_s});
 
     DriverState state;
-    state.last      = std::move(restored.last);
-    state.divisions = Utilities::MPI::this_mpi_process(mesh.communicator()) == 0 ? c.divisions : Divisions(c.divisions.size());
-    state.step      = c.step;
-    state.last_step = c.last_step;
-    state.is_smooth = c.motion_is_smooth;
-    state.count     = {c.steps, c.cut_backs, c.newton_iterations, c.refinements};
+    state.last        = std::move(restored.last);
+    state.divisions   = Utilities::MPI::this_mpi_process(mesh.communicator()) == 0 ? c.divisions : Divisions(c.divisions.size());
+    state.step        = c.step;
+    state.last_step   = c.last_step;
+    state.is_smooth   = c.motion_is_smooth;
+    state.count.steps = c.steps;
+    state.count.cut_backs         = c.cut_backs;
+    state.count.newton_iterations = c.newton_iterations;
+    state.count.refinements       = c.refinements;
     driver.restart(std::move(state));
     auto &solver = driver.linear_solver();
     require(solver.take_up({c.preconditioner_is_stale, c.factorised_matrix, c.rigid_modes}, problem.tangent_matrix()),

@@ -325,7 +325,11 @@ namespace diptych::continuum
   Progress progress_of(const BoundaryValueProblem &problem, const Loading &loading)
   {
     const Eigen::Vector2d travel = problem.platen_travel(true) / problem.discretisation().extent.y();
-    Progress              now{problem.progress(), -travel.y(), travel.x(), problem.progress() * loading.time_per_progress};
+    Progress              now;
+    now.progress     = problem.progress();
+    now.axial_strain = -travel.y();
+    now.shear_strain = travel.x();
+    now.time         = problem.progress() * loading.time_per_progress;
     if (loading.loading_variable == LoadingVariable::axial_strain)
       now.axial_strain = now.progress; // the prescribed value has no round-off
     if (loading.loading_variable == LoadingVariable::shear_strain)

@@ -34,11 +34,13 @@ namespace diptych::coupling
     const auto [a, b]   = compared_bands(increment);
     const Interval turn = difference_of(a.angle_deg, b.angle_deg);
     const double   line = line_turn(turn.value, 0) - turn.value; // whole half turns
-    return {{turn.value + line, turn.low + line, turn.high + line},
-            difference_of(a.half_width, b.half_width),
-            difference_of(a.width_10_90, b.width_10_90),
-            difference_of(a.offset, b.offset),
-            difference_of(a.jump, b.jump),
-            difference_of(a.dilation_deg, b.dilation_deg)};
+    BandDifference result;
+    result.angle_deg    = {turn.value + line, turn.low + line, turn.high + line};
+    result.half_width   = difference_of(a.half_width, b.half_width);
+    result.width_10_90  = difference_of(a.width_10_90, b.width_10_90);
+    result.offset       = difference_of(a.offset, b.offset);
+    result.jump         = difference_of(a.jump, b.jump);
+    result.dilation_deg = difference_of(a.dilation_deg, b.dilation_deg);
+    return result;
   }
 } // namespace diptych::coupling

@@ -20,11 +20,14 @@ namespace diptych::coupling
 
     void map_fields(const StagePair &stage, const ComparisonOptions &options, StageRecord &record)
     {
-      record.fields  = mesh_fields(record.increment.mesh, stage, options.averaging);
-      record.mapping = {discrete::name_of(options.averaging.method), record.fields.grains.total_relative_error,
-                        record.fields.grains.outside_share,          stage.grains_to.window_time,
-                        record.fields.grains.couple_residual,        record.fields.grains.nodal_residual};
-      record.grid    = grid_fields(record.fields, stage, options.averaging, options.grid_size * stage.grains_to.mean_diameter);
+      record.fields                       = mesh_fields(record.increment.mesh, stage, options.averaging);
+      record.mapping.method               = discrete::name_of(options.averaging.method);
+      record.mapping.total_relative_error = record.fields.grains.total_relative_error;
+      record.mapping.outside_share        = record.fields.grains.outside_share;
+      record.mapping.window_time          = stage.grains_to.window_time;
+      record.mapping.couple_residual      = record.fields.grains.couple_residual;
+      record.mapping.nodal_residual       = record.fields.grains.nodal_residual;
+      record.grid = grid_fields(record.fields, stage, options.averaging, options.grid_size * stage.grains_to.mean_diameter);
       record.stress_differences = stress_differences(record.fields, stage, options.averaging);
       record.stress_verdict     = stress_verdict(record.stress_differences.back());
     }

@@ -73,8 +73,14 @@ namespace diptych::coupling
       case continuum::MeshOption::Kind::outline:
         return continuum::outline_mesh({grains->outline.left, grains->outline.right}, edge,
                                        [] { leave_if_stopped("making the mesh"); });
-      case continuum::MeshOption::Kind::rectangle:
-        return continuum::rectangle_mesh({o.rectangle_width, o.rectangle_height, o.platen_width, edge});
+        case continuum::MeshOption::Kind::rectangle: {
+          continuum::Rectangle rectangle;
+          rectangle.width        = o.rectangle_width;
+          rectangle.height       = o.rectangle_height;
+          rectangle.platen_width = o.platen_width;
+          rectangle.element_size = edge;
+          return continuum::rectangle_mesh(rectangle);
+        }
       case continuum::MeshOption::Kind::file:
         break;
       }

@@ -226,14 +226,15 @@ namespace diptych::coupling
   {
     const ProbeReplicas all = replicas(blocks, options);
     const auto          of  = [&](const NumberOf member) { return interval_from(all.value.*member, column(all, member)); };
-    ProbeIntervals      result{of(&ProbeNumbers::s1),
-                          of(&ProbeNumbers::s2),
-                          of(&ProbeNumbers::t_over_s),
-                          of(&ProbeNumbers::direction_deg),
-                          of(&ProbeNumbers::anisotropy),
-                          of(&ProbeNumbers::fabric_direction_deg),
-                          of(&ProbeNumbers::fabric_to_stress_deg),
-                          static_cast<int>(blocks.block.size())};
+    ProbeIntervals      result;
+    result.s1                   = of(&ProbeNumbers::s1);
+    result.s2                   = of(&ProbeNumbers::s2);
+    result.t_over_s             = of(&ProbeNumbers::t_over_s);
+    result.direction_deg        = of(&ProbeNumbers::direction_deg);
+    result.anisotropy           = of(&ProbeNumbers::anisotropy);
+    result.fabric_direction_deg = of(&ProbeNumbers::fabric_direction_deg);
+    result.fabric_to_stress_deg = of(&ProbeNumbers::fabric_to_stress_deg);
+    result.blocks               = static_cast<int>(blocks.block.size());
     for (Interval *size : {&result.t_over_s, &result.anisotropy})
       size->low = std::max(size->low, std::isnan(size->low) ? size->low : 0.);
     return result;

@@ -11,7 +11,11 @@ namespace diptych::coupling
 {
   Opening opening_of(const CommandLine &line, const bool adds)
   {
-    Opening opening{line.resume, line.overwrite, adds, true, line.text, {}};
+    Opening opening;
+    opening.resume     = line.resume;
+    opening.overwrite  = line.overwrite;
+    opening.adds       = adds;
+    opening.command    = line.text;
     if (std::error_code none; std::filesystem::is_regular_file(line.target, none))
       opening.inputs.emplace_back("the scene", line.target);
     for (const std::string &file : line.set_files)

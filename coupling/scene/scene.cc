@@ -22,8 +22,15 @@ namespace diptych::coupling
 
   discrete::Loading discrete_loading(const LoadingOptions &o)
   {
-    discrete::Loading loading{o.pressure, o.inertial_number, o.horizontal_over_vertical, stages(o), o.affine_start,
-                              o.mode,     o.strain_rate,     o.normal_pressure};
+    discrete::Loading loading;
+    loading.pressure                 = o.pressure;
+    loading.inertial_number          = o.inertial_number;
+    loading.horizontal_over_vertical = o.horizontal_over_vertical;
+    loading.stages                   = stages(o);
+    loading.affine_start             = o.affine_start;
+    loading.mode                     = o.mode;
+    loading.strain_rate              = o.strain_rate;
+    loading.normal_pressure          = o.normal_pressure;
     if (o.mode == discrete::LoadingMode::path)
       loading.path = cell_path(o.path, {o.pressure, o.axial_strain, 1e-3 * o.axial_strain});
     return loading;

@@ -268,8 +268,14 @@ namespace diptych::coupling
   {
     json          record = read_record(directory);
     NumbersToJson into{record, 1};
-    list_numbers(Origin{origin.command, origin.scene, origin.seeds, now_utc(), cpu_name(), std::thread::hardware_concurrency()},
-                 into);
+    Origin        written;
+    written.command = origin.command;
+    written.scene   = origin.scene;
+    written.seeds   = origin.seeds;
+    written.date    = now_utc();
+    written.cpu     = cpu_name();
+    written.cores   = std::thread::hardware_concurrency();
+    list_numbers(written, into);
     if (record["phases"].is_null())
       record["phases"] = json::array();
     for (const PhaseCost &phase : phases)

@@ -39,11 +39,14 @@ namespace diptych::coupling
 
     SceneHashes hashes_of(const Scene &scene)
     {
-      const auto hash = [](const Identity &identity) { return hexadecimal(digest_of(text_of(identity))); };
-      return {hash(sample_identity(scene)), hash(continuum_identity(scene)), hash(member_identity(scene)), "",
-              scene.continuum.law == continuum::LawKind::library
-                ? hash({{"law_library", continuum_identity(scene).at("continuum/law_library")}})
-                : ""};
+      const auto  hash = [](const Identity &identity) { return hexadecimal(digest_of(text_of(identity))); };
+      SceneHashes hashes;
+      hashes.sample     = hash(sample_identity(scene));
+      hashes.continuum  = hash(continuum_identity(scene));
+      hashes.comparison = hash(member_identity(scene));
+      if (scene.continuum.law == continuum::LawKind::library)
+        hashes.law_library = hash({{"law_library", continuum_identity(scene).at("continuum/law_library")}});
+      return hashes;
     }
 
     // The first key whose value differs between the scene and scene.prm. If all agree, one of the scene's files has changed.

@@ -197,8 +197,12 @@ namespace diptych::discrete
           window_impact.size() != n_window / 2 || window_rolling.size() != n_window / 2)
         throw std::invalid_argument(file.path() + ": the lengths of the lists in 'impulses' or 'window' do not match");
       for (std::size_t k = 0; k < n; k += 2)
-        p.state.impulses.push_back(
-          {body[k], body[k + 1], impulse[k], impulse[k + 1], change[k], change[k + 1], rolling[k], rolling[k + 1]});
+        {
+          PairImpulse pair{body[k], body[k + 1], impulse[k], impulse[k + 1]};
+          pair.normal_change = change[k], pair.tangential_change = change[k + 1];
+          pair.rolling = rolling[k], pair.rolling_change = rolling[k + 1];
+          p.state.impulses.push_back(pair);
+        }
       for (std::size_t k = 0; k < n_window; k += 2)
         p.window.sums.push_back({window_body[k],
                                  window_body[k + 1],

@@ -75,8 +75,7 @@ namespace diptych::discrete
       now.step = prepared.step; // length of the step that the impulses belong to
       StepSetting setting;
       setting.step          = prepared.step;
-      const double friction = presses() ? options_.penalty.preload_friction : prepared.report.friction;
-      setting.law           = {friction, friction, 0, 0, friction};
+      setting.law           = same_friction(presses() ? options_.penalty.preload_friction : prepared.report.friction);
       setting.mean_diameter = setting_.mean_diameter;
       prepared_ = make_snapshot(now.state, prepared.last_step, {}, make_reference(now.state, setting_.mean_diameter, 0.),
                                 setting);

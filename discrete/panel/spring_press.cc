@@ -10,8 +10,8 @@ namespace diptych::discrete
 {
   std::optional<PressedSample> press_springs(State &state, SpringPress press, const std::function<bool(double)> &go_on)
   {
-    const double friction = press.penalty.preload_friction, pressure = press.setting.pressure;
-    press.setting.law     = {friction, friction, 0, 0, friction};
+    const double pressure = press.setting.pressure;
+    press.setting.law     = same_friction(press.penalty.preload_friction);
     press.setting.step    = penalty_step(state.grains, press.penalty.stiffness * pressure, press.penalty.step_fraction);
     const double duration = press.penalty.preload * press.setting.mean_diameter * std::sqrt(press.density / pressure);
     const long   n        = std::lround(std::ceil(duration / press.setting.step));

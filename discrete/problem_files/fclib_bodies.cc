@@ -99,8 +99,15 @@ namespace diptych::discrete
       const double mi = g.inverse_mass[3 * i], jx = g.inverse_mass[3 * j], jy = g.inverse_mass[3 * j + 1];
       const auto   spin = [&](const int b) { return g.is_disc(b) ? g.radius[b] * g.radius[b] * g.inverse_mass[3 * b + 2] : 0.; };
       const double wnn = mi + nx * nx * jx + ny * ny * jy, wtt = mi + ny * ny * jx + nx * nx * jy + spin(i) + spin(j);
-      const double cn = g.offset[2 * k], ct = g.offset[2 * k + 1];
-      return {nx, ny, i, j, 0, -1, spin(i), spin(j), jx, jy, cn, ct, friction, 1 / wnn, 1 / wtt};
+      ContactRow   row;
+      row.nx = nx, row.ny = ny;
+      row.i = i, row.j = j;
+      row.ki = spin(i), row.kj = spin(j);
+      row.jx = jx, row.jy = jy;
+      row.normal_term = g.offset[2 * k], row.tangential_term = g.offset[2 * k + 1];
+      row.friction    = friction;
+      row.inverse_wnn = 1 / wnn, row.inverse_wtt = 1 / wtt;
+      return row;
     }
 
     double own_coupling(const ContactProblem &problem)

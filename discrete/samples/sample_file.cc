@@ -322,16 +322,16 @@ namespace diptych::discrete
     const int         number = chosen_stage(file, path, wanted);
     const StageReader stage{file, path, stage_name(number)};
     GrainFile         result{path, read_grains(stage)};
-    const double      lower_y = stage.attribute("lower_y", -largest_magnitude), upper_y = stage.attribute("upper_y", lower_y);
-    result.stage = StoredStage{number,
-                               stage.attribute("time", -largest_magnitude),
-                               stage.attribute("step", 0.),
-                               lower_y,
-                               upper_y,
-                               stage.place("left_x"),
-                               stage.place("right_x"),
-                               stage.attribute("mean_diameter", smallest_length),
-                               read_impulses(stage, result.grains.size())};
+    StoredStage      &stored = result.stage.emplace();
+    stored.number            = number;
+    stored.time              = stage.attribute("time", -largest_magnitude);
+    stored.step              = stage.attribute("step", 0.);
+    stored.lower_y           = stage.attribute("lower_y", -largest_magnitude);
+    stored.upper_y           = stage.attribute("upper_y", stored.lower_y);
+    stored.left_x            = stage.place("left_x");
+    stored.right_x           = stage.place("right_x");
+    stored.mean_diameter     = stage.attribute("mean_diameter", smallest_length);
+    stored.impulses          = read_impulses(stage, result.grains.size());
     return result;
   }
 

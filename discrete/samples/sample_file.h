@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,13 +15,13 @@ namespace diptych::discrete
   // Contents of a stage of a snapshot file besides its grains.
   struct StoredStage
   {
-    int                      number;           // of the group stage_NNNN
-    double                   time;             // [time]
-    double                   step;             // length of the step that the impulses belong to [time]
-    double                   lower_y, upper_y; // platens [length]
-    double                   left_x, right_x;  // side walls [length]; NaN without side walls
-    double                   mean_diameter;    // [length]
-    std::vector<PairImpulse> impulses;         // closed contacts, ascending in (i, j); sign as in State; may be empty
+    int                      number  = 0;                 // of the group stage_NNNN
+    double                   time    = 0;                 // [time]
+    double                   step    = 0;                 // length of the step that the impulses belong to [time]
+    double                   lower_y = 0, upper_y = 0;    // platens [length]
+    double                   left_x = NAN, right_x = NAN; // side walls [length]; NaN without side walls
+    double                   mean_diameter = 0;           // [length]
+    std::vector<PairImpulse> impulses;                    // closed contacts, ascending in (i, j); sign as in State; may be empty
   };
 
   struct GrainFile

@@ -151,7 +151,7 @@ namespace diptych::discrete
       setting.step               = step_of_preparation(options, preparation.pressure);
       setting.time.gravity_x     = preparation.gravity.x();
       setting.time.gravity_y     = preparation.gravity.y();
-      setting.law                = {friction, friction, 0., 0., friction};
+      setting.law                = same_friction(friction);
       setting.solver             = preparation.solver;
       setting.solver.tolerance   = options.preparation_tolerance;
       setting.solver.max_sweeps  = options.preparation_max_sweeps;

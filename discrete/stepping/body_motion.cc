@@ -90,10 +90,15 @@ namespace diptych::discrete
     for (const int k : acting)
       {
         const Impulse &r = impulses[k], &before = previous[k];
-        const bool     both = before.normal > 0 && r.normal > 0;
-        state.impulses.push_back({contacts[k].i, contacts[k].j, r.normal, r.tangential, both ? r.normal - before.normal : 0.,
-                                  both ? r.tangential - before.tangential : 0., r.rolling,
-                                  both ? r.rolling - before.rolling : 0.});
+        PairImpulse    pair{contacts[k].i, contacts[k].j, r.normal, r.tangential};
+        pair.rolling = r.rolling;
+        if (before.normal > 0 && r.normal > 0)
+          {
+            pair.normal_change     = r.normal - before.normal;
+            pair.tangential_change = r.tangential - before.tangential;
+            pair.rolling_change    = r.rolling - before.rolling;
+          }
+        state.impulses.push_back(pair);
       }
   }
 } // namespace diptych::discrete

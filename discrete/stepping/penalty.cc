@@ -115,9 +115,12 @@ namespace diptych::discrete
     const std::vector<BodyVelocity> v       = body_velocities(trial);
     const ContactProblem            problem = make_problem(trial, setting, result.contacts, v,
                                                            {free_velocities(trial, v, result.applied_force, setting), {}, {}});
-    const SpringLaw                 law{kn, tangential_over_normal_stiffness * kn, options.damping,
-                        penalty.impulse_step > 0 ? penalty.impulse_step : h};
-    std::vector<BoundWork>          lost;
+    SpringLaw                       law;
+    law.kn            = kn;
+    law.kt            = tangential_over_normal_stiffness * kn;
+    law.damping       = options.damping;
+    law.previous_step = penalty.impulse_step > 0 ? penalty.impulse_step : h;
+    std::vector<BoundWork> lost;
     for (std::size_t k = 0; k < result.contacts.size(); ++k)
       {
         const double gap = result.contacts[k].gap;

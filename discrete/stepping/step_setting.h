@@ -19,6 +19,14 @@ namespace diptych::discrete
     double rolling_friction = 0, platen_rolling_friction = 0, wall_rolling_friction = 0;
   };
 
+  // One friction at grains, platens and walls, without restitution and rolling friction.
+  inline ContactLawOptions same_friction(const double friction)
+  {
+    ContactLawOptions law;
+    law.friction = law.platen_friction = law.wall_friction = friction;
+    return law;
+  }
+
   template <class Visitor> void visit_parameters(ContactLawOptions &o, Visitor &&visitor)
   {
     visitor("friction", o.friction, "-", {0., 100.}, "Coulomb coefficient between grains");

@@ -15,7 +15,7 @@ namespace diptych::tests
   {
     StepSetting setting;
     setting.step              = step;
-    setting.law               = {0., 0., 0., 0., 0.};
+    setting.law               = same_friction(0);
     setting.solver.solver     = ContactSolver::nsgs;
     setting.solver.tolerance  = 1e-14;
     setting.solver.max_sweeps = 100000;

@@ -22,8 +22,9 @@ namespace
       for (const double et : {-0.5, 0., 0.7})
         for (double angle = -1.5; angle < 1.5; angle += 0.1)
           {
-            StepSetting setting = exact_setting(step);
-            setting.law         = {mu, 0, en, et, 0};
+            StepSetting setting            = exact_setting(step);
+            setting.law.friction           = mu;
+            setting.law.normal_restitution = en, setting.law.tangential_restitution = et;
             const Eigen::Vector2d n(0.6, 0.8), t(-0.8, 0.6), approach(-std::cos(angle), std::sin(angle)); // along n and t
             const Eigen::Vector2d v1 = Eigen::Vector2d(0.3, -0.2) + approach.x() * n + approach.y() * t, v0(0.3, -0.2);
             State                 state;
@@ -278,7 +279,7 @@ namespace
     const auto           force  = [](State state) {
       StepSetting setting;
       setting.step              = 0.2;
-      setting.law               = {0, 0, 0, 0, 0};
+      setting.law               = same_friction(0);
       setting.solver.tolerance  = 1e-6;
       setting.solver.max_sweeps = 200000;
       setting.lateral           = EndGrains{};

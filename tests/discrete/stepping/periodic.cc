@@ -96,7 +96,7 @@ namespace
   {
     const double pressure = 1.5, height = 6, step = 0.02;
     StepSetting  setting     = exact_setting(step);
-    setting.law              = {0.4, 0., 0., 0., 0.}; // smooth platens: their forces have no x component
+    setting.law.friction     = 0.4; // the platens stay smooth: their forces have no x component
     setting.solver.tolerance = 1e-12;
     State state              = gas(9, height);
     state.cell->pressure = pressure, state.cell->mass = 20;
@@ -140,8 +140,9 @@ namespace
     for (const bool free : {true, false})
       for (const double e : {0., 0.6})
         {
-          StepSetting setting      = exact_setting(0.02);
-          setting.law              = {0.4, 0.5, e, 0.5 * e, 0.};
+          StepSetting setting  = exact_setting(0.02);
+          setting.law.friction = 0.4, setting.law.platen_friction = 0.5;
+          setting.law.normal_restitution = e, setting.law.tangential_restitution = 0.5 * e;
           setting.solver.tolerance = 1e-9; // a single weak contact has an impulse of round-off size
           State state              = gas(9, 6);
           if (free)
@@ -167,8 +168,8 @@ namespace
   {
     const double width = 9;
     const auto   path  = [&](const double shift, const bool scatter, const bool free) {
-      StepSetting setting      = exact_setting(0.02);
-      setting.law              = {0.4, 0.5, 0.5, 0., 0.};
+      StepSetting setting  = exact_setting(0.02);
+      setting.law.friction = 0.4, setting.law.platen_friction = setting.law.normal_restitution = 0.5;
       setting.solver.tolerance = 1e-13;
       State state              = gas(width, 6);
       if (free)

@@ -26,7 +26,7 @@ namespace
         : state(start),
           setting(exact_setting(0.1))
     {
-      setting.law = {friction, friction, 0., 0., friction};
+      setting.law = same_friction(friction);
       contacts    = find_contacts(state, std::vector<double>(state.grains.size(), 0.02));
       v_new       = body_velocities(state);
       problem     = make_problem(state, setting, contacts, v_new, {v_new, {}, {}});

@@ -218,9 +218,10 @@ namespace
   // Grains fall on fixed grains, one of which moves and spins. It keeps its motion, and the ledgers close in every step.
   TEST(FixedGrains, KeepTheirMotionAndTheLedgers)
   {
-    StepSetting setting      = exact_setting(0.01);
-    setting.time.gravity_y   = -10;
-    setting.law              = {0.3, 0.3, 0.5, 0.2, 0.3};
+    StepSetting setting            = exact_setting(0.01);
+    setting.time.gravity_y         = -10;
+    setting.law                    = same_friction(0.3);
+    setting.law.normal_restitution = 0.5, setting.law.tangential_restitution = 0.2;
     setting.solver.tolerance = 1e-12;
     State state;
     state.walls = {{{0, -0.5}, {0, 1}}};
@@ -256,8 +257,10 @@ namespace
     const double friction[3] = {0.1, 0.2, 0.3}; // grain on grain, platen, side wall
     for (int pair = 0; pair < 3; ++pair)
       {
-        StepSetting setting    = exact_setting(0.01);
-        setting.law            = {friction[0], friction[1], 0, 0, friction[2]};
+        StepSetting setting         = exact_setting(0.01);
+        setting.law.friction        = friction[0];
+        setting.law.platen_friction = friction[1];
+        setting.law.wall_friction   = friction[2];
         setting.time.gravity_x = 3, setting.time.gravity_y = -1;
         State state = disc_on_floor({0, 0});
         if (pair == 0)
