@@ -124,11 +124,6 @@ namespace diptych::coupling
         add_threads(grains);
         add_resume(grains, "an interrupted run");
         add_overwrite(grains);
-        grains
-          ->add_option_function<std::string>(
-            "--study", [this](const std::string &) { line.study_of_step = true; },
-            "step: run with step h, h/2 and h/4 and compare energy and stress ratio")
-          ->check(one_of({"step"}));
         add_quiet(grains);
 
         CLI::App *continuum = add(Command::continuum, "compute only the continuum; also under mpirun");

@@ -48,10 +48,9 @@ namespace diptych::coupling
   // Those of a run with grains or continuum.
   struct SceneOptions
   {
-    std::vector<std::string> overrides;             // --set section/key=value, after the keys of --set-file
-    std::vector<std::string> set_files;             // --set-file
-    bool                     study_of_step = false; // discrete: --study step
-    bool                     checks_only   = false; // run: --check
+    std::vector<std::string> overrides;           // --set section/key=value, after the keys of --set-file
+    std::vector<std::string> set_files;           // --set-file
+    bool                     checks_only = false; // run: --check
   };
 
   struct CommandLine : RunOptions, SceneOptions

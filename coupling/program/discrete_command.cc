@@ -1,4 +1,4 @@
-// diptych: the grains alone: run, checkpoints, resume, study of the step
+// diptych: the grains alone: run, checkpoints, resume
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/program/discrete_command.h"
 
@@ -9,7 +9,6 @@
 #include <optional>
 #include <sstream>
 
-#include "coupling/program/step_comparison.h"
 #include "coupling/import/imported_folder.h"
 #include "coupling/grains/imported_grains.h"
 #include "coupling/grains/interrupted_grains.h"
@@ -17,7 +16,6 @@
 #include "coupling/processes/progress.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/program/commands.h"
-#include "coupling/program/report_command.h"
 #include "coupling/program/resource_estimate.h"
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_error.h"
@@ -106,7 +104,7 @@ namespace diptych::coupling
             << " d P\n";
     }
 
-    // What makes a finished run doubtful, a line each.
+    // The reasons to doubt a finished run, a line each.
     std::string doubts(const Rows &rows, const discrete::Report &report, const Scene &scene)
     {
       constexpr double         doubtful_penetration = 0.02, doubtful_gain = 0.1;
@@ -163,7 +161,7 @@ namespace diptych::coupling
         std::cerr << "discrete panel: warning: " << line << std::endl;
     }
 
-    // What came of the copy that was solved on to measure error against residual.
+    // Result of the more accurate solve that gives error over residual.
     std::string reference_text(const discrete::Report &report)
     {
       if (std::isnan(report.reference_residual))
@@ -211,60 +209,6 @@ namespace diptych::coupling
                   << scene.output.directory << " --resume (with the same --set)";
       std::cerr << std::endl;
       return not_converged;
-    }
-
-    void check_study(const Scene &scene)
-    {
-      if (scene.discrete.method.method == discrete::Method::imported)
-        throw SceneError("--study step: discrete/method = imported has no step of its own");
-      if (scene.discrete.method.method == discrete::Method::penalty)
-        throw SceneError(
-          "--study step: discrete/method = penalty takes its step from penalty_step_fraction, not from discrete/step");
-      if (!scene.discrete.time.step)
-        throw SceneError("--study step: discrete/step must be a number to be halved, not auto");
-    }
-
-    void check_resumed(const CommandLine &line, const Scene &scene)
-    {
-      if (line.resume)
-        check_earlier_grains(scene.output.directory, text_of(sample_identity(scene)));
-    }
-
-    constexpr int divisors[] = {1, 2, 4};
-
-    Scene part_of_study(const Scene &scene, const int divisor)
-    {
-      Scene part            = scene;
-      part.output.directory = scene.output.directory + "/step_" + std::to_string(divisor);
-      *part.discrete.time.step /= divisor;
-      return part;
-    }
-
-    // The same prepared sample at h, h/2 and h/4 in the folders step_1, step_2, step_4; study_step.csv, .json and .png compare
-    // energy and stress ratio against time and give a verdict. `first`, if there, has prepared the sample for h.
-    int step_study(const CommandLine &line, const Scene &scene, std::unique_ptr<RecordedGrains> first, const Scene &first_part)
-    {
-      std::vector<StepRun> runs;
-      for (const int divisor : divisors)
-        {
-          const Scene part = divisor == 1 ? first_part : part_of_study(scene, divisor);
-          const int   code = writing(part.output.directory, [&](FolderLock &lock) {
-            ResultFolder(part).open(lock, {line.resume, false, false, true, line.text, {}},
-                                      [&](const SceneChanges &) { check_resumed(line, part); });
-            return discrete_panel(line, part, std::move(first));
-          });
-          if (code != done)
-            return code;
-          runs.push_back({*part.discrete.time.step,
-                          history_table(discrete::read_rows<discrete::HistoryRow>(discrete_csv(part.output.directory)))});
-        }
-      const StepComparison comparison = compare_steps(runs, averaging_width(scene),
-                                                      discrete::loading_variable_of(scene.loading.mode));
-      write_step_comparison(scene.output.directory, runs, comparison);
-      draw(Drawing::step_study, scene.output.directory);
-      say(line, comparison.verdict);
-      say(line, "study of the step: " + study_step(scene.output.directory, ".png"));
-      return done;
     }
   } // namespace
 
@@ -334,29 +278,22 @@ namespace diptych::coupling
 
   int run_discrete(const CommandLine &line, const Scene &scene)
   {
-    if (line.study_of_step)
-      check_study(scene);
     if (scene.discrete.method.method == discrete::Method::imported)
       (void)load_imported(scene);
-    if (!line.resume && !line.overwrite && !line.study_of_step && ResultFolder(scene).holds_finished_grains())
+    if (!line.resume && !line.overwrite && ResultFolder(scene).holds_finished_grains())
       {
         say(line, scene.output.directory + " holds the finished grains of this scene; --overwrite runs them again");
         return done;
       }
-    if (!line.study_of_step)
-      announce_resources(line, scene, {true, false});
-    else
-      for (const int divisor : divisors)
-        announce_resources(line, part_of_study(scene, divisor), {true, false});
+    announce_resources(line, scene, {true, false});
     return writing(scene.output.directory, [&](FolderLock &lock) {
-      const Scene                     first = line.study_of_step ? part_of_study(scene, divisors[0]) : scene;
       std::unique_ptr<RecordedGrains> prepared;
       ResultFolder(scene).open(lock, opening_of(line), [&](const SceneChanges &) {
-        check_resumed(line, scene);
-        prepared = prepared_early(line, first);
+        if (line.resume)
+          check_earlier_grains(scene.output.directory, text_of(sample_identity(scene)));
+        prepared = prepared_early(line, scene);
       });
-      return line.study_of_step ? step_study(line, scene, std::move(prepared), first)
-                                : discrete_panel(line, first, std::move(prepared));
+      return discrete_panel(line, scene, std::move(prepared));
     });
   }
 } // namespace diptych::coupling

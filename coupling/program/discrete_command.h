@@ -1,4 +1,4 @@
-// diptych: the grains alone: run, checkpoints, resume, study of the step
+// diptych: the grains alone: run, checkpoints, resume
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 

@@ -6,7 +6,6 @@
 #include <cctype>
 #include <iostream>
 
-#include "coupling/program/step_comparison.h"
 #include "coupling/import/import_record.h"
 #include "coupling/program/result_entries.h"
 #include "coupling/scene/scene_error.h"
@@ -54,8 +53,6 @@ namespace diptych::coupling
     result.push_back({h5, "contacts/impulse", "pairs of numbers", "pressure length time", contact_impulses});
     visit_contact_values(s, add);
     visit_outline(s, add);
-    add_table("study_step.csv", step_study_columns(), result);
-    add_record("study_step.json", StepComparison(), result);
     add_record("provenance.json", ProvenanceDocument{Origin(), RunFacts()}, result);
     add_record("import.json", ImportRecord(), result);
     result.push_back({h5, "not_told", "attribute, name", "-",

@@ -38,17 +38,15 @@ namespace diptych::coupling
           return "homogenised";
         case Drawing::element:
           return "element";
-        case Drawing::movie:
-          return "movie";
         default:
-          return "step-study";
+          return "movie";
         }
     }
 
-    // What it was writing, however it ended.
+    // Removes unfinished files of a drawing that failed.
     void remove_parts(const std::string &directory)
     {
-      for (const char *name : {"report.html.part", "study_step.png.part", "movie.gif.part"})
+      for (const char *name : {"report.html.part", "movie.gif.part"})
         fs::remove(directory + "/" + name);
     }
   } // namespace

@@ -16,7 +16,6 @@ namespace diptych::coupling
     calibration, // report.html of a calibration
     homogenised, // report.html of homogenised grains
     element,     // report.html of grains and law on one path
-    step_study,  // study_step.png
     movie        // movie.gif of a result folder
   };
 

@@ -31,12 +31,7 @@ namespace diptych::coupling
 
   double mean_over_progress(const HistoryTable &table, const std::string &name, const double from, const double to)
   {
-    return mean_over(table, {"progress", name}, from, to);
-  }
-
-  double mean_over(const HistoryTable &table, const ColumnPair &names, const double from, const double to)
-  {
-    const std::vector<double> &xs = column(table, names.abscissa), &ys = column(table, names.ordinate);
+    const std::vector<double> &xs = column(table, "progress"), &ys = column(table, name);
     double                     integral = 0, x = from, y = interpolate(xs, ys, from);
     for (std::size_t k = std::upper_bound(xs.begin(), xs.end(), from) - xs.begin(); x < to; ++k)
       {

@@ -38,12 +38,6 @@ namespace diptych::coupling
   // values continue beyond the ends. So rows at uneven distances are weighted by the range that they represent.
   double mean_over_progress(const HistoryTable &table, const std::string &name, double from, double to);
 
-  struct ColumnPair
-  {
-    std::string abscissa, ordinate;
-  };
-  double mean_over(const HistoryTable &table, const ColumnPair &names, double from, double to);
-
   // T/S = (mean of t) / (mean of s) over the range [from, to] of the progress. Columns: sxx, sxy, syx (if present) and syy.
   // Unlike the mean of t/s it gives less weight to moments of small load. NaN if the history does not reach `to`.
   double ratio_of_means(const HistoryTable &table, double from, double to);

@@ -78,10 +78,6 @@ namespace diptych::coupling
   {
     return folder + "/fields";
   }
-  inline std::string study_step(const std::string &folder, const std::string &extension)
-  {
-    return folder + "/study_step" + extension;
-  }
   inline std::string report_html(const std::string &folder)
   {
     return folder + "/report.html";

@@ -263,7 +263,6 @@ class WrongInput(Ensemble):
         self.expect_wrong(["run", QUICK, "--jobs", "2"], "'--jobs 2' is not used", "--seeds")
         self.expect_wrong(["run", QUICK, "--seeds", "1-2", "--jobs", "0"], "--jobs", "from 1 to 4096")
         self.expect_wrong(["run", QUICK, "--seeds", "1-2", "--set", "sample/seed=3"], "sample/seed=3", "--seeds 1-2")
-        self.expect_wrong(["run", QUICK, "--seeds", "1-2", "--study", "step"], "--study")
 
     def test_a_sample_of_a_file_has_no_seed(self):
         rows = "".join(f"{x},0.5,0.5\n" for x in range(12))

@@ -48,9 +48,8 @@ class Results(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         work = temporary(cls)
-        cls.ensemble, cls.study, cls.point = (os.path.join(work, name) for name in ("ensemble", "study", "point"))
-        for words in (["run", "--seeds", "1-2", "--output", cls.ensemble], ["discrete", "--study", "step", "--output", cls.study],
-                      ["material-point", "--output", cls.point]):
+        cls.ensemble, cls.point = (os.path.join(work, name) for name in ("ensemble", "point"))
+        for words in (["run", "--seeds", "1-2", "--output", cls.ensemble], ["material-point", "--output", cls.point]):
             finished(words[0], QUICK, *TINY, *words[1:], "--quiet")
         cls.run_ = os.path.join(cls.ensemble, "seed_1")
         cls.explained = explained()
@@ -67,15 +66,14 @@ class Results(unittest.TestCase):
 
     def test_columns_of_tables(self):
         for folder, name in ((self.run_, "discrete.csv"), (self.run_, "continuum.csv"), (self.point, "material_point.csv"),
-                             (self.run_, "comparison.csv"), (self.run_, "summary.csv"), (self.ensemble, "ensemble.csv"),
-                             (self.study, "study_step.csv")):
+                             (self.run_, "comparison.csv"), (self.run_, "summary.csv"), (self.ensemble, "ensemble.csv")):
             columns = [column for column in history(folder, name) if not re.fullmatch("seed_[0-9]+", column)]
             self.assertGreater(len(columns), 5)
             self.assertEqual([column for column in columns if column not in self.entries(name)], [], name)
 
     def test_keys_of_json_files(self):
         for folder, name in ((self.run_, "comparison.json"), (self.run_, "provenance.json"), (self.ensemble, "ensemble.json"),
-                             (self.ensemble, "provenance.json"), (self.study, "study_step.json")):
+                             (self.ensemble, "provenance.json")):
             record = read_json(folder, name)
             record.pop("numbers", None)  # what explains the file itself
             found = set(places(record))

@@ -179,7 +179,6 @@ class Refused(Case):
                      "comparison/window_edges=0,0.03", says="frames")
         self.refused("run", scene, "--output", self.path("out"), "--set", "loading/stages=0.01,0.02,0.031", "--set",
                      "loading/axial_strain=0.031", "--set", "comparison/window_edges=0,0.031", says="frame 3 is at")
-        self.refused("discrete", scene, "--output", self.path("out"), "--study", "step", says="imported")
 
 
 class Export(Case):

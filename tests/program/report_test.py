@@ -313,19 +313,5 @@ class Formulas(unittest.TestCase):
                         self.assertTrue(any(one == t or one.startswith(t + ".") for t in targets), f"{path}: {one}")
 
 
-class StepStudy(unittest.TestCase):
-    def test_a_step_study_is_drawn_and_a_missing_file_is_an_input_error(self):
-        with tempfile.TemporaryDirectory() as folder:
-            self.assertEqual(run(folder, "step-study").returncode, 2)
-            write_json(folder, "study_step.json", {"verdict": "the step does not matter", "steps": [0.1, 0.05]})
-            with open(os.path.join(folder, "study_step.csv"), "w", encoding="utf-8") as stream:
-                stream.write("step,time,progress,stress_ratio,stress_ratio_mean,external_work\n")
-                stream.writelines(f"{step},{k},{0.001 * k},0.3,0.3,{k}\n" for step in (0.1, 0.05) for k in range(5))
-            outcome = run(folder, "step-study")
-            self.assertEqual((outcome.returncode, outcome.stderr), (0, ""))
-            with open(os.path.join(folder, "study_step.png"), "rb") as stream:
-                self.assertEqual(stream.read(8), b"\x89PNG\r\n\x1a\n")
-
-
 if __name__ == "__main__":
     unittest.main()

@@ -1,34 +1,16 @@
 #!/usr/bin/env python3
-# diptych: study of the step and stored contact problems
+# diptych: stored contact problems
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: solve_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
 
 import os
-import re
 import shutil
 
 import h5py
 import numpy
 import scipy.sparse
 
-from running import bits, diptych, finished, Folder, history, listing, main, PROBLEMS, QUICK, read_json, setting, SMALL, write
-
-
-class Study(Folder):
-    def test_three_steps_and_a_verdict(self):
-        words = SMALL + setting(sample_grains=200, loading_axial_strain=0.005, comparison_window_edges="0,0.005")
-        result = finished("discrete", QUICK, *words, "--study", "step", "--output", self.folder)
-        self.assertGreater(os.path.getsize(self.path("study_step.png")), 100)
-        study, step = read_json(self.folder, "study_step.json"), history(self.folder, "study_step.csv")["step"]
-        self.assertEqual(study["steps"], [0.1, 0.05, 0.025])
-        self.assertIn(study["verdict"], result.stdout)
-        self.assertEqual([quantity["name"] for quantity in study["quantities"] if quantity["largest_difference"][2] == 0],
-                         ["stress_ratio", "external_work", "friction_dissipation", "impact_dissipation"])
-        self.assertEqual([(step == one).sum() for one in study["steps"]], [50, 100, 200])
-        self.assertEqual(re.findall(r"(\d+) steps", result.stdout)[:3], ["50", "100", "200"])
-        # One and the same prepared sample for all three.
-        first = {bits(self.path(name, "discrete.h5"))["stage_0000/grains/position"] for name in ("step_1", "step_2", "step_4")}
-        self.assertEqual(len(first), 1)
+from running import bits, diptych, Folder, listing, main, PROBLEMS, write
 
 
 def solve(problem, *words):

@@ -45,9 +45,7 @@ class WrongKeys(Folder):
                 (drive("upper_x", "velocity 1 2"), "discrete/drive_upper_x", "1 2"),
                 (drive("upper_x", ""), "discrete/drive_upper_x"),
                 (drive("upper_x", "force "), "discrete/drive_upper_x", "'force'"),
-                (drive("left_x", "velocity 1"), "discrete/drive_left_x", "rigid_walls"),
-                (["--study", "grid"], "--study", "'grid'", "step"),
-                (setting(discrete_step="auto") + ["--study", "step"], "--study step", "discrete/step")):
+                (drive("left_x", "velocity 1"), "discrete/drive_left_x", "rigid_walls")):
             self.expect_wrong(words, *texts)
 
     def test_tables(self):

@@ -1,4 +1,4 @@
-# diptych: pages and pictures; python3 -m diptych.report page|movie|ensemble|study|calibration|element|homogenised|step-study DIR [NEXT]
+# diptych: pages and pictures; python3 -m diptych.report page|movie|ensemble|study|calibration|element|homogenised DIR [NEXT]
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Exit codes: 0 done, 2 wrong input (usage, missing or broken file, another format), 4 a module is missing or a file cannot be
 written. A new page replaces the old one only when it is complete."""
@@ -18,7 +18,6 @@ DRAWINGS = {
     "calibration": ("page.calibration_page", "calibration.json, calibration_cost.json"),
     "element": ("page.element_page", "element.json, element.csv"),
     "homogenised": ("page.homogenised_page", "homogenised.json, fields_*.vtu, provenance.json"),
-    "step-study": ("charts.step_study", "study_step.json, study_step.csv"),
 }
 
 
