@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: house_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
 
+import ast
 import os
 import re
 import shutil
@@ -60,6 +61,16 @@ def functions(path):
         yield end - k - 1, words.count(",") + 1 if words else 0, k, head
 
 
+def positional_records(source):
+    """(name, number of fields) of the dataclasses of a Python source with more than three fields that calls may give by
+    position."""
+    for record in ast.walk(ast.parse(source)):
+        made = [ast.unparse(one) for one in record.decorator_list] if isinstance(record, ast.ClassDef) else []
+        fields = sum(isinstance(line, ast.AnnAssign) for line in getattr(record, "body", []) if made)
+        if fields > 3 and any(one.startswith("dataclass") and "kw_only=True" not in one for one in made):
+            yield record.name, fields
+
+
 HEADS = re.compile(r"((if|for|while|switch) *(constexpr )?@\s*|(else|do)\b\s*|case [\w:@]+:\s+|default:\s+)*")
 CHAIN = re.compile(r"(\+\+|--|\*)?[\w:]+((\.|->)\w+|[@$])*(\+\+|--)?(\s*[-+*/%|&^]?=[^=,][^,]*)?,")
 # Strings, comments and directives; then what holds no brackets any more: lambdas, blocks, arguments, lists, indices, types.
@@ -115,6 +126,17 @@ class House(unittest.TestCase):
         with tempfile.TemporaryDirectory() as work:  # it can fail
             path = write(os.path.join(work, "long.cc"), "int f(const A<int, B> a,\n      int b)\n{\n" + "  ++a;\n" * 70 + "}\n")
             self.assertEqual([function[:2] for function in functions(path)], [(70, 2)])
+
+    def test_records_of_more_than_three_fields_are_built_by_name(self):
+        """A field that is inserted must not shift the values of a call. The readers' records are left out."""
+        package = os.path.join(SOURCE, "coupling", "python", "diptych")
+        paths = [path for path in sources(".py") if path.startswith(package) and "/importers/" not in path]
+        found = [(path, *record) for path in paths for record in positional_records(content(path))]
+        self.assertGreater(len(paths), 50)
+        self.assertEqual(found, [])
+        four = "@dataclass(frozen=True)\nclass A:\n    a: int\n    b: int\n    c: int\n    d: int = 0\n"
+        self.assertEqual(list(positional_records(four)), [("A", 4)])  # it can fail
+        self.assertEqual(list(positional_records(four.replace("frozen", "kw_only"))), [])
 
     def misformatted(self, files):
         words = ["clang-format", "--style=file:" + os.path.join(SOURCE, ".clang-format"), "--dry-run", *files]

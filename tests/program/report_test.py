@@ -221,7 +221,7 @@ class OtherFolders(unittest.TestCase):
             with h5py.File(path("comparison.h5"), "w") as file:
                 file["mine"] = [1.0]
 
-        self.refused(lambda path: None, r"usage: python3 -m diptych\.report page\|movie\|ensemble\|study\|calibration\|element\|homogenised\|step-study", "figure")
+        self.refused(lambda path: None, r"usage: python3 -m diptych\.report page\|movie\|ensemble\|study\|calibration\|element\|homogenised", "figure")
         self.refused(lambda path: os.remove(path("continuum.csv")), r"missing: .*continuum\.csv")
         self.refused(lambda path: write_json(path(""), "comparison.json", {"format": 1}), r".*comparison\.json: format 1, .* 2;")
         self.refused(lambda path: write_json(path(""), "provenance.json", {"a": [1, 2]}), r".*provenance\.json")

@@ -4,9 +4,9 @@
 
 import math
 import os
+from dataclasses import replace
 
 import numpy as np
-import pandas as pd
 import pytest
 from conftest import QUICK
 
@@ -28,19 +28,26 @@ from diptych.campaigns.runs.histories import mean_over
 from diptych.campaigns.runs.input_file import Setting
 
 BINS = [0, 0.001, 0.002, 0.004, 0.006, 0.008, 0.01, 0.0125, 0.015, 0.02, 0.025, 0.03]
-SIX = [Parameter("friction_angle_peak", "logarithm", 30, 12, 45),
-       Parameter("friction_angle_residual", "drop_from", 0.6, 0.02, 0.9, "friction_angle_peak"),
-       Parameter("friction_angle_start", "share_of", 0.9, 0.3, 1, "friction_angle_peak"),
-       Parameter("mobilisation_strain", "logarithm", 0.01, 5e-4, 0.05),
-       Parameter("dilatancy_angle_peak", "share_of", 0.3, 0.05, 1, "friction_angle_start"),
-       Parameter("youngs_modulus", "logarithm", 4000, 100, 20000)]
+
+
+def parameter(key, coordinate, start, low, high, **more):
+    return Parameter(key=key, coordinate=coordinate, start=start, low=low, high=high, **more)
+
+
+SIX = [parameter("friction_angle_peak", "logarithm", 30, 12, 45),
+       parameter("friction_angle_residual", "drop_from", 0.6, 0.02, 0.9, other="friction_angle_peak"),
+       parameter("friction_angle_start", "share_of", 0.9, 0.3, 1, other="friction_angle_peak"),
+       parameter("mobilisation_strain", "logarithm", 0.01, 5e-4, 0.05),
+       parameter("dilatancy_angle_peak", "share_of", 0.3, 0.05, 1, other="friction_angle_start"),
+       parameter("youngs_modulus", "logarithm", 4000, 100, 20000)]
 TRUTHS = [23, 0.35, 0.6, 0.004, 0.7, 900]  # numbers of the coordinates
-USUAL = Noise(0.02, 0.0045, 1e-4, 0.04, 0.3, 0, 0)
+LEVELS = {"stress_level": 0.02, "stress_shape": 0.0045, "volume_start": 1e-4, "volume_growth": 0.04, "ln_width": 0.3}
+USUAL = replace(noise.NO_SCATTER, **LEVELS)
 SCENE = scenes.read({"loading": {"axial_strain": 0.03}, "comparison": {"window_edges": [0, 0.03]}})
 
 
 def with_starts(parameters, numbers):
-    return [Parameter(p.key, p.coordinate, number, p.low, p.high, p.other, p.targets) for p, number in zip(parameters, numbers)]
+    return [replace(p, start=number) for p, number in zip(parameters, numbers)]
 
 
 def response(settings, observables):
@@ -58,9 +65,10 @@ def response(settings, observables):
 def calibration(parameters=SIX, targets=("only",), fixed=(), **options):
     """Synthetic data need no model tolerance."""
     own = Noise(stress_discrepancy=1e-5, early_stress_discrepancy=0, volume_discrepancy=1e-6, **options)
-    return Calibration("c", "c.json", "c", [Target(name, "", [], [1, 2]) for name in targets],
-                       ["stress_ratio", "volumetric_strain"], BINS, list(parameters),
-                       [Setting("continuum", *one, "") for one in fixed], own, starts=1)
+    return Calibration(name="c", file="c.json", title="c",
+                       targets=[Target(name=name, scene="", settings=[], seeds=[1, 2]) for name in targets],
+                       kinds=["stress_ratio", "volumetric_strain"], bins=BINS, parameters=list(parameters),
+                       fixed=[Setting("continuum", *one, "") for one in fixed], noise=own, starts=1)
 
 
 @pytest.fixture(autouse=True)
@@ -73,13 +81,14 @@ EXACT = {"stress_level": 1e-5, "stress_shape": 1e-5, "volume_start": 1e-6, "volu
 
 
 def path_of(target, data):
-    return Path(target, SCENE, data, [Observation(values) for values in data.values], [""] * len(data.observables))
+    return Path(target=target, scene=SCENE, data=data, samples=[Observation(values=values) for values in data.values],
+                left_out=[""] * len(data.observables))
 
 
 def calibrated(c, paths):
     record = empty_record("c")
     calibrate(Trials(c, Coordinates(c.parameters, {}), paths, lambda on, points, fine, step: [
-        [Observation(response(s, path.data.observables)) for path, s in zip(on, point)] for point in points], record))
+        [Observation(values=response(s, path.data.observables)) for path, s in zip(on, point)] for point in points], record))
     return record
 
 
@@ -89,35 +98,40 @@ def truth_of(c, target, numbers):
 
 
 def drawn(model, observables, truth, n, seed):
-    root = np.linalg.cholesky(noise.covariance(model, Data(observables, truth)))
-    return Data(observables, truth + np.random.default_rng(seed).normal(size=(n, len(truth))) @ root.T)
+    root = np.linalg.cholesky(noise.covariance(model, Data(observables=observables, values=truth)))
+    return Data(observables=observables,
+                values=truth + np.random.default_rng(seed).normal(size=(n, len(truth))) @ root.T)
+
+
+def bins(kind, *edges):
+    return [Observable(kind=kind, low=low, high=high) for low, high in zip(edges, edges[1:])]
 
 
 def usual_observables():
     edges = np.linspace(0, 0.03, 14)
-    found = [Observable(kind, a, b) for kind in noise.KINDS[:2] for a, b in zip(edges, edges[1:])]
-    return found + [Observable("ln_width", 0.01 * k, 0.01 * (k + 1)) for k in range(3)]
+    found = [one for kind in noise.KINDS[:2] for one in bins(kind, *edges)]
+    return found + bins("ln_width", 0, 0.01, 0.02, 0.03)
 
 
 def test_shares_and_drops_refer_to_other_keys():
     there = Coordinates(with_starts(SIX, TRUTHS), {})
     assert there.values(there.start) == pytest.approx([23, 23 * 0.65, 23 * 0.6, 0.004, 23 * 0.6 * 0.7, 900])
-    alone = [Parameter("dilatancy_angle_peak", "share_of", 0.5, 0, 1, "friction_angle_peak")]
+    alone = [parameter("dilatancy_angle_peak", "share_of", 0.5, 0, 1, other="friction_angle_peak")]
     fixed = Coordinates(alone, {"friction_angle_peak": 30})
     assert fixed.values(fixed.start) == pytest.approx([15])
-    for wrong in (alone, [Parameter("cohesion", "share_of", 0.5, 0, 1, "cohesion")]):
+    for wrong in (alone, [parameter("cohesion", "share_of", 0.5, 0, 1, other="cohesion")]):
         with pytest.raises(ValueError):
             Coordinates(wrong, {})
 
 
 def test_a_parameter_may_belong_to_some_targets():
-    own = [Parameter("friction_angle_start", "share_of", share, 0, 1, "friction_angle_peak", (name,))
+    own = [parameter("friction_angle_start", "share_of", share, 0, 1, other="friction_angle_peak", targets=(name,))
            for name, share in (("dense", 0.8), ("loose", 0.2))]
-    there = Coordinates([Parameter("friction_angle_peak", "value", 30, 10, 40), *own], {})
+    there = Coordinates([parameter("friction_angle_peak", "value", 30, 10, 40), *own], {})
     found = {name: [float(one.value) for one in there.settings(there.start, name)] for name in ("dense", "loose", "medium", "")}
     assert found == {"dense": pytest.approx([30, 24]), "loose": pytest.approx([30, 6]), "medium": [30], "": [30]}
     with pytest.raises(ValueError, match="other targets"):  # a common parameter has no value
-        Coordinates([*own, Parameter("dilatancy_angle_peak", "share_of", 0.5, 0, 1, "friction_angle_start")],
+        Coordinates([*own, parameter("dilatancy_angle_peak", "share_of", 0.5, 0, 1, other="friction_angle_start")],
                     {"friction_angle_peak": 30})
 
 
@@ -171,21 +185,22 @@ def test_weights_leave_the_common_level_out():
 def test_a_calibration_finds_the_parameters_of_its_own_data():
     c = calibration(**EXACT)
     truth = truth_of(c, "", TRUTHS)
-    record = calibrated(c, [path_of(c.targets[0], Data(c.observables_of(SCENE), [truth, truth]))])
+    record = calibrated(c, [path_of(c.targets[0], Data(observables=c.observables_of(SCENE), values=[truth, truth]))])
     assert record["status"] == "finished"
     assert [p["number"] for p in record["parameters"]] == pytest.approx(TRUTHS, rel=1e-3)
     assert record["coarse_runs"] <= 60 and record["fine_runs"] <= 10
 
 
 def test_a_calibration_finds_values_of_single_targets():
-    parameters = [Parameter("friction_angle_peak", "logarithm", 28, 12, 45),
-                  Parameter("mobilisation_strain", "logarithm", 0.01, 5e-4, 0.05),
-                  *(Parameter("friction_angle_start", "value", start, 1, 20, "", (name,)) for name,
+    parameters = [parameter("friction_angle_peak", "logarithm", 28, 12, 45),
+                  parameter("mobilisation_strain", "logarithm", 0.01, 5e-4, 0.05),
+                  *(parameter("friction_angle_start", "value", start, 1, 20, targets=(name,)) for name,
                     start in (("dense", 15), ("loose", 10)))]
     c = calibration(parameters, ("dense", "loose", "other"),
                     [("dilatancy_angle_peak", "3"), ("friction_angle_residual", "12"), ("youngs_modulus", "900")], **EXACT)
     c.targets[2].is_fitted, truths = False, [24, 0.004, 18, 5]
-    paths = [path_of(target, Data(c.observables_of(SCENE), [truth_of(c, target.name, truths)] * 2)) for target in c.targets[:2]]
+    paths = [path_of(target, Data(observables=c.observables_of(SCENE),
+                                  values=[truth_of(c, target.name, truths)] * 2)) for target in c.targets[:2]]
     record = calibrated(c, paths)
     assert [p["number"] for p in record["parameters"]] == pytest.approx(truths, rel=1e-3)
     assert [(one["target"], round(one["value"], 2)) for one in record["own"]] == [("dense", 18), ("loose", 5)]
@@ -211,10 +226,11 @@ def test_failed_runs_are_left_out_and_told():
     def observed(settings, observables, fine):
         angle = next(float(one.value) for one in settings if one.key == "friction_angle_peak")
         if fine or angle > 29:
-            return Observation(np.full(len(observables), np.nan), failure="no balance" if fine else f"angle {angle} exceeds 29")
-        return Observation(response(settings, observables))
+            return Observation(values=np.full(len(observables), np.nan),
+                               failure="no balance" if fine else f"angle {angle} exceeds 29")
+        return Observation(values=response(settings, observables))
 
-    path = path_of(c.targets[0], Data(c.observables_of(SCENE), [truth, truth]))
+    path = path_of(c.targets[0], Data(observables=c.observables_of(SCENE), values=[truth, truth]))
     path.target.before = [Setting("continuum", "friction_angle_peak", "20", "")]
     calibrate(Trials(c, Coordinates(c.parameters, {}), [path], lambda on, points, fine, step: [
         [observed(s, on[0].data.observables, fine) for s in point] for point in points], record))
@@ -227,10 +243,11 @@ def test_failed_runs_are_left_out_and_told():
 @pytest.mark.parametrize("peak, volume, verdicts", [(0.4, -0.003, ["equivalent", "equivalent"]),
                                                     (0.3, -0.006, ["different", "different"])])
 def test_given_deviations_of_a_curve_decide(peak, volume, verdicts):
-    observables = [Observable("stress_ratio", 0, 0.03), Observable("volumetric_strain", 0, 0.03)]
-    path = path_of(Target("lab", "", [], curve="lab.csv"), Data(observables, [0.4, -0.003], [0.004, 0.0005]))
+    observables = bins("stress_ratio", 0, 0.03) + bins("volumetric_strain", 0, 0.03)
+    path = path_of(Target(name="lab", scene="", settings=[], curve="lab.csv"),
+                   Data(observables=observables, values=[0.4, -0.003], given=[0.004, 0.0005]))
     path.samples[0].peak_stress_ratio = 0.4
-    now = Observation(np.array([peak, volume]), peak)
+    now = Observation(values=np.array([peak, volume]), peak_stress_ratio=peak)
     found = predictions(path, (now, now), np.zeros(2))
     assert [one["verdict"] for one in found] == verdicts
     assert found[1]["difference"].high == pytest.approx(volume + 0.003 + 1.96 * 0.0005, rel=1e-4)
@@ -247,16 +264,15 @@ axial_strain,stress_ratio,stress_ratio_deviation,volumetric_strain
 def test_a_measured_curve_gives_means_over_bins_and_its_own_deviations(tmp_path):
     file = tmp_path / "lab.csv"
     file.write_text(CURVE)
-    observables = [Observable("stress_ratio", a, b) for a, b in ((0, 0.01), (0.01, 0.02), (0.02, 0.03))]
-    observables.append(Observable("volumetric_strain", 0.01, 0.02))
+    observables = bins("stress_ratio", 0, 0.01, 0.02, 0.03) + bins("volumetric_strain", 0.01, 0.02)
     o, deviations = observe_curve(SCENE, observables, str(file))
     assert o.values == pytest.approx([0.15, 0.35, np.nan, -0.003], nan_ok=True)  # beyond its end nothing is measured
     assert deviations == pytest.approx([0.01, 0.015, np.nan, np.nan], nan_ok=True)
-    data = Data(observables[:2], o.values[:2], deviations[:2])
-    assert noise.noise_of([data], Noise()) == Noise(*[0] * 7)  # no scatter is needed: all deviations are measured
-    assert np.sqrt(np.diag(noise.covariance(Noise(*[0] * 7), data))) == pytest.approx([0.01, 0.015])
+    data = Data(observables=observables[:2], values=o.values[:2], given=deviations[:2])
+    assert noise.noise_of([data], Noise()) == noise.NO_SCATTER  # no scatter is needed: all deviations are measured
+    assert np.sqrt(np.diag(noise.covariance(noise.NO_SCATTER, data))) == pytest.approx([0.01, 0.015])
     with pytest.raises(ValueError, match="stress_level, stress_shape.* must be given"):
-        noise.noise_of([Data(observables[:2], o.values[:2])], Noise())
+        noise.noise_of([Data(observables=observables[:2], values=o.values[:2])], Noise())
 
 
 def test_a_law_is_fitted_to_a_measured_curve():
@@ -264,7 +280,7 @@ def test_a_law_is_fitted_to_a_measured_curve():
     c.targets[0].curve, c.targets[0].seeds = "lab.csv", []
     truth, observables = truth_of(c, "", TRUTHS), c.observables_of(SCENE)
     given = np.where([one.kind == "stress_ratio" for one in observables], 1e-5, 1e-6)
-    record = calibrated(c, [path_of(c.targets[0], Data(observables, truth, given))])
+    record = calibrated(c, [path_of(c.targets[0], Data(observables=observables, values=truth, given=given))])
     assert [p["number"] for p in record["parameters"]] == pytest.approx(TRUTHS, rel=1e-3)
     assert all(p["number_low"] < truth < p["number_high"] for p, truth in zip(record["parameters"], TRUTHS))
 
@@ -315,7 +331,7 @@ def test_a_scene_with_seeds_has_standard_parameters():
 def test_friction_of_noisy_grains_is_found_within_its_interval():
     """Curves of a laboratory against eight noisy samples, the same at every point. A run depends on friction through its mean
     and through a part of its noise, as chaotic grains do."""
-    c = calibration([Parameter("discrete/friction", "logarithm", 0.3, 0.1, 0.9)])
+    c = calibration([parameter("discrete/friction", "logarithm", 0.3, 0.1, 0.9)])
     c.noise, c.targets[0].curve = Noise(stress_discrepancy=0, early_stress_discrepancy=0, volume_discrepancy=0), "lab.csv"
     observables = c.observables_of(SCENE)
     stress, x = np.array([one.kind == "stress_ratio" for one in observables]), np.array([one.high for one in observables])
@@ -331,27 +347,18 @@ def test_friction_of_noisy_grains_is_found_within_its_interval():
         def samples(point):
             friction = float(point[0].value) if point else 0.3
             own = drawn(USUAL, observables, 0 * x, 8, int(1e6 * friction)).values
-            return [Observation(mean(friction) + 0.95 * a + 0.3 * b) for a, b in zip(common, own)]
+            return [Observation(values=mean(friction) + 0.95 * a + 0.3 * b) for a, b in zip(common, own)]
 
-        given = np.sqrt(np.diag(noise.covariance(USUAL, Data(observables, 0 * x))) / 16)
-        path = path_of(c.targets[0], Data(observables, lab, given, 8))
-        path.scatter, record = Data(observables, [one.values for one in samples([])]), empty_record("c", "grains")
-        calibrate(Trials(c, Coordinates(c.parameters, {}), [path],
-                   lambda on, points, fine, step: [[mean_of(samples(point[0]), 0.005)] for point in points], record))
+        given = np.sqrt(np.diag(noise.covariance(USUAL, Data(observables=observables, values=0 * x))) / 16)
+        path = path_of(c.targets[0], Data(observables=observables, values=lab, given=given, runs=8))
+        path.scatter = Data(observables=observables, values=[one.values for one in samples([])])
+        record = empty_record("c", "grains")
+        calibrate(Trials(c, Coordinates(c.parameters, {}), [path], lambda on, points, fine, step: [
+            [mean_of(samples(point[0]), 0.005)] for point in points], record))
         found.append(record["parameters"][0])
     assert sum(p["number_low"] < 0.4 < p["number_high"] for p in found) >= 7
     assert np.sqrt(np.mean([(p["value"] - 0.4) ** 2 for p in found])) < 0.04
     assert max(p["number_high"] - p["number_low"] for p in found) < 0.25
-
-
-def test_curves_of_a_mean_over_seeds_keep_their_columns():
-    table = pd.DataFrame({"progress": np.linspace(0, 0.03, 31)})
-    table["stress_ratio"], table["volumetric_strain"] = 0.4 - table["progress"], -table["progress"]
-    sample = observe_history(SCENE, [Observable("stress_ratio", 0, 0.03)], table)
-    mean = mean_of([sample, sample], 0.005)
-    for name in ("progress", "stress_ratio", "volumetric_strain"):
-        assert getattr(mean, name) == pytest.approx(getattr(sample, name)), name
-    assert mean.bands == []
 
 
 def banded(settings, observables):
@@ -363,14 +370,16 @@ def banded(settings, observables):
 @pytest.mark.parametrize("parts", [1, 4])
 def test_a_profile_gives_the_internal_length_and_no_more_for_finer_strips(parts):
     """Bands of four samples vary by 20 % in width: their mean is known to 10 %, however many strips show it."""
-    observables = [Observable(PROFILE, low, low + 0.01, *(a + (b - a) * (k + i) / parts for i in (0, 1)))
+    observables = [Observable(kind=PROFILE, low=low, high=low + 0.01, near=a + (b - a) * k / parts,
+                              far=a + (b - a) * (k + 1) / parts)
                    for low in (0.01, 0.02) for a, b in zip(STRIPS, STRIPS[1:]) for k in range(parts)]
-    c, truth, held, deviations = calibration([Parameter("internal_length", "logarithm", 3, 0.8, 8)]), 2.0, 0, []
+    c, truth, held, deviations = calibration([parameter("internal_length", "logarithm", 3, 0.8, 8)]), 2.0, 0, []
     mean, c.noise = banded([Setting("continuum", "internal_length", str(truth), "")], observables), Noise(width_discrepancy=1e-3)
     for seed in range(8):
-        data, record = drawn(Noise(0, 0, 0, 0, 0, 0.2, 0.08), observables, mean, 4, seed), empty_record("c")
+        data = drawn(replace(noise.NO_SCATTER, profile_stretch=0.2, profile_noise=0.08), observables, mean, 4, seed)
+        record = empty_record("c")
         calibrate(Trials(c, Coordinates(c.parameters, {}), [path_of(c.targets[0], data)], lambda on, points, fine, step: [
-            [Observation(banded(s, observables)) for s in point] for point in points], record))
+            [Observation(values=banded(s, observables)) for s in point] for point in points], record))
         [p] = record["parameters"]
         held += p["number_low"] < truth < p["number_high"]
         deviations.append(np.log(p["draws"]).std())
@@ -384,7 +393,8 @@ def test_element_tests_have_their_own_scatter_and_no_bands(tmp_path):
     table = read_curve(str(tmp_path / "element.csv"))
     assert list(table) == ["progress", "stress_ratio", "stress_ratio_deviation"] and len(table) == 3
     data = drawn(USUAL, usual_observables(), np.full(29, 0.3), 200, 3)
-    cell = drawn(Noise(0.1, 0.02, 1e-4, 0.1, 0.3, 0, 0), usual_observables(), np.full(29, 0.3), 8, 4)
+    wild = replace(USUAL, stress_level=0.1, stress_shape=0.02, volume_growth=0.1)
+    cell = drawn(wild, usual_observables(), np.full(29, 0.3), 8, 4)
     cell.own = noise.noise_of([cell], Noise())
     assert noise.noise_of([data, cell], Noise()).stress_level == pytest.approx(0.02, abs=0.003)
     assert noise.covariance(USUAL, cell)[0, 0] ** 0.5 == pytest.approx(0.1, rel=0.5)

@@ -11,6 +11,10 @@ import pytest
 from scipy import stats
 
 import diptych
+from diptych import scenes
+from diptych.campaigns.calibration.calibration_runs import observe_history
+from diptych.campaigns.calibration.grains import mean_of
+from diptych.campaigns.calibration.noise import Observable
 from diptych.campaigns.ensembles import ensemble
 from diptych.campaigns.runs import histories
 from diptych.campaigns.runs import statistics
@@ -240,3 +244,12 @@ def test_lists_of_seeds():
 def test_invalid_lists_of_seeds_are_refused(text):
     with pytest.raises(diptych.SceneError, match="--seeds"):
         read_seeds(text)
+
+
+def test_the_mean_of_calibrated_grains_keeps_the_columns_of_its_curves():
+    table = pd.DataFrame({"progress": np.linspace(0, 0.03, 31)})
+    table["stress_ratio"], table["volumetric_strain"] = 0.4 - table["progress"], -table["progress"]
+    sample = observe_history(scenes.read({}), [Observable(kind="stress_ratio", low=0, high=0.03)], table)
+    mean = mean_of([sample, sample], 0.005)
+    for name in ("progress", "stress_ratio", "volumetric_strain", "bands"):
+        assert getattr(mean, name) == pytest.approx(getattr(sample, name)), name

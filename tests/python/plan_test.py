@@ -29,7 +29,8 @@ def last(settings, key, otherwise):
 
 def question(accuracy):
     asked = [quantity("strength", step_error="strength")]
-    return Question("scene.prm", [], accuracy, {"discrete": asked, "continuum": asked})
+    return Question(scene="scene.prm", changes=[], accuracy=accuracy,
+                    quantities={"discrete": asked, "continuum": asked})
 
 
 def test_a_rule_holds_until_there_is_evidence():
@@ -102,7 +103,7 @@ def grains_plan(accuracy, factor=1.0, scatter=0.04, noise=0.01, file=""):
         a = float(last(task.settings, "discrete/accuracy", "nan"))
         values = [0.3 * (1 + scatter * np.random.default_rng(seed).normal()) *
                   (1 + noise * np.random.default_rng([seed, int(1e6 * a)]).normal() + factor * a) for seed in task.seeds or [1]]
-        return Pilot([values], cpu_s=0.05 / a, expected_error={"strength": a, "dilation": 1.25 * a})
+        return Pilot(values=[values], cpu_s=0.05 / a, expected_error={"strength": a, "dilation": 1.25 * a})
 
     scene = scenes.read({"sample": {"file": file}} if file else {})
     return GrainsPlan(question(accuracy), scene, run).make()
@@ -140,8 +141,11 @@ def test_springs_replace_contact_dynamics_where_they_are_cheaper(method, cpu_s, 
     """Eight samples of 10 CPU s each; with springs 1 % of the accuracy of 3 % is taken, and more samples are needed. Implicit
     springs keep the error of the step, too."""
     asked = [quantity("strength", step_error="strength")]
-    plan = PanelPlan("discrete", "discrete", [planned("discrete/accuracy", 0.01)], list(range(1, 9)), 10.0,
-                     quantities=[Budget("strength", 0.3, 0.02, [Part("step, tolerance", 0.01), Part("samples", 0.0167)])])
+    plan = PanelPlan(panel="discrete", command="discrete", settings=[planned("discrete/accuracy", 0.01)],
+                     seeds=list(range(1, 9)), cpu_s=10.0,
+                     quantities=[Budget(name="strength", mean=0.3, scatter=0.02,
+                                        parts=[Part(cause="step, tolerance", error=0.01),
+                                               Part(cause="samples", error=0.0167)])])
     try_springs(plan, question(0.03), lambda task: Pilot(values=[[0.3]], sample_cpu_s=[cpu_s], cpu_s=cpu_s), asked, method)
     assert (last(plan.settings, "discrete/method", "") == method) == used
     assert (method, used) != ("compliant", True) or plan.quantities[0].method == pytest.approx(0.02)
@@ -180,7 +184,7 @@ def elements(of_elements=0.002, of_steps=2.0, of_law=0.0, is_local=False, longes
         local = is_local and law != "cosserat_mohr_coulomb"
         value = 0.4 * (1 + (0.05 * math.log2(h) if local else of_elements * h * h)) * (1 + of_steps * min(step, longest))
         value *= (1 + 0.1 * tolerance) * (1 + of_law if law == "mohr_coulomb" else 1)
-        return Pilot([[value]], cpu_s=h**-2 / (2 if law == "mohr_coulomb" else 1))
+        return Pilot(values=[[value]], cpu_s=h**-2 / (2 if law == "mohr_coulomb" else 1))
 
     return run
 

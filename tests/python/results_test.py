@@ -82,7 +82,8 @@ def test_plots_draw_the_values_into_the_given_axes(folder):
     cells = axes.collections[0]
     np.testing.assert_array_equal(cells.get_array()[stress.covered], stress.stress[stress.covered, 1, 1])
     assert cells.colorbar.ax.get_ylabel() == "syy [pressure]"
-    band = diptych.Band(-40, 10, 4.55, 1, 1, 0, 1, 1, "", {}, np.zeros(2))
+    band = diptych.Band(angle_deg=-40, width_10_90=10, half_width=4.55, offset=1, jump=1, dilation_deg=0, r_squared=1,
+                        r_squared_strips=1, no_packs_because="", interval={}, centre=np.zeros(2))
     assert band.plot(axes) is axes and len(axes.lines) == 3  # its middle and both edges
     for wrong in (stress, results):
         with pytest.raises(ValueError, match="colour"):

@@ -25,13 +25,15 @@ from diptych.campaigns.studies.study_file import Axis, AxisPoint, Family, Study,
 
 def study_of(n, **changes):
     """A quantity with a limit of 2 %, four samples, one axis of n points h = 1, 2, 4 ..."""
-    axis = Axis("step", [AxisPoint(str(k), [], 2.0**k) for k in range(n)], converges=True)
+    axis = Axis(name="step", points=[AxisPoint(str(k), [], 2.0**k) for k in range(n)], converges=True)
     strength = quantity("strength", **{"limit": 0.02, **changes})
     return Study(seeds=[1, 2, 3, 4], reference=[], families=[Family(axes=[axis])], quantities=[strength])
 
 
 def points_on(n):
-    return [Point(runs=[SceneRun("run", "reference")]), *(Point(0, 0, (k,), [str(k)], [], [SceneRun("run", str(k))])
+    return [Point(runs=[SceneRun(command="run", name="reference")]),
+            *(Point(family=0, reference=0, places=(k,), labels=[str(k)], settings=[],
+                    runs=[SceneRun(command="run", name=str(k))])
                                                          for k in range(n))]
 
 
@@ -129,7 +131,7 @@ def test_a_point_that_costs_more_and_is_worse_is_not_on_the_front():
 
 
 def test_points_compete_only_with_those_of_the_same_reference():
-    points = [Point(runs=[SceneRun("run", "other")]), *points_on(2)]
+    points = [Point(runs=[SceneRun(command="run", name="other")]), *points_on(2)]
     points[1].reference = points[3].reference = 1
     found = cost(2, [runs(0), runs(1), runs(0.01, 1), runs(1.01, 2)], points=points)
     assert [one["front_of"] for one in found["points"][2:]] == [["strength"], ["strength"]]

@@ -29,7 +29,7 @@ def replicate(seed, size):
     x = np.array([0.5 * (one.low + one.high) for one in observables])
     same = np.equal.outer(*[[one.kind for one in observables]] * 2) * np.exp(-np.abs(x[:, None] - x)
                                                                              / CORRELATION_STRAIN)
-    deviation = size * np.sqrt(discrepancy(Noise(), Data(observables, truth)))
+    deviation = size * np.sqrt(discrepancy(Noise(), Data(observables=observables, values=truth)))
     truth = truth + deviation * random.multivariate_normal(0 * x, same)
     found = calibrated(c, [path_of(c.targets[0], drawn(USUAL, observables, truth, 4, seed))])["parameters"]
     in_cube = [[(np.log(p[end]) if p["coordinate"] == "logarithm" else p[end]) for p in found]

@@ -95,7 +95,7 @@ def _shear(stress: Array) -> Array:
     return np.asarray(0.5 * np.hypot(stress[..., 0, 0] - stress[..., 1, 1], stress[..., 0, 1] + stress[..., 1, 0]))
 
 
-@dataclass(repr=False)
+@dataclass(repr=False, kw_only=True)
 class StressMap:
     """Stress of grains on the cells of a mesh, positive in compression; row index = component of the force."""
 
@@ -147,7 +147,7 @@ class StressMap:
         return f"<StressMap: {len(self.area)} cells, t/s of the mean stress {ratio:.3g}>"
 
 
-@dataclass(repr=False)
+@dataclass(repr=False, kw_only=True)
 class Band:
     """A shear band: u = c + G x + (J/2) tanh((n.(x - centre) - offset) / half_width), n its normal with n_y >= 0."""
 
@@ -185,7 +185,7 @@ class Band:
         return np.array([middle - along, middle + along])
 
 
-@dataclass(repr=False)
+@dataclass(repr=False, kw_only=True)
 class BandReport:
     """Bands of a displacement field, the strongest first. No band: the field is diffuse."""
 

@@ -57,7 +57,8 @@ def width_scan(snapshot: Any) -> dict[str, Any]:
         low[0], high[0] = outline.left[0], outline.right[0]
     n_x, n_y = (max(2, round(4 * length / d)) for length in high - low)
     size = (high - low) / (n_x, n_y)
-    fine = Sheet(np.full(n_y + 1, low[0]), np.full(n_y + 1, high[0]), np.linspace(low[1], high[1], n_y + 1), n_x)
+    fine = Sheet(left=np.full(n_y + 1, low[0]), right=np.full(n_y + 1, high[0]),
+                 height=np.linspace(low[1], high[1], n_y + 1), n_x=n_x)
     stress = map_stress(snapshot, mesh=fine.mesh).symmetric.reshape(n_y, n_x, 2, 2)
     centre, across = fine.mesh.centres, outline.share_across(fine.mesh.centres)
     up = (centre[:, 1] - outline.height[0]) / (outline.height[-1] - outline.height[0])

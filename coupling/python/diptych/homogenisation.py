@@ -23,7 +23,7 @@ STRAIN_RADIUS = 2.5  # mean diameters, as in the comparison
 NO_FORCES = {"i": np.zeros(0, int), "j": np.zeros(0, int), "point": np.zeros((0, 2)), "force": np.zeros((0, 2))}
 
 
-@dataclass(repr=False)
+@dataclass(repr=False, kw_only=True)
 class Homogenised:
     """Grains as fields. Stress and strain are positive in compression, angles degrees from the horizontal."""
 
@@ -221,4 +221,6 @@ def homogenise(grains: Any, grid: float = 3.0) -> Homogenised:
     elif scanned:
         missing.append({"quantity": "averaging width", "reason": "the sample is too narrow for kernels of different widths"})
     means = [_means(frame, first) for frame in frames]
-    return Homogenised(means, increments, [sheet.mesh for sheet in sheets], maps, scan, missing, first.mean_diameter, grid, last.walk)
+    return Homogenised(frames=means, increments=increments, meshes=[sheet.mesh for sheet in sheets], maps=maps,
+                       resolution_study=scan, missing=missing, mean_diameter=first.mean_diameter, grid=grid,
+                       walk=last.walk)

@@ -136,7 +136,7 @@ def map_stress(grains: Any, contacts: Any = None, mesh: Any = None, method: str 
     width = getattr(grains, "cell_width", 0.0) if period is None else period
     result = _diptych.map_stress(given, pairs, cells._asdict(), width, keys)
     result["covered"] = result["covered"].astype(bool)
-    return StressMap(cells, **result)
+    return StressMap(mesh=cells, **result)
 
 
 def increment(start: Any, end: Any) -> Record:
@@ -195,7 +195,7 @@ def find_bands(points: Any, displacement: Any, mean_diameter: float, *, weight: 
     for band in found.pop("bands"):
         intervals = {name: Interval(*ends) for name, ends in band.pop("interval").items()}
         bands.append(Band(**band, interval=intervals, centre=np.asarray(frame["centre"])))
-    return BandReport(bands, frame=frame, **found)
+    return BandReport(bands=bands, frame=frame, **found)
 
 
 def strips(points: Any, displacement: Any, mean_diameter: float, band: Any = 45.0, n: int = 16, *, offset: float = 0.0,

@@ -37,7 +37,7 @@ class PanelResults:
         return f"<PanelResults: {len(self.snapshots)} snapshots, {len(self.history['step'])} steps>"
 
 
-@dataclass(repr=False)
+@dataclass(repr=False, kw_only=True)
 class Results:
     """A result folder. A panel without results is None."""
 
@@ -107,8 +107,9 @@ def load(folder: str | os.PathLike[str]) -> Results:
     """
     folder = os.fspath(folder)
     prm = os.path.join(folder, "scene.prm")
-    results = Results(folder, scenes.read(prm).dict() if os.path.exists(prm) else None, _panel(folder, "discrete"),
-                      _panel(folder, "continuum"), _panel(os.path.join(folder, "coarse"), "continuum"))
+    results = Results(folder=folder, scene=scenes.read(prm).dict() if os.path.exists(prm) else None,
+                      discrete=_panel(folder, "discrete"), continuum=_panel(folder, "continuum"),
+                      coarse=_panel(os.path.join(folder, "coarse"), "continuum"))
     if results.discrete is None and results.continuum is None:
         cures = [f"; diptych.{kind}.load({folder!r}) reads its {name}" for name, kind in _CAMPAIGNS.items()
                  if os.path.exists(os.path.join(folder, name))]

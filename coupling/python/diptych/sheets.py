@@ -12,7 +12,7 @@ import numpy as np
 from .arrays import Array, Mesh
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Sheet:
     """Quadrilaterals in rows between two sides: x of both at the heights of the rows."""
 
@@ -52,4 +52,5 @@ def outline_of(snapshot: Any, n_x: int, n_y: int) -> Sheet:
     """The outline of a sample, with its sides interpolated to n_y equal rows."""
     left, right = snapshot.outline_left, snapshot.outline_right
     height = np.linspace(left[0, 1], left[-1, 1], n_y + 1)
-    return Sheet(np.interp(height, left[:, 1], left[:, 0]), np.interp(height, right[:, 1], right[:, 0]), height, n_x)
+    return Sheet(left=np.interp(height, left[:, 1], left[:, 0]), right=np.interp(height, right[:, 1], right[:, 0]),
+                 height=height, n_x=n_x)

@@ -34,7 +34,7 @@ OTHER_NAMES = {f"{name}{ending}": f"grains_{name}{other}" for name in CURVE_COLU
 PRESCRIBED = 1e-9  # a smaller deviation: the path prescribes the quantity
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Target:
     """A loading path: one scene on several samples, on finished result folders, or with a measured curve instead of grains. A
     curve and seeds: parameters of the grains are fitted to the curve. An element test is a scene with loading/mode = path."""
@@ -54,7 +54,7 @@ class Target:
         return (self.scene, self.curve) == (other.scene, other.curve) and here == there
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Calibration:
     """The contents of a calibration file; keys as in the README."""
 
@@ -90,9 +90,10 @@ class Calibration:
                 continue
             edges = keys["comparison"]["window_edges"] if kind in OF_BANDS else self.bins
             edges = [float(edge) for edge in (edges.split(",") if isinstance(edges, str) else edges)]
-            found += [Observable(kind, low, high, *strip) for low, high in zip(edges, edges[1:])
+            found += [Observable(kind=kind, low=low, high=high, near=near, far=far)
+                      for low, high in zip(edges, edges[1:])
                       if not is_beyond(high, keys["loading"]["axial_strain"])
-                      for strip in (zip(STRIPS, STRIPS[1:]) if kind == PROFILE else [()])]
+                      for near, far in (zip(STRIPS, STRIPS[1:]) if kind == PROFILE else [(0.0, 0.0)])]
         if not found:
             raise ValueError("no bin and no window lies within the loading; check bins and comparison/window_edges")
         return found
@@ -169,7 +170,7 @@ def _results(part: Part) -> tuple[list[str], list[int]]:
 def _target(part: Part) -> Target:
     part.allow("name", "scene", "set", "seeds", "results", "curve", "use", "before")
     part.at("name")
-    target = Target(part.word("name"), "", part.settings("set"),
+    target = Target(name=part.word("name"), scene="", settings=part.settings("set"),
                     is_fitted=part.choice("use", ("fit", "predict"), "fit") == "fit")
     if part.has("results"):
         target.results, target.seeds = _results(part)
@@ -216,8 +217,9 @@ def _parameter(part: Part, targets: Sequence[Target]) -> Parameter:
     part.setting("key", path, 0.3)  # checks that the key exists
     if key in KEYS_OF_THE_SEARCH:
         part.refuse(f" = {key} is set by the calibration itself and cannot be a parameter", "key")
-    p = Parameter(key, coordinate, *(part.number(name, -FAR, FAR) for name in ("start", "low", "high")),
-                  part.word("of", "friction_angle_peak") if is_ratio else "", tuple(names))
+    numbers = {name: part.number(name, -FAR, FAR) for name in ("start", "low", "high")}
+    p = Parameter(key=key, coordinate=coordinate, **numbers,
+                  other=part.word("of", "friction_angle_peak") if is_ratio else "", targets=tuple(names))
     if not p.low < p.high:
         part.refuse(f" = {p.low:g} and high = {p.high:g}: bounds must ascend", "low")
     if not p.low <= p.start <= p.high:
@@ -286,8 +288,9 @@ def read_calibration(file: str, contents: Mapping[str, Any] | None = None) -> Ca
     _check_curves(root, targets, parameters)
     for target in targets:  # each target uses a key once
         root.demand_distinct("parameters", [p.key for p in parameters if p.is_of(target.name)])
-    c = Calibration(name, file, root.word("title", name), targets, kinds, [float(edge) for edge in bins], parameters,
-                    _fixed(root, parameters), Noise())
+    c = Calibration(name=name, file=file, title=root.word("title", name), targets=targets, kinds=kinds,
+                    bins=[float(edge) for edge in bins], parameters=parameters, fixed=_fixed(root, parameters),
+                    noise=Noise())
     if root.has("noise"):
         part, names = root.at("noise"), [one.name for one in fields(Noise)[:-2]]
         part.allow(*names)

@@ -84,23 +84,27 @@ class CalibrationRuns:
             os.makedirs(self.runs.directory + "/meshes", exist_ok=True)
             mesh = os.path.abspath(f"{self.runs.directory}/meshes/path_{1 + len(self.outlines)}.msh")
             continuum("calibrate").write_mesh(scene, first, mesh)
-        return Outline(*np.ptp(sides, axis=0), float(np.pi * (first.radius**2).sum() / first.area), frames, [], mesh)
+        width, height = np.ptp(sides, axis=0)
+        return Outline(width=width, height=height, solid_fraction=float(np.pi * (first.radius**2).sum() / first.area),
+                       frames=frames, bands=[], mesh=mesh)
 
     def _path(self, target: Target) -> Path:
         scene = read_target(target)
         observables = self.calibration.observables_of(scene, bool(target.curve))
         if target.curve:
             keys = scene.dict()
-            self.outlines[target.name] = Outline(keys["continuum"]["rectangle_width"], keys["continuum"]["rectangle_height"],
-                                                 keys["sample"]["solid_fraction"], [], [], "")
+            self.outlines[target.name] = Outline(
+                width=keys["continuum"]["rectangle_width"], height=keys["continuum"]["rectangle_height"],
+                solid_fraction=keys["sample"]["solid_fraction"], frames=[], bands=[], mesh="")
             sample, deviations = observe_curve(scene, observables, target.curve)
-            return Path(target, scene, Data(observables, sample.values, deviations), [sample], [""] * len(observables))
+            data = Data(observables=observables, values=sample.values, given=deviations)
+            return Path(target=target, scene=scene, data=data, samples=[sample], left_out=[""] * len(observables))
         samples = [self._observed(target, scene, observables, folder)
                    for folder in target.results or self._grains(target, target.seeds)]
-        data = Data(observables, [s.values for s in samples])
+        data = Data(observables=observables, values=[s.values for s in samples])
         if is_element(scene) and len(samples) > 1:  # a cell scatters more or less than the samples of other targets
             data.own = noise_of([data], Noise())
-        return Path(target, scene, data, samples, [""] * len(observables))
+        return Path(target=target, scene=scene, data=data, samples=samples, left_out=[""] * len(observables))
 
     def _observed(self, target: Target, scene: _diptych.Scene, observables: Sequence[Observable], folder: str) -> Observation:
         table = panel_table(folder, "discrete")
@@ -110,7 +114,8 @@ class CalibrationRuns:
                              "of its loading")
         o = observe_history(scene, observables, table)
         if is_element(scene):
-            self.outlines.setdefault(target.name, Outline(np.nan, np.nan, float(table["solid_fraction"].iloc[0]), [], [], ""))
+            self.outlines.setdefault(target.name, Outline(
+                width=np.nan, height=np.nan, solid_fraction=float(table["solid_fraction"].iloc[0]), frames=[], bands=[], mesh=""))
             return o
         snapshots = _diptych.read_grains(folder).snapshots
         if target.name not in self.outlines:
@@ -161,7 +166,7 @@ class CalibrationRuns:
     def _observed_continuum(self, path: Path, run: SceneRun, failure: str) -> Observation:
         observables = path.data.observables
         if failure:
-            return Observation(np.full(len(observables), np.nan), failure=failure)
+            return Observation(values=np.full(len(observables), np.nan), failure=failure)
         folder = self.runs.path(run)
         if is_element(path.scene):
             return observe_history(path.scene, observables, panel_table(folder, "material_point"))

@@ -30,8 +30,8 @@ def mean_of(samples: Sequence[Observation], averaging_width: float) -> Observati
                               for name in ("values", "stress_ratio", "volumetric_strain"))
     table = pd.DataFrame({"progress": samples[0].progress, "stress_ratio": stress})
     peak = float(pd.Series(running_mean(table, "stress_ratio", averaging_width)).max())
-    return Observation(values, peak, progress=samples[0].progress, stress_ratio=stress, volumetric_strain=volume,
-                       samples=list(samples))
+    return Observation(values=values, peak_stress_ratio=peak, progress=samples[0].progress, stress_ratio=stress,
+                       volumetric_strain=volume, samples=list(samples))
 
 
 class GrainRuns(CalibrationRuns):
@@ -42,10 +42,10 @@ class GrainRuns(CalibrationRuns):
         scene = read_target(target)
         observables = self.calibration.observables_of(scene, True)
         curve, deviations = observe_curve(scene, observables, target.curve)
-        data = Data(observables, curve.values, deviations, len(target.seeds))
-        path = Path(target, scene, data, [curve], [""] * len(observables))
+        data = Data(observables=observables, values=curve.values, given=deviations, runs=len(target.seeds))
+        path = Path(target=target, scene=scene, data=data, samples=[curve], left_out=[""] * len(observables))
         before = self._samples([path], [[target.before]])[0][0]
-        path.scatter = Data(observables, [sample.values for sample in before])
+        path.scatter = Data(observables=observables, values=[sample.values for sample in before])
         return path
 
     def _samples(self, paths: Sequence[Path], points: Sequence[Sequence[Sequence[Setting]]],

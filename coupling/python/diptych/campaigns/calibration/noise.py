@@ -21,7 +21,7 @@ ESTIMATED = {"stress_ratio": ("stress_level", "stress_shape"), "volumetric_strai
              "ln_width": ("ln_width",), PROFILE: ("profile_stretch", "profile_noise")}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Observable:
     """One number by which grains and continuum are compared: a mean over a bin of the progress, or ln of a width or a strip of
     a profile in a window. near, far: edges of the strip [mean diameters]."""
@@ -33,7 +33,7 @@ class Observable:
     far: float = 0.0
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Noise:
     """Standard deviations of one sample, None where they are to be estimated, and the model tolerance ("discrepancy"): the
     misfit that the form of the law may have."""
@@ -55,7 +55,10 @@ class Noise:
     degrees_of_freedom: int = 0  # samples minus paths
 
 
-@dataclass
+NO_SCATTER = Noise(**{key: 0 for keys in ESTIMATED.values() for key in keys})
+
+
+@dataclass(kw_only=True)
 class Data:
     """The samples of one path. values: (samples, observables), NaN if a sample has none. given: (observables) deviations that a
     measured curve brings, NaN where it brings none. runs: number of samples of grains that are compared with the data in their
@@ -266,6 +269,6 @@ class FittedData:
     def of_scatter(self, keys: Sequence[str]) -> Array:
         """(n, n): the part of it due to these deviations of one sample."""
         noise = replace(self.noise, **{key: 0.0 for of_kind in ESTIMATED.values() for key in of_kind if key not in keys})
-        known = [replace(path, given=np.where(np.isfinite(path.given), 0.0, np.nan), own=path.own and Noise(*[0] * 7))
+        known = [replace(path, given=np.where(np.isfinite(path.given), 0.0, np.nan), own=path.own and NO_SCATTER)
                  for path in self.paths]  # not this scatter
         return scipy.linalg.block_diag(*[covariance_of_mean(noise, path) for path in known])

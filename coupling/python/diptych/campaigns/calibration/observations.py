@@ -25,7 +25,7 @@ CURVE_POINTS = 120
 NO_CURVE = np.full(CURVE_POINTS, np.nan)
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Observation:
     """Results of one run of a panel, or a measured curve."""
 
@@ -40,7 +40,7 @@ class Observation:
     samples: list[Observation] = field(default_factory=list)  # of a mean over seeds
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Outline:
     """Box, mesh and bands of a path's sample: one for all samples of the path."""
 
@@ -52,7 +52,7 @@ class Outline:
     mesh: str  # file; empty: the rectangle of the scene
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Path:
     """A target with what its samples or its curve show. left_out: a reason per observable; empty: it counts. scatter: the
     samples that give the noise, if others than the data."""
@@ -71,7 +71,7 @@ class Path:
 
 def observe_history(scene: _diptych.Scene, observables: Sequence[Observable], table: pd.DataFrame | None) -> Observation:
     """Everything but the bands."""
-    o = Observation(np.full(len(observables), np.nan))
+    o = Observation(values=np.full(len(observables), np.nan))
     if table is None:
         return o
     progress, end = table["progress"].to_numpy(), float(table["progress"].iloc[-1])

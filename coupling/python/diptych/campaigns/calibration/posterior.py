@@ -35,7 +35,7 @@ CANDIDATES, HEAT = 1000, 3.0  # for the starts of the walkers; they are drawn wi
 FARTHEST, LARGE = 6.0, 1e30  # ln of a factor of a variance: two samples bound it nowhere; a number without effect
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Draws:
     """Thinned draws of the posterior. points: (draws, parameters). sizes: (draws, 3), the factors of the tolerance of t/s and of
     volume, and the correlation strain. strain: correlation strain before the data. curve: (2, observables), the discrepancy
@@ -131,8 +131,9 @@ class Posterior:
         means = (gain @ residual[..., None])[..., 0]
         left, curve = np.diagonal(of_law - gain @ of_law, axis1=1, axis2=2), np.full((2, len(self.used)), np.nan)
         curve[:, self.used] = means.mean(0), np.sqrt(means.var(0) + left.mean(0))
-        return Draws(z[:, :n], np.exp(z[:, n:n + 3]) * [1, 1, self.strain], self.strain, curve,
-                     float(sampler.acceptance_fraction.mean()), float(sampler.get_autocorr_time(tol=0, quiet=True)[:n].max()))
+        return Draws(points=z[:, :n], sizes=np.exp(z[:, n:n + 3]) * [1, 1, self.strain], strain=self.strain,
+                     curve=curve, acceptance=float(sampler.acceptance_fraction.mean()),
+                     autocorrelation=float(sampler.get_autocorr_time(tol=0, quiet=True)[:n].max()))
 
 
 def sample_posterior(trials: Trials, fit: Fit) -> Draws:

@@ -55,8 +55,8 @@ def _check_target(calibration: Calibration, coordinates: Coordinates, target: Ta
     if target.curve:
         sample, deviations = observe_curve(scene, observables, target.curve)
         if not target.seeds:
-            return Data(observables, sample.values, deviations)
-    return Data(observables, np.zeros((len(target.seeds), len(observables))))
+            return Data(observables=observables, values=sample.values, given=deviations)
+    return Data(observables=observables, values=np.zeros((len(target.seeds), len(observables))))
 
 
 def checked(calibration: Calibration) -> Coordinates:

@@ -47,7 +47,7 @@ class _Ended(Exception):
     """Ends a search with one Jacobian."""
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Fit:
     """Best point, its residuals and d residual / d point. note: the reason if the search did not converge."""
 
@@ -130,7 +130,7 @@ def least_squares(residuals: Residuals, start: Array, most_jacobians: int = 4, j
     """Minimises the sum of squares within [0, 1]^n. A given Jacobian is used until a step fails or the steps run out; then a
     new one is computed. A point without a run counts as a failed step. If `start` has no run, `note` says so. Exceptions of
     `residuals` pass through."""
-    fit = Fit(np.clip(np.asarray(start, dtype=float), 0, 1), evaluations=1)
+    fit = Fit(point=np.clip(np.asarray(start, dtype=float), 0, 1), evaluations=1)
     fit.residual = residuals([fit.point])[0]
     if not np.isfinite(fit.residual).all():
         fit.note = "the run at the start failed"

@@ -38,7 +38,7 @@ _FOLDER = "validation"  # of the runs; it is removed after they have been read
 NO_RUNS: dict[str, Any] = {"seed": None, "scenes": [], "quantities": [], "values": []}  # as respond() returns them
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Responses:
     """How the continuum answers to changes. coarse: values of every member on the coarse mesh. The others are values of one sample
     on that mesh. base: unchanged. half_step: with half the load step. draws: with draws of the parameters."""
@@ -115,7 +115,8 @@ def responses_of(scene: Any, seeds: Sequence[int], members: Sequence[Member], ru
               for seed, member in zip(seeds, members)}
     values = [{name: value for name, value in zip(runs["quantities"], row) if value is not None} for row in runs["values"]]
     half, *draws = values or [{}]
-    return Responses(list(coarse.values()), ratio if ratio > 1 else math.nan, coarse.get(runs["seed"], {}), half, draws)
+    return Responses(coarse=list(coarse.values()), size_ratio=ratio if ratio > 1 else math.nan,
+                     base=coarse.get(runs["seed"], {}), half_step=half, draws=draws)
 
 
 def draws_of(set_files: Sequence[str], settings: Sequence[str]) -> list[list[Setting]]:

@@ -30,7 +30,7 @@ WITHOUT_LENGTH = {"cosserat_mohr_coulomb": "mohr_coulomb",
                   "gradient_mohr_coulomb": "mohr_coulomb"}  # other laws: drucker_prager
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Knob:
     """A size that the plan halves."""
 
@@ -43,7 +43,7 @@ class Knob:
     dearer_per_halving: float = 8
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Settled:
     """The sizes that were run. laws: one per quantity, of values relative to the finest."""
 
@@ -60,7 +60,7 @@ class ContinuumPlan:
     def __init__(self, question: Question, scene: _diptych.Scene, run: RunPilot) -> None:
         self.question, self.run, self.quantities, self.keys = question, run, question.quantities["continuum"], scene.dict()
         command = "run" if any(q["source"] == "comparison" for q in self.quantities) else "continuum"
-        self.plan = PanelPlan("continuum", command)
+        self.plan = PanelPlan(panel="continuum", command=command)
         self.chosen = [planned("comparison/coarse_element_size", "0")]
         if command == "run":
             self.chosen += [planned("comparison/" + key, "0") for key in ("band_resamples", "probe_resamples")]
@@ -82,9 +82,10 @@ class ContinuumPlan:
             self._note("elements: from the mesh file; their error is unknown and not in the budget")
         elif not self._settle_elements():
             return self.plan
-        steps = Knob("continuum/max_step", min(LONGEST_LOAD_STEP, self.keys["loading"]["stage_strain"]), OF_LOAD_STEPS,
-                     lambda size: [planned("continuum/max_step", size), planned("continuum/initial_step", min(size, 0.001))],
-                     least_points=3, dearer_per_halving=2)
+        steps = Knob(name="continuum/max_step", coarsest=min(LONGEST_LOAD_STEP, self.keys["loading"]["stage_strain"]),
+                     share=OF_LOAD_STEPS, least_points=3, dearer_per_halving=2,
+                     settings=lambda size: [planned("continuum/max_step", size),
+                                            planned("continuum/initial_step", min(size, 0.001))])
         if self._settle(steps, self._refine(steps)):
             self._settle_tolerance()
             self._try_models()
@@ -96,7 +97,8 @@ class ContinuumPlan:
         settings = [*self.question.changes, *self.chosen]
         if self.plan.command == "run":  # the windows of the bands need a run of the grains
             settings.append(planned("discrete/accuracy", "0.05"))
-        return self.run(Task(self.plan.command, [*settings, *more], seeds, self.quantities))
+        return self.run(Task(command=self.plan.command, settings=[*settings, *more], seeds=seeds,
+                             quantities=self.quantities))
 
     def _shifts(self, a: Pilot, b: Pilot) -> list[float]:
         """Differences of two points on one sample, relative to the second."""
@@ -141,7 +143,7 @@ class ContinuumPlan:
         self.chosen += knob.settings(size)
         errors = [law.error_at(size) for law in settled.laws]
         for parts, law, error in zip(self.parts, settled.laws, errors):
-            parts.append(Part(knob.name, error, law.sign * error))
+            parts.append(Part(cause=knob.name, error=error, bias=law.sign * error))
         self._note(f"  used: {knob.name} = {_diptych.text_of_number(size)}; error {', '.join(map(percent, errors))}"
                    f"{'' if settled.reached else '; this exceeds its share of the accuracy'}")
         self.plan.reaches = self.plan.reaches and settled.reached
@@ -157,8 +159,9 @@ class ContinuumPlan:
     def _settle_elements(self) -> bool:
         law = self.options["law"]
         other = WITH_LENGTH.get(law)
-        knob = Knob("continuum/element_size", self._first_elements(law.startswith(("cosserat", "gradient"))), OF_ELEMENTS,
-                    lambda size: [planned("continuum/element_size", size)], may_have_no_limit=bool(other),
+        knob = Knob(name="continuum/element_size",
+                    coarsest=self._first_elements(law.startswith(("cosserat", "gradient"))), share=OF_ELEMENTS,
+                    settings=lambda size: [planned("continuum/element_size", size)], may_have_no_limit=bool(other),
                     least_points=3 if other else 2)  # one small change of a law without a length may be chance
         settled = self._refine(knob)
         if not settled.reached and other:
@@ -184,7 +187,7 @@ class ContinuumPlan:
             if worst <= OF_TOLERANCE * self.question.accuracy:
                 self.chosen.append(planned("continuum/tolerance", tolerance))
                 for parts, shift in zip(self.parts, shifts):
-                    parts.append(Part("continuum/tolerance", abs(shift), shift))
+                    parts.append(Part(cause="continuum/tolerance", error=abs(shift), bias=shift))
                 self._note(f"used: continuum/tolerance = {_diptych.text_of_number(tolerance)}; error {percent(worst)}")
                 self.now = point
                 return
@@ -205,7 +208,7 @@ class ContinuumPlan:
                        f"change a quantity by up to {percent(worst)}")
             return
         for parts, shift in zip(self.parts, shifts):
-            parts.append(Part(name, abs(shift), shift))
+            parts.append(Part(cause=name, error=abs(shift), bias=shift))
         self.chosen.append(planned(key, value))
         self.left_for_models -= worst
         self.now = point
@@ -237,11 +240,11 @@ class ContinuumPlan:
         n = max(1, *needed)
         self.now, self.plan.seeds = point, list(range(first, first + n))
         for parts, scatter in zip(self.parts, self.scatter):
-            parts.append(Part("samples", half_interval(scatter, n)))
+            parts.append(Part(cause="samples", error=half_interval(scatter, n)))
 
     def _conclude(self) -> None:
         plan, now = self.plan, self.now
         plan.settings, plan.cpu_s, plan.peak_memory_mb = self.chosen, now.cpu_s, now.peak_memory_mb
         for q, asked in enumerate(self.quantities):
             mean = summary_of(now.values[q], asked["line"])[0].mean
-            plan.quantities.append(Budget(asked["name"], mean, self.scatter[q], self.parts[q]))
+            plan.quantities.append(Budget(name=asked["name"], mean=mean, scatter=self.scatter[q], parts=self.parts[q]))

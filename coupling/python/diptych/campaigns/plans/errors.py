@@ -41,7 +41,7 @@ def improved(prior: Estimate, evidence: Iterable[tuple[float, float, float]]) ->
     return Estimate(total / weight, weight**-0.5)
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Refinement:
     """Convergence of a quantity with a size: error = finest x (size / finest size)^order."""
 
@@ -62,7 +62,7 @@ class Refinement:
 def refinement(sizes: Sequence[float], values: Sequence[float]) -> Refinement:
     """sizes: descending, one value each. With three or more values the order follows from the last two changes; with two it is
     1. A change that is small by chance counts at least a quarter of the one before."""
-    result = Refinement(sizes[-1])
+    result = Refinement(finest_size=sizes[-1])
     if len(values) < 2:
         return result
     ratio, last = sizes[-2] / sizes[-1], abs(values[-1] - values[-2])

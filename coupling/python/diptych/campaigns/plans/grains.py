@@ -57,7 +57,7 @@ class GrainsPlan:
         self.question, self.run, self.quantities = question, run, question.quantities["discrete"]
         keys = scene.dict()
         command = "run" if any(q["source"] == "comparison" for q in self.quantities) else "discrete"
-        self.plan = PanelPlan("discrete", command)
+        self.plan = PanelPlan(panel="discrete", command=command)
         first = min(keys["sample"]["seed"], LARGEST_FIRST_SEED)
         self.seeds = [] if keys["sample"]["file"] else list(range(first, first + PILOT_SAMPLES))
         self.common = [planned("discrete/step", "auto"), planned("discrete/tolerance", "auto")]
@@ -106,7 +106,7 @@ class GrainsPlan:
 
     def _run_at(self, accuracy: float, seeds: Sequence[int], more: Sequence[Setting] = ()) -> Pilot:
         settings = [*self.question.changes, *self.common, planned("discrete/accuracy", accuracy), *more]
-        return self.run(Task(self.plan.command, settings, seeds, self.quantities))
+        return self.run(Task(command=self.plan.command, settings=settings, seeds=seeds, quantities=self.quantities))
 
     def _add_level(self, accuracy: float, seeds: Sequence[int]) -> None:
         point = self._run_at(accuracy, seeds)
@@ -204,14 +204,16 @@ class GrainsPlan:
         for q, errors in enumerate(self._errors()):
             mean = summary_of(self.levels[0].point.values[q], self.quantities[q]["line"])[0].mean
             if two:
-                parts = [Part("samples, pairs and order", self._variances(two[0])[q].half_interval(*two[1:]))]
+                parts = [Part(cause="samples, pairs and order",
+                              error=self._variances(two[0])[q].half_interval(*two[1:]))]
             else:
-                parts = [Part("step, tolerance", errors.at(accuracy), errors.step.mean * accuracy,
-                              errors.step.deviation * accuracy),
-                         Part("samples", half_interval(errors.scatter, samples)) if self.seeds
-                         else Part("one run", self.one_run[q])]
-            parts += [*(Part(name, abs(shifts[q]), shifts[q]) for name, shifts in self.cheaper.items())]
-            plan.quantities.append(Budget(self.quantities[q]["name"], mean, errors.scatter if self.seeds else np.nan, parts))
+                parts = [Part(cause="step, tolerance", error=errors.at(accuracy), bias=errors.step.mean * accuracy,
+                              deviation=errors.step.deviation * accuracy),
+                         Part(cause="samples", error=half_interval(errors.scatter, samples)) if self.seeds
+                         else Part(cause="one run", error=self.one_run[q])]
+            parts += [Part(cause=name, error=abs(shifts[q]), bias=shifts[q]) for name, shifts in self.cheaper.items()]
+            plan.quantities.append(Budget(name=self.quantities[q]["name"], mean=mean,
+                                          scatter=errors.scatter if self.seeds else np.nan, parts=parts))
         self._report_levels()
         self._advise()
 

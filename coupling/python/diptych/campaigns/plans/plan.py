@@ -85,12 +85,12 @@ def _carry_out(question: Question, plan: Plan, panel: PanelPlan, pilot: PilotRun
     most, seeds, wanted = 2 * panel.n_samples + SPARE_SAMPLES, list(panel.seeds), question.quantities[panel.panel]
     while True:
         settings = [*question.changes, *plan.settings]
-        point, fine = pilot.run(Task(panel.command, settings, seeds, wanted)), None
+        point, fine = pilot.run(Task(command=panel.command, settings=settings, seeds=seeds, quantities=wanted)), None
         panel.outcomes, panel.outcome_cpu_s = [], point.cpu_s
         if panel.levels:
             n_pairs = min(len(seeds), math.ceil(len(seeds) * panel.levels["pairs"] / panel.n_samples))
             settings = [*settings, planned("discrete/accuracy", panel.levels["fine"])]
-            fine = pilot.run(Task(panel.command, settings, seeds[:n_pairs], wanted))
+            fine = pilot.run(Task(command=panel.command, settings=settings, seeds=seeds[:n_pairs], quantities=wanted))
         if point.failure or fine and fine.failure:
             panel.decisions.append(f"--run: {point.failure or fine.failure}")
             return False
@@ -124,10 +124,10 @@ def make_plan(question: Question, scene: _diptych.Scene, pilot: PilotRuns) -> Pl
     """The plans of all panels that the question asks for."""
     makers = {"discrete": GrainsPlan, "continuum": ContinuumPlan}
     panels = [makers[panel](question, scene, pilot.run).make() for panel, wanted in question.quantities.items() if wanted]
-    plan = Plan(os.path.basename(question.scene), question.accuracy, panels)
+    plan = Plan(scene=os.path.basename(question.scene), accuracy=question.accuracy, panels=panels)
     if plan.shares_samples:  # the cost of `diptych run` with the settings of both panels
         seeds = max((panel.seeds for panel in panels), key=len)[:SHARED_SAMPLES]
-        point = pilot.run(Task("run", [*question.changes, *plan.settings], seeds, []))
+        point = pilot.run(Task(command="run", settings=[*question.changes, *plan.settings], seeds=seeds, quantities=[]))
         for panel in panels if not point.failure else ():
             panel.cpu_s, panel.peak_memory_mb = point.cpu_s, point.peak_memory_mb
     plan.pilot_cpu_s = pilot.cpu_s

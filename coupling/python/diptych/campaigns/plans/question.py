@@ -22,7 +22,7 @@ NAMES = ("peak_stress_ratio", "strength", "final_volumetric_strain", "width_10_9
 PANELS = {"discrete": ("sample", "discrete"), "continuum": ("continuum",)}  # and the sections that ask for them
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Question:
     """quantities: by panel; those of the grains have step_error: the rule for their error, strength, dilation or "" (measured
     only)."""
@@ -37,7 +37,7 @@ class Question:
         return any(q["source"] == "comparison" for panel in self.quantities.values() for q in panel)
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Task:
     """A scene with settings on samples."""
 
@@ -47,7 +47,7 @@ class Task:
     quantities: list[dict[str, Any]]
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Pilot:
     """The results of a task. CPU times and memory per sample: mean and largest."""
 
@@ -64,7 +64,7 @@ class Pilot:
 RunPilot = Callable[[Task], Pilot]
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Part:
     """One part of the error of a mean, relative. bias: expected, with sign; 0: chance only."""
 
@@ -74,7 +74,7 @@ class Part:
     deviation: float = np.nan  # of that estimate
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Budget:
     """The errors of one quantity. scatter: of one sample, relative."""
 
@@ -97,7 +97,7 @@ class Budget:
         return sum(part.bias for part in self.parts)
 
 
-@dataclass
+@dataclass(kw_only=True)
 class PanelPlan:
     """The plan of one panel. seeds: empty: the one sample of the scene. CPU time and memory are those of one sample.
     levels: of a plan with two levels: cheap and fine (discrete/accuracy), pairs, fine_cpu_s. The rest is that of the cheap one."""
@@ -130,7 +130,7 @@ class PanelPlan:
                                for q in self.quantities]}
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Plan:
     """The answer."""
 
@@ -230,7 +230,7 @@ def read_question(scene_file: str, accuracy: str, wanted: str, overrides: Sequen
                   set_files: Sequence[str] = ()) -> Question:
     """The question of a command line. Raises SceneError."""
     changes = [one.check() for one in settings_of(overrides, set_files)]
-    question = Question(scene_file, changes, read_accuracy(accuracy))
+    question = Question(scene=scene_file, changes=changes, accuracy=read_accuracy(accuracy))
     scene = _diptych.read_changed_scene(scene_file, changes, False)
     panels = _panels_of(scene_file, scene)
     for word in (wanted or "peak_stress_ratio,strength").split(","):

@@ -27,7 +27,7 @@ def try_springs(plan: PanelPlan, question: Question, run: RunPilot, quantities: 
     settings = [planned("discrete/method", method), STIFFNESS]
     settings = [*plan.settings, *settings] if implicit else [*settings, planned("discrete/penalty_step_fraction", 0.5)]
     parts = [[*(part for part in q.parts if implicit and not part.cause.startswith("samples")),
-              Part("springs", ERROR[asked["step_error"]])] for q, asked in zip(plan.quantities, quantities)]
+              Part(cause="springs", error=ERROR[asked["step_error"]])] for q, asked in zip(plan.quantities, quantities)]
     needed = [samples_for(q.scatter, question.accuracy - sum(part.error for part in of_q))
               for q, of_q in zip(plan.quantities, parts)]
     name = f"springs (discrete/method = {method})"
@@ -35,7 +35,8 @@ def try_springs(plan: PanelPlan, question: Question, run: RunPilot, quantities: 
         plan.decisions.append(f"{name}: not tried; their error is too large for this accuracy")
         return
     samples, before = max(needed), plan.total_cpu_s
-    pilot = run(Task(plan.command, [*question.changes, *settings], plan.seeds[:1], quantities))
+    pilot = run(Task(command=plan.command, settings=[*question.changes, *settings], seeds=plan.seeds[:1],
+                     quantities=quantities))
     cpu_s = samples * pilot.cpu_s
     used = not pilot.failure and cpu_s < before
     plan.decisions.append(f"{name}: {pilot.failure or f'{cpu_s:.3g} CPU s on {samples} samples'}; "
@@ -44,5 +45,6 @@ def try_springs(plan: PanelPlan, question: Question, run: RunPilot, quantities: 
         plan.settings, plan.levels = settings, {}
         plan.seeds = [plan.seeds[0] + k for k in range(samples)]
         plan.cpu_s, plan.peak_memory_mb = pilot.cpu_s, pilot.peak_memory_mb
-        plan.quantities = [Budget(q.name, q.mean, q.scatter, [*of_q, Part("samples", half_interval(q.scatter, samples))])
+        plan.quantities = [Budget(name=q.name, mean=q.mean, scatter=q.scatter,
+                                  parts=[*of_q, Part(cause="samples", error=half_interval(q.scatter, samples))])
                            for q, of_q in zip(plan.quantities, parts)]

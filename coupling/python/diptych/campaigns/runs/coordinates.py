@@ -18,7 +18,7 @@ USUAL = {"friction_angle_residual": "drop_from", "dilatancy_angle_peak": "share_
          "poisson_ratio": "value"}  # of a key if the file names none; else logarithm
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Parameter:
     """A key of the section continuum, or discrete/KEY. start, low, high: numbers of the coordinate, the value itself (also of
     a logarithm), a share or a drop. targets: names of the targets that it belongs to; empty: one value for all."""

@@ -41,7 +41,7 @@ def code_and_text(error: Exception) -> tuple[int, str]:
     return WRONG_INPUT if isinstance(error, ValueError) else SYSTEM_FAILURE, str(error) or "out of memory"
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Options:
     """Options that all campaigns share, with the meaning of `diptych study --help`."""
 
@@ -84,7 +84,7 @@ class Run:
         return json.dumps({**vars(self), "options": options}) + "\n"
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Outcome:
     """The end of one run. Exit code 128 + signal: a signal ended its worker."""
 
@@ -304,7 +304,7 @@ def execute(runs: Sequence[Run], options: Options, *, noun: str = "runs", finish
             code, asked = serve(runs[k].line(options.threads))
         finally:
             free.put(serve)
-        return Outcome(code, asked and code != 0, time.monotonic() - started.pop(k))
+        return Outcome(exit_code=code, interrupted=asked and code != 0, seconds=time.monotonic() - started.pop(k))
 
     outcomes, left = [Outcome() for _ in runs], len(runs)
     progress = _Progress(noun, options.quiet, len(runs) + finished, finished)

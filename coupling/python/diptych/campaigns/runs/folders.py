@@ -143,7 +143,7 @@ def draw(options: Options, page: str, directory: str) -> None:
     say(options, f"report: {os.path.abspath(report)}")
 
 
-@dataclass
+@dataclass(kw_only=True)
 class SceneRun:
     """One scene that a command runs. Without a scene its settings contradict each other, and `refusal` is the message."""
 

@@ -110,7 +110,7 @@ def numbers_for(found: Sequence[Variances], costs: tuple[float, float], half: fl
     return (n, pairs(n)) if n < most else (0, 0)
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Limit:
     """A mean in the limit of short steps. Standard errors are those of the limit, in its unit."""
 
@@ -133,7 +133,8 @@ def limit_of(cheap: Sequence[float], fine: Sequence[float], ratio: float, confid
     n, m, w = len(known), len(x), weight_of(ratio)
     if m < 2:
         mean = float(known.mean()) if n else math.nan
-        return Limit(n, m, ratio, mean, math.nan, Interval(math.nan, math.nan, math.nan), math.nan, math.nan)
+        return Limit(n=n, pairs=m, ratio=ratio, cheap=mean, difference=math.nan,
+                     limit=Interval(math.nan, math.nan, math.nan), error_samples=math.nan, error_order=math.nan)
     # A sample with a pair adds z to the estimate, any other sample x / n. The two groups are independent.
     z = x / n - w * (x - y) / m
     difference, cheap_mean = float((x - y).mean()), float(known.mean())
@@ -142,4 +143,5 @@ def limit_of(cheap: Sequence[float], fine: Sequence[float], ratio: float, confid
     order = order_error(ratio, difference)
     half = _half_interval((of_pairs, m), (of_rest, n), order, confidence)
     limit = Interval(value, value - half, value + half)
-    return Limit(n, m, ratio, cheap_mean, difference, limit, math.sqrt(of_pairs + of_rest), order)
+    return Limit(n=n, pairs=m, ratio=ratio, cheap=cheap_mean, difference=difference, limit=limit,
+                 error_samples=math.sqrt(of_pairs + of_rest), error_order=order)

@@ -25,7 +25,7 @@ from .study_file import COMMANDS, Study
 MOST_RUNS = 100000
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Point:
     """One point. family -1: a reference. `reference` is the index of its reference point; a reference has its own index, and a
     point of a study without references has -1."""
@@ -54,10 +54,10 @@ def scene_run(scene: str, command: str, settings: Sequence[Setting]) -> SceneRun
         demand_continuum(command)
     try:
         read = _diptych.read_changed_scene(scene, [*settings, Setting("output", "report", "false", "")], command == "run")
-        return SceneRun(command, run_name(read, command), read)
+        return SceneRun(command=command, name=run_name(read, command), scene=read)
     except SceneError as error:
         text = "".join(setting.text() + "\n" for setting in settings)
-        return SceneRun(command, "refused_" + _diptych.digest(text), None, str(error))
+        return SceneRun(command=command, name="refused_" + _diptych.digest(text), scene=None, refusal=str(error))
 
 
 def _point(study: Study, settings: list[Setting], **place: Any) -> Point:
@@ -102,7 +102,7 @@ def points_of(study: Study) -> list[Point]:
     return [*references.values(), *points]
 
 
-@dataclass
+@dataclass(kw_only=True)
 class RunResult:
     """The result of one run. Not known: it was interrupted or never started. Values are NaN if there are none."""
 

@@ -36,7 +36,7 @@ class AxisPoint:
     value: float = math.nan
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Axis:
     """`converges`: results have a limit as the values go to 0. `own_reference`: each point has a reference of its own."""
 
@@ -46,7 +46,7 @@ class Axis:
     own_reference: bool = False
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Family:
     """Points that share settings and axes: all combinations (grid), or the k-th points of all axes together."""
 
@@ -62,7 +62,7 @@ def quantity(name: str = "", **changes: Any) -> dict[str, Any]:
             "to": math.nan, "relative": True, "limit": None, "line": False, **changes}
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Study:
     """The contents of a study file."""
 
@@ -96,7 +96,8 @@ def _axis(part: Part) -> Axis:
         points.append(AxisPoint(one.word("label"), one.settings("set")))
     if not points:
         part.refuse("this axis has no points; give values or points")
-    axis = Axis(part.word("name", key.partition("/")[2] or key), points, part.flag("converges"), part.flag("own_reference"))
+    axis = Axis(name=part.word("name", key.partition("/")[2] or key), points=points, converges=part.flag("converges"),
+                own_reference=part.flag("own_reference"))
     part.demand_distinct("values" if part.has("key") else "points", [point.label for point in points], key)
     for point in points if axis.converges else []:
         if not point.value > 0:
@@ -112,7 +113,7 @@ def _family(part: Part, settings: list[Setting]) -> Family:
         if len(axis.points) != len(axes[0].points):
             part.refuse(f": a list needs equally many points; '{axes[0].name}' has {len(axes[0].points)}, '{axis.name}' "
                         f"{len(axis.points)}", "axes")
-    return Family(part.word("name"), settings, is_grid, axes)
+    return Family(name=part.word("name"), settings=settings, grid=is_grid, axes=axes)
 
 
 def _families(root: Part) -> list[Family]:
@@ -141,7 +142,7 @@ def _range(part: Part) -> Parameter:
         part.refuse(f" = {low:g}: a logarithm needs bounds above 0, a share or drop bounds of at least 0", "low")
     for value in (0.3,) if is_ratio else (low, high):  # checks that the key exists and takes such values
         part.setting("key" if is_ratio else "low", key, value)
-    return Parameter(key, coordinate, low, low, high, part.word("of"))
+    return Parameter(key=key, coordinate=coordinate, start=low, low=low, high=high, other=part.word("of"))
 
 
 def _sample_ranges(root: Part, study: Study) -> list[Family]:
@@ -163,7 +164,7 @@ def _sample_ranges(root: Part, study: Study) -> list[Family]:
     study.design = qmc.LatinHypercube(len(study.ranges), seed=1).random(n)
     points = [AxisPoint(str(k), [one._replace(file=study.file) for one in coordinates.settings(point, "")])
               for k, point in enumerate(study.design, 1)]
-    return [Family(axes=[Axis("sample of the ranges", points)])]
+    return [Family(axes=[Axis(name="sample of the ranges", points=points)])]
 
 
 def _reduction(part: Part) -> dict[str, Any]:
@@ -288,7 +289,7 @@ def study_of(root: Part, name: str, overrides: Sequence[Setting]) -> Study:
     """The study of an input file or of the words of a command line."""
     root.allow("title", "scene", "command", "set", "seeds", "reference", "families", "axes", "combine", "quantities", "cost",
                "borders", "ranges", "samples")
-    study = Study(name, root.file, scene=os.path.abspath(root.existing_file("scene")))
+    study = Study(name=name, file=root.file, scene=os.path.abspath(root.existing_file("scene")))
     study.command = root.choice("command", tuple(COMMANDS), "run")
     study.settings = [*root.settings("set"), *(setting.check() for setting in overrides)]
     study.seeds = root.seeds("seeds")
