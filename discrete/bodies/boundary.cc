@@ -78,8 +78,8 @@ namespace diptych::discrete
 
   double sample_height(const State &state)
   {
-    if (state.lattice)
-      return state.lattice->vectors(1, 1);
+    if (const Lattice *lattice = state.lattice())
+      return lattice->vectors(1, 1);
     if (state.walls.size() < 2)
       throw std::invalid_argument("the height of the sample needs a lower and an upper platen");
     return state.walls[1].point.y() - state.walls[0].point.y();
@@ -87,8 +87,8 @@ namespace diptych::discrete
 
   double sample_width(const State &state)
   {
-    if (state.cell)
-      return state.cell->width;
+    if (const PeriodicWidth *periodic = state.width())
+      return periodic->width;
     if (state.walls.size() < 4)
       throw std::invalid_argument("the width of the sample needs side walls or a periodic cell");
     return state.walls[3].point.x() - state.walls[2].point.x();
@@ -135,9 +135,7 @@ namespace diptych::discrete
                                       std::to_string(wall.mass));
         (void)applied_wall_force(state, w, state.time);
       }
-    if (state.lattice && !(state.lattice->area() > 0))
-      throw std::invalid_argument("the vectors of a lattice must span an area counter-clockwise");
-    if (state.cell && !(state.cell->width > 0 && state.cell->mass > 0))
-      throw std::invalid_argument("the periodic cell needs a positive width and mass");
+    if (const PeriodicWidth *periodic = state.width(); periodic && !(periodic->width > 0 && periodic->mass > 0))
+      throw std::invalid_argument("a periodic sample needs a positive width, and a positive mass of this width");
   }
 } // namespace diptych::discrete

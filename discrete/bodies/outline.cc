@@ -87,9 +87,9 @@ namespace diptych::discrete
 
   Outline make_outline(const State &state, const double mean_diameter)
   {
-    if (state.lattice)
+    if (const Lattice *lattice = state.lattice())
       {
-        const Eigen::Vector2d a1 = state.lattice->vectors.col(0), a2 = state.lattice->vectors.col(1);
+        const Eigen::Vector2d a1 = lattice->vectors.col(0), a2 = lattice->vectors.col(1);
         Eigen::Vector2d       corner = -0.5 * (a1 + a2);
         for (const Eigen::Vector2d &x : state.grains.position)
           corner += x / double(state.grains.size());
@@ -99,12 +99,12 @@ namespace diptych::discrete
     const auto   upright = [&](const double x) { return std::vector<Eigen::Vector2d>{{x, bottom}, {x, top}}; };
     if (state.walls.size() >= 4)
       return {upright(state.walls[2].point.x()), upright(state.walls[3].point.x())};
-    if (state.cell)
+    if (const PeriodicWidth *periodic = state.width())
       {
         double mean = 0;
         for (const Eigen::Vector2d &x : state.grains.position)
           mean += x.x() / double(state.grains.size());
-        return {upright(mean - 0.5 * state.cell->width), upright(mean + 0.5 * state.cell->width)};
+        return {upright(mean - 0.5 * periodic->width), upright(mean + 0.5 * periodic->width)};
       }
     return {side(state, mean_diameter, -1), side(state, mean_diameter, +1)};
   }

@@ -2,20 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/bodies/state.h"
 
-#include <algorithm>
-
 namespace diptych::discrete
 {
-  double TimeTable::at(const double t) const
-  {
-    if (t <= time.front())
-      return value.front();
-    if (t >= time.back())
-      return value.back();
-    const std::size_t k = std::size_t(std::upper_bound(time.begin(), time.end(), t) - time.begin());
-    return value[k - 1] + (value[k] - value[k - 1]) * (t - time[k - 1]) / (time[k] - time[k - 1]);
-  }
-
   void carry_platen_grains(State &state)
   {
     Grains &g = state.grains;

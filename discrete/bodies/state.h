@@ -2,16 +2,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <variant>
 #include <vector>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
+
+#include "discrete/bodies/periodicity.h"
 
 namespace diptych::discrete
 {
@@ -51,14 +49,6 @@ namespace diptych::discrete
     grains.mass.push_back(density * M_PI * radius * radius);
     grains.fixed.push_back(0);
   }
-
-  // Values at ascending times: linear in between, constant before the first and after the last.
-  struct TimeTable
-  {
-    std::vector<double> time, value;
-
-    double at(double t) const;
-  };
 
   // Motion of one component of a wall. Forces act on the wall along the positive axis, per unit thickness.
   struct KeptVelocity
@@ -105,52 +95,6 @@ namespace diptych::discrete
     Eigen::Vector2d inverse_mass() const { return {is_free(drive_x) ? 1 / mass : 0., is_free(drive_y) ? 1 / mass : 0.}; }
   };
 
-  // Periodicity along x. Grains keep their own abscissae. A pair meets at the nearest image, a whole number of widths away.
-  struct PeriodicCell
-  {
-    double                width;         // [length]
-    double                velocity = 0;  // d width / dt; constant unless the width is free
-    std::optional<double> pressure = {}; // a free width is under this pressure x height; without a value the width is prescribed
-    double                mass     = 1;  // inertia of a free width
-
-    bool   moves() const { return pressure || velocity != 0; }
-    double inverse_mass() const { return pressure ? 1 / mass : 0.; }
-  };
-
-  // Three controls of a lattice over time. A control is a linear form of the strains (exx, eyy, 2 exy) or of the stresses (sxx,
-  // syy, sxy). The controls must determine the motion: determines_motion() in contacts/lattice_motion.h.
-  struct LatticeDrive
-  {
-    Eigen::Matrix3d          form      = Eigen::Matrix3d::Identity(); // one row per control
-    std::array<bool, 3>      is_stress = {true, true, true};
-    std::array<TimeTable, 3> value     = {};
-    Eigen::Matrix3d          inertia   = Eigen::Matrix3d::Identity(); // of the strains, symmetric [pressure x length^2 x time^2]
-  };
-
-  // Periodicity in both directions. Each grain has images at whole numbers of the lattice vectors. The lattice deforms without
-  // turning: its velocity gradient is symmetric. Lattice and grains follow it; the velocity of a grain is what it moves beyond.
-  struct Lattice
-  {
-    Eigen::Matrix2d vectors;                          // columns a1 and a2, counter-clockwise [length]
-    Eigen::Vector3d strain = Eigen::Vector3d::Zero(); // (exx, eyy, 2 exy), logarithmic, positive in compression
-    Eigen::Vector3d rate   = Eigen::Vector3d::Zero(); // of the strain [1/time]
-    LatticeDrive    drive  = {};
-
-    double area() const { return vectors.determinant(); }
-  };
-
-  // The smaller height of the parallelogram of a lattice [length].
-  inline double least_height(const Lattice &lattice)
-  {
-    return lattice.area() / std::sqrt(std::max(lattice.vectors.col(0).squaredNorm(), lattice.vectors.col(1).squaredNorm()));
-  }
-
-  // Velocity gradient of a rate of strain (positive in compression) [1/time].
-  inline Eigen::Matrix2d velocity_gradient(const Eigen::Vector3d &rate)
-  {
-    return (Eigen::Matrix2d() << -rate[0], -0.5 * rate[2], -0.5 * rate[2], -rate[1]).finished();
-  }
-
   // Impulse of a pair, kept as first guess for the next step. Walls are bodies n_grains, n_grains + 1, ...
   struct PairImpulse
   {
@@ -162,37 +106,23 @@ namespace diptych::discrete
 
   struct State
   {
-    Grains                      grains;
-    std::vector<Wall>           walls; // lower and upper platen, then the left and right side if there are any
-    std::optional<PeriodicCell> cell;
-    std::vector<PairImpulse>    impulses; // of the last step, ascending in (i, j)
-    double                      time    = 0;
-    std::optional<Lattice>      lattice = {}; // then there are neither walls nor a cell of the other kind
+    Grains                   grains;
+    std::vector<Wall>        walls; // lower and upper platen, then the left and right side if there are any
+    Periodicity              periodicity = {};
+    std::vector<PairImpulse> impulses    = {}; // of the last step, ascending in (i, j)
+    double                   time        = 0;
+
+    // The kind of periodicity, or nullptr if it is another one.
+    PeriodicWidth       *width() { return std::get_if<PeriodicWidth>(&periodicity); }
+    const PeriodicWidth *width() const { return std::get_if<PeriodicWidth>(&periodicity); }
+    Lattice             *lattice() { return std::get_if<Lattice>(&periodicity); }
+    const Lattice       *lattice() const { return std::get_if<Lattice>(&periodicity); }
   };
 
-  // The image of grain j nearest to grain i: at x_j + shift, `along` widths or lattice vectors a1 and `upward` vectors a2 away.
-  struct Image
-  {
-    int             along = 0, upward = 0;
-    Eigen::Vector2d shift = Eigen::Vector2d::Zero();
-  };
-
-  // In a lattice the result is the nearest one for distances below half the smaller height of its parallelogram.
+  // The image of grain j nearest to grain i, at x_j + shift.
   inline Image nearest_image(const State &state, const Eigen::Vector2d &xi, const Eigen::Vector2d &xj)
   {
-    if (state.cell)
-      {
-        const int along = int(std::lround((xi.x() - xj.x()) / state.cell->width));
-        return {along, 0, {along * state.cell->width, 0}};
-      }
-    if (!state.lattice)
-      return {};
-    const Eigen::Matrix2d &a     = state.lattice->vectors;
-    const Eigen::Vector2d  d     = xi - xj;
-    const double           area  = state.lattice->area();
-    const int              along = int(std::lround((d.x() * a(1, 1) - d.y() * a(0, 1)) / area)),
-              upward             = int(std::lround((a(0, 0) * d.y() - a(1, 0) * d.x()) / area));
-    return {along, upward, along * a.col(0) + upward * a.col(1)};
+    return std::visit([&](const auto &kind) { return kind.nearest_image(xi - xj); }, state.periodicity);
   }
 
   // Gives the grains of a platen the velocity of the platen.

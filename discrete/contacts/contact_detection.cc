@@ -7,7 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "discrete/contacts/cell_grid.h"
+#include "discrete/contacts/search_grid.h"
 
 namespace diptych::discrete
 {
@@ -66,12 +66,12 @@ namespace diptych::discrete
     double wall_motion = 0;
     for (std::size_t w = 0; w < wall_point_.size(); ++w)
       wall_motion = std::max(wall_motion, (state.walls[w].point - wall_point_[w]).norm());
-    if (state.cell)
-      wall_motion = std::max(wall_motion, std::abs(state.cell->width - width_));
+    if (const PeriodicWidth *periodic = state.width())
+      wall_motion = std::max(wall_motion, std::abs(periodic->width - std::get<PeriodicWidth>(periodicity_).width));
     Eigen::Matrix2d map = Eigen::Matrix2d::Identity(); // of the lattice since the list was built; grains follow it
-    if (state.lattice)
+    if (const Lattice *lattice = state.lattice())
       {
-        map = state.lattice->vectors * lattice_.inverse();
+        map = lattice->vectors * std::get<Lattice>(periodicity_).vectors.inverse();
         // A pair in the list is at most two largest reaches apart; each grain takes half of what the map moves them.
         wall_motion = (map - Eigen::Matrix2d::Identity()).norm() *
                       (*std::max_element(g.radius.begin(), g.radius.end()) + *std::max_element(reach_.begin(), reach_.end()));
@@ -79,8 +79,7 @@ namespace diptych::discrete
     for (std::size_t i = 0; i < g.size(); ++i)
       {
         const double          left  = reach_[i] - margin[i] - wall_motion;
-        const Eigen::Vector2d moved = state.lattice ? Eigen::Vector2d(g.position[i] - map * position_[i])
-                                                    : Eigen::Vector2d(g.position[i] - position_[i]);
+        const Eigen::Vector2d moved = g.position[i] - map * position_[i];
         if (left < 0 || moved.squaredNorm() > left * left)
           return false;
       }
@@ -101,11 +100,10 @@ namespace diptych::discrete
     wall_point_.clear();
     for (const Wall &wall : state.walls)
       wall_point_.push_back(wall.point);
-    width_ = state.cell ? state.cell->width : state.lattice ? least_height(*state.lattice) : 0;
-    if (state.lattice)
-      lattice_ = state.lattice->vectors;
-    if (width_ > 0 && width_ < 4 * (largest_radius + *std::max_element(reach_.begin(), reach_.end())))
-      throw std::invalid_argument("the periodic cell is too narrow: its width is " + std::to_string(width_) +
+    periodicity_        = state.periodicity;
+    const double extent = std::visit([](const auto &kind) { return kind.least_extent(); }, periodicity_);
+    if (extent > 0 && extent < 4 * (largest_radius + *std::max_element(reach_.begin(), reach_.end())))
+      throw std::invalid_argument("the periodic sample is too narrow: its period is " + std::to_string(extent) +
                                   ", too small for grains of radius " + std::to_string(largest_radius) +
                                   " at their present speed");
 

@@ -45,8 +45,7 @@ namespace diptych::discrete
     std::vector<Pair>            pairs_; // ascending
     std::vector<Eigen::Vector2d> position_, wall_point_;
     std::vector<double>          reach_;
-    double                       width_   = 0;
-    Eigen::Matrix2d              lattice_ = Eigen::Matrix2d::Zero();
+    Periodicity                  periodicity_;
   };
 
   std::vector<Contact> find_contacts(const State &state, const std::vector<double> &margin);

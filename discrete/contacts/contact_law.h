@@ -121,15 +121,15 @@ namespace diptych::discrete
   {
     const BodyVelocity &vi = v[c.i], &vj = v[c.j];
     double              dx = vi.x - vj.x, dy = vi.y - vj.y;
-    if (c.cell >= 0)
+    if (c.image_body >= 0)
       {
-        dx -= c.image.along * v[c.cell].x;
-        dy -= c.image.along * v[c.cell].y;
+        dx -= c.image.along * v[c.image_body].x;
+        dy -= c.image.along * v[c.image_body].y;
       }
     if (c.image.upward != 0)
       {
-        dx -= c.image.upward * v[c.cell + 1].x;
-        dy -= c.image.upward * v[c.cell + 1].y;
+        dx -= c.image.upward * v[c.image_body + 1].x;
+        dy -= c.image.upward * v[c.image_body + 1].y;
       }
     return relative_velocity(c.nx, c.ny, dx, dy, vi.surface, vj.surface);
   }
@@ -216,8 +216,8 @@ namespace diptych::discrete
     vj.x -= c.jx * px;
     vj.y -= c.jy * py;
     vj.surface -= c.kj * dr.tangential;
-    if (c.cell >= 0)
-      v[c.cell].x -= c.image.along * v[c.cell].inverse_mass * px;
+    if (c.image_body >= 0)
+      v[c.image_body].x -= c.image.along * v[c.image_body].inverse_mass * px;
     if (dr.rolling != 0)
       apply_couple(c, dr.rolling, vi, vj);
   }

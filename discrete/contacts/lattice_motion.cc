@@ -37,15 +37,14 @@ namespace diptych::discrete
     return 0.6 * sum * isotropic;
   }
 
-  LatticeMotion lattice_motion(const State &state, const double step)
+  LatticeMotion lattice_motion(const Lattice &lattice, const double time, const double step)
   {
-    const Lattice      &lattice = *state.lattice;
-    const LatticeDrive &drive   = lattice.drive;
+    const LatticeDrive &drive = lattice.drive;
     Eigen::Matrix3d     rows = drive.form, of_moment = Eigen::Matrix3d::Zero();
     Eigen::Vector3d     right;
     for (int k = 0; k < 3; ++k)
       {
-        const auto at = [&](const double share) { return drive.value[k].at(state.time + share * step); };
+        const auto at = [&](const double share) { return drive.values.at(time + share * step)[k]; };
         if (drive.is_stress[k])
           {
             rows.row(k)      = drive.form.row(k) * drive.inertia;
@@ -67,7 +66,7 @@ namespace diptych::discrete
       if (drive.is_stress[k])
         rows.row(k) *= isotropic;
       else
-        right[k] = (drive.value[k].value[1] - drive.value[k].value[0]) / drive.value[k].time[1];
+        right[k] = (drive.values.value[1][k] - drive.values.value[0][k]) / drive.values.time[1];
     return rows.inverse() * right;
   }
 
@@ -80,16 +79,21 @@ namespace diptych::discrete
       }
   }
 
-  Eigen::Matrix2d crossing_sum(const ContactProblem &problem, const std::vector<Impulse> &impulses)
+  void follow_impulses(const ContactProblem            &problem,
+                       const std::vector<BodyVelocity> &free,
+                       const std::vector<Impulse>      &impulses,
+                       std::vector<BodyVelocity>       &v)
   {
-    Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+    if (!problem.lattice)
+      return;
+    Eigen::Matrix2d crossing = Eigen::Matrix2d::Zero();
     for (std::size_t k = 0; k < impulses.size(); ++k)
-      if (const ContactRow &c = problem.contacts[k]; c.cell >= 0)
-        sum += crossing_of(c, impulses[k], *problem.lattice);
-    return sum;
+      if (const ContactRow &c = problem.contacts[k]; c.image_body >= 0)
+        crossing += crossing_of(c, impulses[k], *problem.lattice);
+    follow_crossing(*problem.lattice, free, crossing, v);
   }
 
-  void follow_impulses(const LatticeProblem            &lattice,
+  void follow_crossing(const LatticeProblem            &lattice,
                        const std::vector<BodyVelocity> &free,
                        const Eigen::Matrix2d           &crossing,
                        std::vector<BodyVelocity>       &v)

@@ -34,8 +34,8 @@ namespace diptych::discrete
     Eigen::Matrix3d mobility;
   };
 
-  // For a step that began at `state.time`; the state is at mid-step.
-  LatticeMotion lattice_motion(const State &state, double step);
+  // For a step that began at `time`; the lattice is at mid-step.
+  LatticeMotion lattice_motion(const Lattice &lattice, double time, double step);
 
   // Rate at time 0 of prescribed strains; the other components have it as if stresses stayed constant in an elastic material.
   Eigen::Vector3d start_rate(const LatticeDrive &drive);
@@ -57,8 +57,8 @@ namespace diptych::discrete
   inline Eigen::Vector2d shift_of(const ContactRow &c, const LatticeProblem &lattice)
   {
     const std::size_t a1 = lattice.place.size() - 2;
-    return c.cell < 0 ? Eigen::Vector2d(Eigen::Vector2d::Zero())
-                      : Eigen::Vector2d(c.image.along * lattice.place[a1] + c.image.upward * lattice.place[a1 + 1]);
+    return c.image_body < 0 ? Eigen::Vector2d(Eigen::Vector2d::Zero())
+                            : Eigen::Vector2d(c.image.along * lattice.place[a1] + c.image.upward * lattice.place[a1 + 1]);
   }
 
   inline Eigen::Vector2d vector_of(const ContactRow &c, const Impulse &r)
@@ -71,13 +71,16 @@ namespace diptych::discrete
     return vector_of(c, r) * shift_of(c, lattice).transpose();
   }
 
-  // Sum of impulse x shift^T over all rows.
-  Eigen::Matrix2d crossing_sum(const ContactProblem &problem, const std::vector<Impulse> &impulses);
-
   // Sets the rate that follows from the impulses which `v` contains, and moves grains and lattice along. `free`: the velocities
-  // without impulses. `crossing`: crossing_sum().
-  void follow_impulses(const LatticeProblem            &lattice,
+  // without impulses. `crossing`: sum of impulse x shift^T over all rows.
+  void follow_crossing(const LatticeProblem            &lattice,
                        const std::vector<BodyVelocity> &free,
                        const Eigen::Matrix2d           &crossing,
+                       std::vector<BodyVelocity>       &v);
+
+  // The same with the impulses of all rows. Does nothing without a lattice.
+  void follow_impulses(const ContactProblem            &problem,
+                       const std::vector<BodyVelocity> &free,
+                       const std::vector<Impulse>      &impulses,
                        std::vector<BodyVelocity>       &v);
 } // namespace diptych::discrete

@@ -44,8 +44,7 @@ namespace diptych::discrete
         fetch_ahead(problem.contacts, acting, a);
         apply_impulse(problem.contacts[acting[a]], impulses[acting[a]], v);
       }
-    if (problem.lattice)
-      follow_impulses(*problem.lattice, free, crossing_sum(problem, impulses), v);
+    follow_impulses(problem, free, impulses, v);
     return v;
   }
 

@@ -134,7 +134,12 @@ namespace diptych::discrete
       return walls;
     }
 
-    std::vector<double> lattice_numbers(const Lattice &lattice)
+    std::vector<double> numbers(const PeriodicWidth &periodic)
+    {
+      return {periodic.width, periodic.velocity, periodic.mass};
+    }
+
+    std::vector<double> numbers(const Lattice &lattice)
     {
       std::vector<double> values(lattice.vectors.data(), lattice.vectors.data() + 4);
       values.insert(values.end(), lattice.strain.data(), lattice.strain.data() + 3);
@@ -242,7 +247,7 @@ namespace diptych::discrete
       const auto        both = [&](const auto &pair) {
         return pair.i >= 0 && std::size_t(pair.i) < n && pair.j >= 0 && std::size_t(pair.j) < n_bodies;
       };
-      const bool whole = row_is_whole && (p.state.walls.size() >= 2 || p.state.lattice) && g.position.size() == n &&
+      const bool whole = row_is_whole && (p.state.walls.size() >= 2 || p.state.lattice()) && g.position.size() == n &&
                          g.velocity.size() == n && g.rotation.size() == n && g.spin.size() == n && g.mass.size() == n &&
                          g.fixed.size() == n && p.reference.position.size() == n &&
                          (p.window.spin.empty() || p.window.spin.size() == n) &&
@@ -269,7 +274,7 @@ namespace diptych::discrete
       demand(p.steps_left >= 0 && p.report.steps >= 0, "'scalars/steps_left' or 'scalars/steps' is negative");
       demand(p.interval > 0, "'scalars/interval' is not above 0");
       demand(p.reference.height > 0 && p.reference.area > 0, "'scalars/reference_height' or 'reference_area' is not above 0");
-      demand(p.state.lattice || walls[1].point.y() > walls[0].point.y(), "'walls' has the upper platen below the lower one");
+      demand(walls.empty() || walls[1].point.y() > walls[0].point.y(), "'walls' has the upper platen below the lower one");
     }
   } // namespace
 
@@ -279,9 +284,8 @@ namespace diptych::discrete
     Hdf5Writer file(path);
     write_grains(file, p.state.grains);
     file.write("walls", wall_numbers(p.state.walls));
-    file.write("lattice", p.state.lattice ? lattice_numbers(*p.state.lattice) : std::vector<double>{});
-    file.write("cell", p.state.cell ? std::vector<double>{p.state.cell->width, p.state.cell->velocity, p.state.cell->mass}
-                                    : std::vector<double>{});
+    file.write("lattice", p.state.lattice() ? numbers(*p.state.lattice()) : std::vector<double>{});
+    file.write("cell", p.state.width() ? numbers(*p.state.width()) : std::vector<double>{});
     write_pairs(file, p);
     file.write("reference/position", p.reference.position);
     file.write("row", numbers(p.row));
@@ -303,15 +307,15 @@ namespace diptych::discrete
       p.state.grains     = read_grains(file);
       p.state.walls      = walls_of(file);
       if (const std::vector<double> cell = file.read("cell"); cell.size() == 3 && cell[0] > 0)
-        p.state.cell = PeriodicCell{cell[0], cell[1], {}, cell[2]};
+        p.state.periodicity = PeriodicWidth{cell[0], cell[1], {}, cell[2]};
       else if (!cell.empty())
         throw std::invalid_argument(path + ": 'cell' does not hold width, velocity and mass");
       if (const std::vector<double> lattice = file.read("lattice"); !lattice.empty())
-        p.state.lattice = lattice_of(lattice, path);
+        p.state.periodicity = lattice_of(lattice, path);
       read_pairs(file, p);
       p.reference.position            = file.read_vectors("reference/position");
       const std::vector<double> row   = file.read("row");
-      const std::size_t         width = numbers({}).size();
+      const std::size_t         width = numbers(HistoryRow()).size();
       check_sizes(path, p, row.size() == width);
       p.row             = row_of(row.data());
       checkpoint.n_rows = read_number<long>(file, "n_rows");

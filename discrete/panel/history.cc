@@ -122,8 +122,8 @@ namespace diptych::discrete
 
   Strains strains_of(const State &state, const Reference &reference)
   {
-    if (state.lattice)
-      return {1 - std::exp(-state.lattice->strain[1]), state.lattice->strain[2]};
+    if (const Lattice *lattice = state.lattice())
+      return {1 - std::exp(-lattice->strain[1]), lattice->strain[2]};
     const Eigen::Vector2d travel = state.walls[1].point - reference.platen;
     return {(0. - travel.y()) / reference.height, travel.x() / reference.height};
   }
@@ -131,9 +131,7 @@ namespace diptych::discrete
   Reference make_reference(const State &state, const double mean_diameter, const double strain_rate)
   {
     Reference reference;
-    reference.position = state.grains.position;
-    if (!state.lattice)
-      reference.platen = state.walls[1].point;
+    reference.position       = state.grains.position;
     reference.height         = sample_height(state);
     reference.area           = outline_area(make_outline(state, mean_diameter));
     reference.kinetic_energy = kinetic_energy(state);
@@ -141,10 +139,13 @@ namespace diptych::discrete
       reference.grain_area += M_PI * r * r;
     const double mass               = sum(state.grains.mass);
     reference.mean_density          = mass / reference.grain_area;
-    reference.platen_kinetic_energy = 0.25 * mass *
-                                      (state.lattice ? std::pow(strain_rate * reference.height, 2)
-                                                     : state.walls[1].velocity.squaredNorm());
-    reference.strain_rate = strain_rate;
+    reference.platen_kinetic_energy = 0.25 * mass * std::pow(strain_rate * reference.height, 2);
+    reference.strain_rate           = strain_rate;
+    if (!state.walls.empty())
+      {
+        reference.platen                = state.walls[1].point;
+        reference.platen_kinetic_energy = 0.25 * mass * state.walls[1].velocity.squaredNorm();
+      }
     return reference;
   }
 
@@ -193,12 +194,12 @@ namespace diptych::discrete
     row.axial_strain = strains.axial;
     row.shear_strain = strains.shear;
     row.stress       = (sums.total - spin * Eigen::Matrix2d::Identity()) / area;
-    if (state.lattice)
-      describe_lattice(*state.lattice, result.lattice, row);
+    if (const Lattice *lattice = state.lattice())
+      describe_lattice(*lattice, result.lattice, row);
     row.stress_ratio      = stress_ratio(row.stress);
     row.volumetric_strain = 1 - area / reference.area;
     row.solid_fraction    = reference.grain_area / area;
-    if (!state.lattice)
+    if (!state.walls.empty())
       {
         row.lower_force = result.wall_force[0];
         row.upper_force = result.wall_force[1];

@@ -70,11 +70,12 @@ namespace diptych::discrete
         }
       else if (const auto *periodic = std::get_if<PeriodicSides>(&lateral))
         {
-          state.cell->mass = mass;
+          PeriodicWidth &width = *state.width();
+          width.mass           = mass;
           if (periodic->free_width)
-            state.cell->pressure = start.loading.pressure;
+            width.pressure = start.loading.pressure;
           else
-            state.cell->velocity = periodic->velocity;
+            width.velocity = periodic->velocity;
         }
     }
 
@@ -92,29 +93,23 @@ namespace diptych::discrete
 
     LatticeDrive lattice_drive(const State &state, const LoadingStart &start)
     {
-      const CellPath           &path  = start.loading.path;
-      const std::vector<double> times = times_of(path, start.loading.pressure, start.rate);
-      LatticeDrive              drive{path.form, path.is_stress, {}, lattice_inertia(state.grains)};
-      for (int k = 0; k < 3; ++k)
-        for (std::size_t row = 0; row < times.size(); ++row)
-          {
-            drive.value[k].time.push_back(times[row]);
-            drive.value[k].value.push_back(path.values[row][k]);
-          }
-      return drive;
+      const CellPath &path = start.loading.path;
+      return {path.form,
+              path.is_stress,
+              {times_of(path, start.loading.pressure, start.rate), path.values},
+              lattice_inertia(state.grains)};
     }
 
     // Prescribed strains start at their rate; the others as if the grains were elastic.
     void start_lattice(State &state, const LoadingStart &start)
     {
       Grains  &g       = state.grains;
-      Lattice &lattice = *state.lattice;
+      Lattice &lattice = *state.lattice();
       state.time       = 0;
       std::fill(g.velocity.begin(), g.velocity.end(), Eigen::Vector2d::Zero());
       for (std::vector<double> *values : {&g.spin, &g.rotation})
         std::fill(values->begin(), values->end(), 0.);
-      lattice.strain.setZero();
-      lattice.rate.setZero();
+      lattice.stop();
       set_drives(state, start);
       if (start.loading.affine_start)
         lattice.rate = start_rate(lattice.drive);
@@ -177,15 +172,15 @@ namespace diptych::discrete
 
   void set_drives(State &state, const LoadingStart &start)
   {
-    if (state.lattice)
+    if (Lattice *lattice = state.lattice())
       {
-        state.lattice->drive = lattice_drive(state, start);
+        lattice->drive = lattice_drive(state, start);
         return;
       }
     for (Wall &wall : state.walls)
       wall.drive_x = wall.drive_y = KeptVelocity{};
-    if (state.cell)
-      state.cell->pressure.reset();
+    if (PeriodicWidth *width = state.width())
+      width->pressure.reset();
     set_lateral_drives(state, start);
     if (start.loading.mode == LoadingMode::plane_shear)
       state.walls[1].drive_y = AppliedPressure{start.loading.normal_pressure};
@@ -195,7 +190,7 @@ namespace diptych::discrete
 
   void start_loading(State &state, const LoadingStart &start)
   {
-    if (state.lattice)
+    if (start.loading.mode == LoadingMode::path)
       return start_lattice(state, start);
     const Loading         &loading = start.loading;
     const double           bottom = state.walls[0].point.y(), height = sample_height(state);
@@ -218,7 +213,7 @@ namespace diptych::discrete
     if (const auto *sides = std::get_if<RigidSides>(&lateral); sides && sides->velocity)
       state.walls[3].velocity.x() = *sides->velocity;
     if (const auto *periodic = std::get_if<PeriodicSides>(&lateral))
-      state.cell->velocity = periodic->free_width ? 0. : periodic->velocity;
+      state.width()->velocity = periodic->free_width ? 0. : periodic->velocity;
     set_drives(state, start);
     for (Wall &wall : state.walls)
       wall.velocity = prescribed_wall_velocity(wall, 0.);
@@ -233,7 +228,7 @@ namespace diptych::discrete
     if (loading.mode == LoadingMode::time)
       return state.time;
     if (loading.mode == LoadingMode::path)
-      return progress_at(loading.path, state.lattice->drive.value[0].time, state.time);
+      return progress_at(loading.path, state.lattice()->drive.values.time, state.time);
     const Eigen::Vector2d travel = state.walls[1].point - initial_platen;
     return (loading.mode == LoadingMode::descent ? -travel.y() : travel.x()) / initial_height;
   }
@@ -242,18 +237,18 @@ namespace diptych::discrete
   {
     if (loading.mode != LoadingMode::path)
       return (to - from) / rate;
-    const std::vector<double> &times = state.lattice->drive.value[0].time;
+    const std::vector<double> &times = state.lattice()->drive.values.time;
     return time_at(loading.path, times, to) - time_at(loading.path, times, from);
   }
 
   std::string cell_obstacle(const State &state, const Loading &loading, const double mean_diameter, const double density)
   {
-    if (!state.lattice)
+    if (!state.lattice())
       return "";
     constexpr double           fast    = 0.1; // inertial number at which grains collide rather than press
-    const Lattice             &lattice = *state.lattice;
+    const Lattice             &lattice = *state.lattice();
     const double               unit    = mean_diameter * std::sqrt(density / loading.pressure); // of time
-    const double               number = unit * lattice.rate.norm(), height = least_height(lattice);
+    const double               number = unit * lattice.rate.norm(), height = lattice.least_extent();
     const std::vector<double> &radius = state.grains.radius;
     std::ostringstream         text;
     if (number > fast + 10 * unit * strain_rate(loading, mean_diameter, density))

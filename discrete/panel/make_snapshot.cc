@@ -36,13 +36,13 @@ namespace diptych::discrete
     {
       s.outline = make_outline(state, s.mean_diameter);
       s.area    = outline_area(s.outline);
-      if (state.lattice)
+      if (const Lattice *lattice = state.lattice())
         {
-          s.cell_vectors = state.lattice->vectors;
+          s.cell_vectors = lattice->vectors;
           s.lower_y      = s.outline.left.front().y();
           s.upper_y      = s.outline.right.back().y();
           for (std::size_t i = 0; i < s.velocity.size(); ++i)
-            s.velocity[i] += velocity_gradient(state.lattice->rate) * s.position[i];
+            s.velocity[i] += velocity_gradient(lattice->rate) * s.position[i];
           return;
         }
       s.lower_y                   = state.walls[0].point.y();
@@ -55,7 +55,7 @@ namespace diptych::discrete
           s.left_x  = state.walls[2].point.x();
           s.right_x = state.walls[3].point.x();
         }
-      s.cell_width = state.cell ? state.cell->width : 0;
+      s.cell_width = state.width() ? state.width()->width : 0;
     }
   } // namespace
 

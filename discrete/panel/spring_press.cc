@@ -18,7 +18,7 @@ namespace diptych::discrete
 
     stop(state);
     state.impulses.clear();
-    if (!state.lattice) // a lattice keeps the isotropic pressure of the preparation
+    if (press.start.loading.mode != LoadingMode::path) // a path starts from the isotropic pressure of the preparation
       set_drives(state, {press.start.loading, press.start.lateral, {}, press.start.rate});
     PenaltyState  springs;
     PressedSample pressed{{}, press.setting.step};

@@ -42,10 +42,10 @@ namespace diptych::discrete
         result.inverse_mass.segment<3>(3 * c.j) << c.jx, c.jy, c.kj;
         result.velocity_offset.segment<2>(2 * k) << c.normal_term, c.tangential_term;
         result.friction[k] = c.friction;
-        if (c.cell < 0)
+        if (c.image_body < 0)
           continue;
-        add(3 * c.cell, -c.image.along * c.nx, c.image.along * c.ny);
-        result.inverse_mass[3 * c.cell] = problem.free_velocity[c.cell].inverse_mass;
+        add(3 * c.image_body, -c.image.along * c.nx, c.image.along * c.ny);
+        result.inverse_mass[3 * c.image_body] = problem.free_velocity[c.image_body].inverse_mass;
       }
     result.h.setFromTriplets(entries.begin(), entries.end());
     return result;

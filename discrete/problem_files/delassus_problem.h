@@ -45,7 +45,7 @@ namespace diptych::discrete
     Eigen::VectorXd             friction;        // (contacts)
   };
 
-  // A contact across the edge of a free cell also acts on the cell. The inverse masses of y and surface speed of a cell are 0.
+  // A contact across the edge of a free width also acts on the width. Its inverse masses of y and surface speed are 0.
   BodyMatrices body_matrices(const ContactProblem &problem);
 
   // Blocks of W (2 contacts, 2 contacts), q (2 contacts) and mu (contacts). Entries that are exactly zero are left out.

@@ -74,7 +74,7 @@ namespace diptych::discrete
 
   // Writes /fclib_local and /fclib_global by rows to `path`.part, then renames it. Contacts keep the order of the problem; the
   // third component of a body in /fclib_global is its surface speed. A geometry adds /nscd, from which the body form can be
-  // restored, unless a contact acts on a free cell. Impulses (one per contact) add /solution. Throws std::runtime_error if the
+  // restored, unless a contact acts on a free width. Impulses (one per contact) add /solution. Throws std::runtime_error if the
   // file cannot be written and std::invalid_argument if sizes do not match.
   void write_fclib(const std::string                   &path,
                    const ContactProblem                &problem,

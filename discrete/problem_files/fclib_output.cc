@@ -186,9 +186,9 @@ namespace diptych::discrete
       write_head(writer, group, about, b);
     write_local(writer, local);
     write_global(writer, b);
-    const bool free_cell = std::any_of(problem.contacts.begin(), problem.contacts.end(),
-                                       [](const auto &c) { return c.cell >= 0; });
-    if (geometry && !free_cell)
+    const bool free_width = std::any_of(problem.contacts.begin(), problem.contacts.end(),
+                                        [](const auto &c) { return c.image_body >= 0; });
+    if (geometry && !free_width)
       write_nscd(writer, problem, b, *geometry);
     write_rolling(writer, problem);
     if (!solution.empty())

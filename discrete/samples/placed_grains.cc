@@ -84,22 +84,22 @@ namespace diptych::discrete
       }
     else if (const auto *periodic = std::get_if<PeriodicSides>(&setting.lateral))
       {
-        state.cell->mass = periodic->mass > 0 ? periodic->mass : mass;
+        PeriodicWidth &width = *state.width();
+        width.mass           = periodic->mass > 0 ? periodic->mass : mass;
         if (periodic->free_width)
-          state.cell->pressure = setting.pressure;
+          width.pressure = setting.pressure;
         else
           {
             state.walls[1].drive_y = AppliedPressure{setting.pressure};
-            state.walls[1].mass    = state.cell->mass;
+            state.walls[1].mass    = width.mass;
           }
       }
     else if (std::holds_alternative<CellSides>(setting.lateral))
       {
-        const auto constant  = [](const double value) { return TimeTable{{0.}, {value}}; };
-        state.lattice->drive = {Eigen::Matrix3d::Identity(),
-                                {true, true, true},
-                                {constant(setting.pressure), constant(setting.pressure), constant(0)},
-                                lattice_inertia(state.grains)};
+        state.lattice()->drive = {Eigen::Matrix3d::Identity(),
+                                  {true, true, true},
+                                  {{0.}, {{setting.pressure, setting.pressure, 0}}},
+                                  lattice_inertia(state.grains)};
       }
     else
       state.walls.resize(2);
@@ -123,8 +123,8 @@ namespace diptych::discrete
         if (o.width <= 0)
           throw WrongKeys({"sample/width", "discrete/lateral"},
                           "sample/width = 0: for a periodic sample from a file, give its period here");
-        state.cell     = PeriodicCell{o.width};
-        box.cell_width = o.width;
+        state.periodicity = PeriodicWidth{o.width};
+        box.cell_width    = o.width;
         state.walls.resize(2);
       }
     check_grains(file, box, o.allowed_overlap);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "discrete/contacts/cell_grid.h"
+#include "discrete/contacts/search_grid.h"
 #include "discrete/contacts/contact_detection.h"
 #include "discrete/files/csv_file.h"
 #include "discrete/files/hdf5_file.h"
@@ -249,7 +249,7 @@ namespace diptych::discrete
       double                side = 0;
       for (const SizedGrid &sized : sort_by_size(state))
         {
-          CellGrid::Crowds crowds = sized.grid.crowds();
+          SearchGrid::Crowds crowds = sized.grid.crowds();
           sum += crowds.squares;
           if (crowds.fullest.size() > crowd.size())
             {
@@ -271,7 +271,7 @@ namespace diptych::discrete
       State         state;
       state.grains = g;
       if (cell_width)
-        state.cell = PeriodicCell{*cell_width};
+        state.periodicity = PeriodicWidth{*cell_width};
       check_crowds(file, state);
       int                    n_pairs = 0;
       std::optional<Contact> worst;

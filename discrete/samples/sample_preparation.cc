@@ -71,8 +71,8 @@ namespace diptych::discrete
       return {whole / height, height};
     }
 
-    // Random centres in a box with the height of the sample and the width that gives box_solid_fraction. With a cell of fixed
-    // width, the height follows instead. Periodic sides have a cell instead of side walls, and a lattice has no walls.
+    // Random centres in a box with the height of the sample and the width that gives box_solid_fraction. With a periodic
+    // width that is fixed, the height follows instead. Periodic sides have no side walls, and a lattice has no walls.
     State random_box(const SampleOptions &o, const LateralCondition &lateral)
     {
       std::mt19937_64           random(o.seed);
@@ -91,13 +91,13 @@ namespace diptych::discrete
           add_grain(state.grains, {x, y}, r, o.density);
         }
       if (std::holds_alternative<CellSides>(lateral))
-        state.lattice = Lattice{Eigen::Vector2d(width, height).asDiagonal()};
+        state.periodicity = Lattice{Eigen::Vector2d(width, height).asDiagonal()};
       else
         state.walls = box_walls(width, height);
       if (periodic)
         {
           state.walls.resize(2);
-          state.cell = PeriodicCell{width};
+          state.periodicity = PeriodicWidth{width};
         }
       return state;
     }
@@ -122,8 +122,8 @@ namespace diptych::discrete
       stop(state);
       for (Wall &wall : state.walls)
         wall.drive_x = wall.drive_y = KeptVelocity{};
-      if (state.cell)
-        state.cell->pressure.reset();
+      if (PeriodicWidth *width = state.width())
+        width->pressure.reset();
       state.time = 0;
     }
 

@@ -15,13 +15,7 @@ namespace diptych::discrete
     std::fill(state.grains.spin.begin(), state.grains.spin.end(), 0.);
     for (Wall &wall : state.walls)
       wall.velocity.setZero();
-    if (state.cell)
-      state.cell->velocity = 0;
-    if (state.lattice)
-      {
-        state.lattice->rate.setZero();
-        state.lattice->strain.setZero(); // it counts from a state of rest
-      }
+    std::visit([](auto &kind) { kind.stop(); }, state.periodicity);
   }
 
   Settled settle(State &state, StepSetting setting, const SettlingOptions &options, const std::function<bool()> &go_on)

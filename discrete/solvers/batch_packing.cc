@@ -26,7 +26,7 @@ namespace diptych::discrete
     const auto   same = [](const double a, const double b) {
       return std::abs(a - b) <= 1e-14 * std::abs(b);
     }; // files round these numbers
-    return c.cell < 0 && same(c.jx, wj) && same(c.jy, wj) && same(c.ki, 2 * wi) && same(c.kj, 2 * wj) &&
+    return c.image_body < 0 && same(c.jx, wj) && same(c.jy, wj) && same(c.ki, 2 * wi) && same(c.kj, 2 * wj) &&
            (c.normal_compliance > 0 || same(c.inverse_wtt, c.inverse_wnn * disc_wnn_over_wtt));
   }
 

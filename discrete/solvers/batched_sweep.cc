@@ -138,7 +138,7 @@ namespace diptych::discrete
     Eigen::Matrix2d crossing = Eigen::Matrix2d::Zero();
     for (std::size_t k = 0; k < rest_.size(); ++k)
       crossing += crossing_of(problem_.contacts[rest_[k]], rest_impulses_[k], *problem_.lattice);
-    follow_impulses(*problem_.lattice, problem_.free_velocity, crossing, v_);
+    follow_crossing(*problem_.lattice, problem_.free_velocity, crossing, v_);
   }
 
   void BatchedContacts::sweep_part(Part &part, const double omega_sticking, const double omega_slipping, const bool with_idle)

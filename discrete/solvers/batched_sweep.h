@@ -13,7 +13,7 @@ namespace diptych::discrete
 {
   // The contacts of a problem, cut in sweep order into blocks of similar size that share no grain. Contacts between
   // neighbouring blocks are separate. A sweep takes all blocks, then the contacts between blocks. Rows that do not fit a batch
-  // come last (walls under a force, the edge of a free cell). Contacts that are open in the guess have batches of their own; in
+  // come last (walls under a force, the edge of a free width). Contacts that are open in the guess have batches of their own; in
   // sheared samples these are a third of the rows. Until one of its four contacts acts, such a batch is idle: swept every
   // `idle_every` sweeps and at the last one of a call. Blocks depend only on the problem, so every number of threads gives the
   // same bits. The order within a batch does not matter, so every instruction set does too.

@@ -14,8 +14,7 @@ namespace diptych::discrete
         update(problem.contacts[k], exact, v, impulses[k]);
     for (const int k : problem.order)
       update(problem.contacts[k], exact, v, impulses[k]);
-    if (problem.lattice)
-      follow_impulses(*problem.lattice, problem.free_velocity, crossing_sum(problem, impulses), v);
+    follow_impulses(problem, problem.free_velocity, impulses, v);
   }
 
   void sweep_psor(const ContactProblem      &problem,

@@ -9,7 +9,7 @@
 
 namespace diptych::discrete
 {
-  // q += duration v for grains, walls and the cell.
+  // q += duration v for grains, walls and images.
   void drift(State &state, double duration);
 
   void take_velocities(const std::vector<BodyVelocity> &v, State &state);

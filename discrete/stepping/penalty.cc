@@ -35,9 +35,8 @@ namespace diptych::discrete
       for (const Wall &wall : state.walls)
         if (!wall.velocity.allFinite() || !wall.point.allFinite())
           return true;
-      if (state.lattice && !state.lattice->rate.allFinite())
-        return true;
-      return state.cell && !(std::isfinite(state.cell->width) && state.cell->width > 0);
+      const PeriodicWidth *periodic = state.width();
+      return periodic && !(std::isfinite(periodic->width) && periodic->width > 0);
     }
 
     StepResult blown_up()

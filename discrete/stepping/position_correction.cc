@@ -66,13 +66,13 @@ namespace diptych::discrete
           }
       for (std::size_t k = 0; k < state.walls.size(); ++k)
         state.walls[k].point += step * Eigen::Vector2d(w[n + k].x, w[n + k].y);
-      if (state.cell && state.cell->moves())
-        state.cell->width += step * w[n + state.walls.size()].x;
-      if (state.lattice)
+      if (PeriodicWidth *periodic = state.width(); periodic && periodic->moves())
+        periodic->width += step * w[n + state.walls.size()].x;
+      if (Lattice *lattice = state.lattice())
         {
           const Eigen::Vector3d strain = step * rate_of(w[n + 2]);
-          state.lattice->vectors += (velocity_gradient(strain) * state.lattice->vectors).eval();
-          state.lattice->strain += strain;
+          lattice->vectors += (velocity_gradient(strain) * lattice->vectors).eval();
+          lattice->strain += strain;
         }
     }
   } // namespace

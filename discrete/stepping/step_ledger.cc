@@ -130,28 +130,28 @@ namespace diptych::discrete
         }
     }
 
-    // A free width of the cell is a body under -pressure x height. A prescribed one works against the impulses across the edge.
-    void add_cell(const SolvedStep &s, StepEnergies &e)
+    // A free width is a body under -pressure x height. A prescribed one works against the impulses across the edge.
+    void add_width(const SolvedStep &s, StepEnergies &e)
     {
-      if (!s.state.cell || !s.state.cell->moves())
+      const PeriodicWidth *periodic = s.state.width();
+      if (!periodic || !periodic->moves())
         return;
       const double was = s.v.back().x, is = s.v_new.back().x, mean = 0.5 * (was + is);
-      if (s.state.cell->pressure)
+      if (periodic->pressure)
         {
-          e.external_work -= s.step * *s.state.cell->pressure * sample_height(s.state) * mean;
-          e.kinetic += 0.5 * s.state.cell->mass * is * is;
-          e.kinetic_change += 0.5 * s.state.cell->mass * (is * is - was * was);
+          e.external_work -= s.step * *periodic->pressure * sample_height(s.state) * mean;
+          e.kinetic += 0.5 * periodic->mass * is * is;
+          e.kinetic_change += 0.5 * periodic->mass * (is * is - was * was);
           return;
         }
       for (std::size_t k = 0; k < s.contacts.size(); ++k)
-        if (const ContactRow &c = s.problem.contacts[k]; c.cell >= 0)
+        if (const ContactRow &c = s.problem.contacts[k]; c.image_body >= 0)
           e.external_work += c.image.along * vector_of(c, s.impulses[k]).x() * mean;
     }
 
     // The drive balances contacts and inertia, and works with the rate of strain.
-    void add_lattice(const SolvedStep &s, StepLedger &ledger)
+    void add_lattice(const SolvedStep &s, const Lattice &lattice, StepLedger &ledger)
     {
-      const Lattice        &lattice = *s.state.lattice;
       const Eigen::Vector3d was = rate_of(s.v.back()), is = rate_of(s.v_new.back());
       Eigen::Matrix2d       sum = Eigen::Matrix2d::Zero();
       for (const int k : s.acting)
@@ -191,7 +191,7 @@ namespace diptych::discrete
       ledger.energies.correction_work      = 0 - contacts.correction;
       add_grains(own, ledger.energies);
       add_walls(s, ledger.wall_force, ledger.energies);
-      add_cell(s, ledger.energies);
+      add_width(s, ledger.energies);
 
       double          unbalanced = 0, momentum_sum = 0;
       Eigen::Vector2d balance = -add_held_grains(s, ledger.energies);
@@ -213,12 +213,13 @@ namespace diptych::discrete
 
   StepLedger step_ledger(const SolvedStep &s, const bool corrects_by_velocity)
   {
-    if (!s.state.lattice)
+    const Lattice *lattice = s.state.lattice();
+    if (!lattice)
       return ledger_of(s, s, corrects_by_velocity);
     const std::vector<BodyVelocity> v = without_strain(s.state, s.v), v_new = without_strain(s.state, s.v_new);
     const SolvedStep                own{s.state, s.problem, s.contacts, s.impulses, s.acting, s.applied_force, v, v_new, s.step};
     StepLedger                      ledger = ledger_of(s, own, corrects_by_velocity);
-    add_lattice(s, ledger);
+    add_lattice(s, *lattice, ledger);
     return ledger;
   }
 

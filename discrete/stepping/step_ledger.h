@@ -10,7 +10,7 @@
 namespace diptych::discrete
 {
   // Work of one step. kinetic_change = external_work - friction_dissipation - rolling_dissipation - impact_dissipation to
-  // round-off. Momentum is balanced over the step, so sum r.(u + u')/2 is the work of the impulses. Free walls, a free cell width
+  // round-off. Momentum is balanced over the step, so sum r.(u + u')/2 is the work of the impulses. Free walls, a free width
   // and a lattice are bodies with kinetic energy like grains. Prescribed walls, fixed grains and the drive of a lattice do
   // external work. In a lattice the kinetic energy of a grain is that of its motion beyond the mean strain. [energy]
   struct StepEnergies

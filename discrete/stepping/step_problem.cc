@@ -50,7 +50,7 @@ namespace diptych::discrete
       row.i                  = body.i;
       row.j                  = body.j;
       row.image              = 0;
-      row.cell               = -1;
+      row.image_body         = -1;
       const double wi        = v[row.i].inverse_mass;
       row.ki                 = 2 * wi; // r^2/I of a disc
       if (row.j < n)
@@ -66,24 +66,20 @@ namespace diptych::discrete
           row.jy                   = wj.y();
           row.kj                   = 0;
         }
-      double     wnn      = wi + row.jx * row.nx * row.nx + row.jy * row.ny * row.ny;
-      double     wtt      = wi + row.jx * row.ny * row.ny + row.jy * row.nx * row.nx + row.ki + row.kj;
-      const bool is_image = c.image.along != 0 || c.image.upward != 0;
-      if (is_image && state.lattice)
+      double    wnn        = wi + row.jx * row.nx * row.nx + row.jy * row.ny * row.ny;
+      double    wtt        = wi + row.jx * row.ny * row.ny + row.jy * row.nx * row.nx + row.ki + row.kj;
+      const int image_body = n + int(state.walls.size()); // exists if images move relative to their grains
+      if ((c.image.along != 0 || c.image.upward != 0) && image_body < int(v.size()))
         {
-          row.image = {c.image.along, c.image.upward};
-          row.cell  = n;
-        }
-      else if (is_image && state.cell->moves())
-        {
-          row.image      = int(normal) * c.image.along;
-          row.cell       = n + int(state.walls.size());
-          const double w = state.cell->inverse_mass() * c.image.along * c.image.along;
+          row.image      = {int(normal) * c.image.along, int(normal) * c.image.upward};
+          row.image_body = image_body;
+          const double w = v[image_body].inverse_mass * c.image.along * c.image.along;
           wnn += w * row.nx * row.nx;
           wtt += w * row.ny * row.ny;
         }
-      row.inverse_wnn = 1 / wnn;
-      row.inverse_wtt = row.cell < 0 && row.jx == row.jy && row.kj == 2 * row.jx ? row.inverse_wnn * disc_wnn_over_wtt : 1 / wtt;
+      const bool is_disc = row.image_body < 0 && row.jx == row.jy && row.kj == 2 * row.jx;
+      row.inverse_wnn    = 1 / wnn;
+      row.inverse_wtt    = is_disc ? row.inverse_wnn * disc_wnn_over_wtt : 1 / wtt;
     }
 
     // The length of the law is 2R between discs and R at a wall (contact_law.h).
@@ -94,6 +90,14 @@ namespace diptych::discrete
         return;
       const double arm = effective_radius(grains, c.i, c.j) / grains.radius[row.i];
       set_rolling((std::size_t(c.j) < grains.size() ? 2 : 1) * coefficient, row.i == c.i ? arm : -arm, row);
+    }
+
+    // Positions of the grains, then the lattice vectors.
+    std::vector<Eigen::Vector2d> places(const Grains &grains, const Lattice &lattice)
+    {
+      std::vector<Eigen::Vector2d> place = grains.position;
+      place.insert(place.end(), {lattice.vectors.col(0), lattice.vectors.col(1)});
+      return place;
     }
   } // namespace
 
@@ -106,22 +110,14 @@ namespace diptych::discrete
       v.push_back({g.velocity[i].x(), g.velocity[i].y(), g.radius[i] * g.spin[i], g.inverse_mass(i)});
     for (const Wall &wall : state.walls)
       v.push_back({wall.velocity.x(), wall.velocity.y(), 0, 0});
-    if (state.cell && state.cell->moves())
-      v.push_back({state.cell->velocity, 0, 0, state.cell->inverse_mass()});
-    if (state.lattice)
+    if (const PeriodicWidth *periodic = state.width(); periodic && periodic->moves())
+      v.push_back({periodic->velocity, 0, 0, periodic->inverse_mass()});
+    if (const Lattice *lattice = state.lattice())
       {
-        v.insert(v.end(), {{0, 0, 0, 0}, {0, 0, 0, 0}, record_of(state.lattice->rate)});
-        add_gradient(places(state), velocity_gradient(state.lattice->rate), v);
+        v.insert(v.end(), {{0, 0, 0, 0}, {0, 0, 0, 0}, record_of(lattice->rate)});
+        add_gradient(places(state.grains, *lattice), velocity_gradient(lattice->rate), v);
       }
     return v;
-  }
-
-  std::vector<Eigen::Vector2d> places(const State &state)
-  {
-    std::vector<Eigen::Vector2d> place = state.grains.position;
-    for (const int k : {0, 1})
-      place.push_back(state.lattice->vectors.col(k));
-    return place;
   }
 
   std::vector<BodyVelocity> free_velocities(const State                        &state,
@@ -144,14 +140,14 @@ namespace diptych::discrete
         free[n + w].x = velocity.x() + h * push.x() * mobility.x();
         free[n + w].y = velocity.y() + h * push.y() * mobility.y();
       }
-    if (state.lattice)
+    if (const Lattice *lattice = state.lattice())
       {
-        const Eigen::Vector3d rate = lattice_motion(state, h).free_rate;
-        add_gradient(places(state), velocity_gradient(rate - state.lattice->rate), free);
+        const Eigen::Vector3d rate = lattice_motion(*lattice, state.time, h).free_rate;
+        add_gradient(places(state.grains, *lattice), velocity_gradient(rate - lattice->rate), free);
         free.back() = record_of(rate);
       }
-    if (state.cell && state.cell->pressure)
-      free.back().x -= h * *state.cell->pressure * sample_height(state) * state.cell->inverse_mass();
+    if (const PeriodicWidth *periodic = state.width(); periodic && periodic->pressure)
+      free.back().x -= h * *periodic->pressure * sample_height(state) * periodic->inverse_mass();
     return free;
   }
 
@@ -192,8 +188,9 @@ namespace diptych::discrete
     problem.order = sweep_order(contacts, setting.mean_diameter);
     problem.contacts.resize(contacts.size());
     problem.lattice.reset();
-    if (state.lattice)
-      problem.lattice = LatticeProblem{places(state), lattice_motion(state, setting.step).mobility};
+    if (const Lattice *lattice = state.lattice())
+      problem.lattice = LatticeProblem{places(state.grains, *lattice),
+                                       lattice_motion(*lattice, state.time, setting.step).mobility};
     const double share = corrected_share(setting.time);
     for (std::size_t k = 0; k < contacts.size(); ++k)
       {

@@ -11,14 +11,11 @@ namespace diptych::discrete
   struct StepOptions;
   struct StepSetting;
 
-  // Velocities of all bodies in the form of the contact problem: grains, walls, and the cell if it moves, or the lattice.
+  // Velocities of all bodies in the form of the contact problem: grains, walls, and a periodic width if it moves, or the lattice.
   std::vector<BodyVelocity> body_velocities(const State &state);
 
-  // Positions of the grains, then the lattice vectors.
-  std::vector<Eigen::Vector2d> places(const State &state);
-
-  // v + h M^-1 F: `force` acts on the grains, and the drives act on walls and cell. Prescribed components have the value at the
-  // end of the step.
+  // v + h M^-1 F: `force` acts on the grains, and the drives act on walls, width and lattice. Prescribed components have the
+  // value at the end of the step.
   std::vector<BodyVelocity> free_velocities(const State                        &state,
                                             const std::vector<BodyVelocity>    &v,
                                             const std::vector<Eigen::Vector2d> &force,

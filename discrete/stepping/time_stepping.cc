@@ -22,9 +22,7 @@ namespace diptych::discrete
     {
       const double        h = setting.step;
       std::vector<double> margin(state.grains.size());
-      double              wall_speed = state.cell      ? std::abs(state.cell->velocity)
-                                       : state.lattice ? state.lattice->rate.norm() * 2 * setting.mean_diameter
-                                                       : 0;
+      double wall_speed = std::visit([&](const auto &kind) { return kind.speed(setting.mean_diameter); }, state.periodicity);
       for (std::size_t w = 0; w < state.walls.size(); ++w)
         {
           const Wall &wall = state.walls[w];
@@ -67,7 +65,7 @@ namespace diptych::discrete
   StepResult advance(State &state, const StepSetting &setting, StepCache &cache, const SampleRequest *sample)
   {
     const double h = setting.step;
-    State trial{state.grains, state.walls, state.cell, {}, state.time, state.lattice}; // without the impulses of the last step
+    State        trial{state.grains, state.walls, state.periodicity, {}, state.time}; // without the impulses of the last step
     drift(trial, 0.5 * h);
 
     StepResult result;
@@ -147,10 +145,6 @@ namespace diptych::discrete
       for (int axis = 0; axis < 2; ++axis)
         if (wall.inverse_mass()[axis] > 0)
           energy += 0.5 * wall.mass * wall.velocity[axis] * wall.velocity[axis];
-    if (state.cell && state.cell->pressure)
-      energy += 0.5 * state.cell->mass * state.cell->velocity * state.cell->velocity;
-    if (state.lattice)
-      energy += 0.5 * state.lattice->rate.dot(state.lattice->drive.inertia * state.lattice->rate);
-    return energy;
+    return energy + std::visit([](const auto &kind) { return kind.kinetic_energy(); }, state.periodicity);
   }
 } // namespace diptych::discrete

@@ -56,7 +56,7 @@ namespace diptych::discrete
   // Lateral action and gravity on each grain at the present positions; zero for fixed grains. [pressure x length]
   std::vector<Eigen::Vector2d> applied_forces(const State &state, const StepSetting &setting);
 
-  // Kinetic energy of the grains, or of all bodies with free walls and a free cell width.
+  // Kinetic energy of the grains, or of all bodies with free walls, a free width or a lattice.
   double kinetic_energy(const Grains &grains);
   double kinetic_energy(const State &state);
 } // namespace diptych::discrete

@@ -58,7 +58,7 @@ namespace
         margin[7]   = trial % 5 == 0 ? apart : 1;
         state.walls = {{{0, 0}, {0, 1}}, {{0, spread}, {0, -1}}};
         if (trial % 4 > 1)
-          state.cell = PeriodicCell{8 * (10 + 1.5 * margin[7] + 3) + spread};
+          state.periodicity = PeriodicWidth{8 * (10 + 1.5 * margin[7] + 3) + spread};
         std::set<std::pair<int, int>> found;
         for (const Contact &c : find_contacts(state, margin))
           EXPECT_TRUE(found.insert({c.i, c.j}).second) << "twice";

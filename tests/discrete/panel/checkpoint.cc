@@ -24,7 +24,7 @@ namespace
     before.panel.reference.height = before.panel.reference.area = 1;
     const StoredCheckpoint after                                = written_and_read(before);
     EXPECT_EQ(bits(before.panel), bits(after.panel));
-    EXPECT_FALSE(after.panel.state.cell);
+    EXPECT_FALSE(after.panel.state.width());
     EXPECT_EQ(after.n_rows, 0);
     EXPECT_EQ(after.scene, "");
   }

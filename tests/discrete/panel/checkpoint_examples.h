@@ -89,9 +89,9 @@ namespace
     Bits          b;
     const Grains &g = p.state.grains;
     b(g.position, g.velocity, g.rotation, g.spin, g.radius, g.mass, g.fixed);
-    b(p.state.walls, p.state.impulses, p.state.time, double(p.state.cell.has_value()));
-    if (p.state.cell)
-      b(p.state.cell->width, p.state.cell->velocity, p.state.cell->mass);
+    b(p.state.walls, p.state.impulses, p.state.time, double(p.state.width() != nullptr));
+    if (p.state.width())
+      b(p.state.width()->width, p.state.width()->velocity, p.state.width()->mass);
     const Reference &r = p.reference;
     b(r.position, r.platen, r.height, r.area, r.grain_area, r.kinetic_energy, r.platen_kinetic_energy, r.strain_rate,
       r.mean_density);
@@ -153,7 +153,7 @@ namespace
         wall.kind = w < 2 ? WallKind::platen : WallKind::side;
         state.walls.push_back(wall);
       }
-    state.cell = PeriodicCell{dice.size(), dice(), {}, dice()};
+    state.periodicity = PeriodicWidth{dice.size(), dice(), {}, dice()};
     for (int k = 0; k < 5; ++k)
       state.impulses.push_back({k, k + 3, dice(), dice(), dice(), dice(), dice(), dice()});
     state.time = dice.size();

@@ -116,7 +116,7 @@ namespace
     start_loading(state, {loading, lateral, {}, strain_rate(loading, 1, 1)});
     StepSetting setting;
     setting.step = 0.1, setting.solver.tolerance = 1e-4, setting.lateral = PeriodicSides{};
-    const double width = state.cell->width, speed = state.walls[1].velocity.x();
+    const double width = state.width()->width, speed = state.walls[1].velocity.x();
     StepCache    cache;
     double       moved = 0;
     for (int k = 0; k < 60; ++k)
@@ -129,7 +129,7 @@ namespace
         ASSERT_EQ(state.walls[1].velocity.x(), speed);
         moved += std::abs(state.walls[1].velocity.y());
       }
-    EXPECT_EQ(state.cell->width, width);
+    EXPECT_EQ(state.width()->width, width);
     EXPECT_GT(moved, 0);
   }
 

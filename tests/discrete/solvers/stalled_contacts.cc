@@ -17,7 +17,7 @@ namespace
   ContactRow row(const std::vector<BodyVelocity> &v, const int i, const int j)
   {
     ContactRow c{};
-    c.nx = 0, c.ny = 1, c.i = i, c.j = j, c.cell = -1, c.friction = 0.4;
+    c.nx = 0, c.ny = 1, c.i = i, c.j = j, c.image_body = -1, c.friction = 0.4;
     c.ki = 2 * v[i].inverse_mass, c.kj = 2 * v[j].inverse_mass, c.jx = c.jy = v[j].inverse_mass;
     c.inverse_wnn = 1 / (v[i].inverse_mass + v[j].inverse_mass), c.inverse_wtt = c.inverse_wnn * disc_wnn_over_wtt;
     return c;

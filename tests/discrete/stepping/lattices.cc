@@ -22,8 +22,8 @@ namespace
         add_grain(state.grains, {spacing * (a + 0.5 * (row % 2)), 0.5 + row * b}, 0.5, 1.);
     state.walls         = {{{0, 0}, {0, 1}}, {{0, 1 + (rows - 1) * b}, {0, -1}}};
     state.walls[1].mass = 10;
-    state.cell          = PeriodicCell{columns * spacing};
-    state.cell->mass    = 10;
+    state.periodicity   = PeriodicWidth{columns * spacing};
+    state.width()->mass = 10;
     return state;
   }
 
@@ -86,7 +86,7 @@ namespace
     State        state      = lattice(m, rows);
     StepSetting  setting    = lattice_setting(0);
     state.walls[1].drive_y  = AppliedForce{{{0.}, {-force}}};
-    state.cell->pressure    = pressure;
+    state.width()->pressure = pressure;
     const StepResult result = advance(state, setting);
     ASSERT_EQ(result.solve.status, SolveStatus::converged);
     std::vector<double> transmitted(rows - 1, 0.);
@@ -105,7 +105,7 @@ namespace
       EXPECT_NEAR(f, force, 1e-8);
     EXPECT_NEAR(moment.y() / (m * sample_height(state)), force / m, 1e-9);
     EXPECT_NEAR(moment.x() / (m * sample_height(state)), pressure, 1e-9);
-    EXPECT_NEAR(state.cell->velocity, 0, 1e-11);
+    EXPECT_NEAR(state.width()->velocity, 0, 1e-11);
   }
 
   // Area of disc per cell of the lattice: (pi/4) / (sqrt 3 / 2) = pi/(2 sqrt 3) = 0.9069. The layers of the rows fill the height
@@ -135,9 +135,9 @@ namespace
   double stress_ratio_of_driven_lattice(const double friction, const int columns, const int rows)
   {
     const double spread = 1e-2, sink = -spread / (4 * layer); // dw/dt, db/dt
-    State        state   = lattice(columns, rows);
-    state.cell->pressure = 1;
-    state.cell->velocity = spread * columns;
+    State        state      = lattice(columns, rows);
+    state.width()->pressure = 1;
+    state.width()->velocity = spread * columns;
     for (int row = 0; row < rows; ++row)
       for (int a = 0; a < columns; ++a)
         state.grains.velocity[row * columns + a] = {spread * (a + 0.5 * (row % 2)), sink * row};
@@ -188,18 +188,18 @@ namespace
           StepSetting setting      = lattice_setting(friction);
           setting.solver.tolerance = above ? 1e-6 : 1e-10; // enough to see the flow
           const double ratio       = above ? 1.01 * rowe(friction, rows) : 0.99 * rowe(0, rows);
-          state.cell->pressure     = 1;
+          state.width()->pressure  = 1;
           state.walls[1].drive_y   = AppliedForce{{{0.}, {-m * ratio}}};
           for (int k = 0; k < 5; ++k)
             ASSERT_EQ(advance(state, setting).solve.status, SolveStatus::converged) << "mu " << friction << ", ratio " << ratio;
           if (above)
             {
-              EXPECT_GT(state.cell->velocity, 1e-5) << "mu " << friction;
+              EXPECT_GT(state.width()->velocity, 1e-5) << "mu " << friction;
               EXPECT_LT(state.walls[1].velocity.y(), -1e-5) << "mu " << friction;
             }
           else
             {
-              EXPECT_NEAR(state.cell->velocity, 0, 1e-7) << "mu " << friction;
+              EXPECT_NEAR(state.width()->velocity, 0, 1e-7) << "mu " << friction;
               EXPECT_NEAR(state.walls[1].velocity.y(), 0, 1e-7) << "mu " << friction;
             }
         }

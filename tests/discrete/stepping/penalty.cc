@@ -208,8 +208,8 @@ namespace
     const double stiffness = 1e4, pressure = 2, height = 1.5;
     const int    n = 8;
     State        state;
-    state.walls = {{{0, -0.75}, {0, 1}}, {{0, 0.75}, {0, -1}}};
-    state.cell  = PeriodicCell{double(n), 0., pressure, 2.};
+    state.walls       = {{{0, -0.75}, {0, 1}}, {{0, 0.75}, {0, -1}}};
+    state.periodicity = PeriodicWidth{double(n), 0., pressure, 2.};
     for (int k = 0; k < n; ++k)
       add_grain(state.grains, {double(k), 0.}, 0.5, 1.);
     Penalty    penalty(penalty_step(state.grains, stiffness, 0.2), stiffness, 0.2);
@@ -219,6 +219,6 @@ namespace
     ASSERT_EQ(int(result.contacts.size()), n);
     for (const Impulse &r : result.impulses)
       EXPECT_NEAR(r.normal, penalty.step * pressure * height, 1e-9 * penalty.step);
-    EXPECT_NEAR(state.cell->width, n * (1 - pressure * height / stiffness), 1e-9);
+    EXPECT_NEAR(state.width()->width, n * (1 - pressure * height / stiffness), 1e-9);
   }
 } // namespace

@@ -14,8 +14,8 @@ namespace
   State empty_cell(const double width, const double height)
   {
     State state;
-    state.walls = {{{0, 0}, {0, 1}}, {{0, height}, {0, -1}}};
-    state.cell  = PeriodicCell{width};
+    state.walls       = {{{0, 0}, {0, 1}}, {{0, height}, {0, -1}}};
+    state.periodicity = PeriodicWidth{width};
     return state;
   }
 
@@ -58,9 +58,9 @@ namespace
     for (const int n : {6, 11})
       {
         const double height = 1.5, pressure = 2, step = 0.02;
-        StepSetting  setting = exact_setting(step);
-        State        state   = empty_cell(n, height);
-        state.cell->pressure = pressure, state.cell->mass = 3;
+        StepSetting  setting    = exact_setting(step);
+        State        state      = empty_cell(n, height);
+        state.width()->pressure = pressure, state.width()->mass = 3;
         for (int k = 0; k < n; ++k)
           add_grain(state.grains, {k + 0.3 + n * ((k * 7) % 3 - 1), 0.75}, 0.5, 1.); // images a width or two apart
         const StepResult result = advance(state, setting);
@@ -68,7 +68,7 @@ namespace
         for (const Impulse &r : result.impulses)
           EXPECT_NEAR(r.normal / step, pressure * height, 1e-10);
         EXPECT_NEAR(moment_xx(result, state, step) / (n * height), pressure, 1e-10);
-        EXPECT_NEAR(state.cell->velocity, 0, 1e-12);
+        EXPECT_NEAR(state.width()->velocity, 0, 1e-12);
       }
   }
 
@@ -76,16 +76,16 @@ namespace
   TEST(Periodic, ADrivenWidthMovesImagesByWholeWidths)
   {
     const double step = 0.01, speed = -0.1;
-    StepSetting  setting = exact_setting(step);
-    State        state   = empty_cell(5, 1.5);
-    state.cell->velocity = speed;
+    StepSetting  setting    = exact_setting(step);
+    State        state      = empty_cell(5, 1.5);
+    state.width()->velocity = speed;
     add_grain(state.grains, {0, 0.75}, 0.5, 1.);
     add_grain(state.grains, {3.95, 0.75}, 0.5, 1.); // 0.05 from the image of the first at 5
     state.grains.fixed[0] = 1;
     for (int k = 0; k < 100; ++k)
       ASSERT_EQ(advance(state, setting).solve.status, SolveStatus::converged);
     // The image of the fixed disc has moved from 5 to 4.9 and pushed the other to 3.9, which moves on with the image.
-    EXPECT_NEAR(state.cell->width, 4.9, 1e-13);
+    EXPECT_NEAR(state.width()->width, 4.9, 1e-13);
     EXPECT_NEAR(state.grains.position[1].x(), 3.9, 1e-12);
     EXPECT_NEAR(state.grains.velocity[1].x(), speed, 1e-13);
   }
@@ -99,7 +99,7 @@ namespace
     setting.law.friction     = 0.4; // the platens stay smooth: their forces have no x component
     setting.solver.tolerance = 1e-12;
     State state              = gas(9, height);
-    state.cell->pressure = pressure, state.cell->mass = 20;
+    state.width()->pressure = pressure, state.width()->mass = 20;
     double largest = 0;
     for (int k = 0; k < 150; ++k)
       {
@@ -110,11 +110,11 @@ namespace
         for (std::size_t i = 0; i < state.grains.size(); ++i)
           inertia += state.grains.mass[i] * (state.grains.velocity[i].x() - before.grains.velocity[i].x()) / step *
                      (before.grains.position[i].x() + 0.5 * step * before.grains.velocity[i].x());
-        const double width        = before.cell->width + 0.5 * step * before.cell->velocity;
-        const double acceleration = (state.cell->velocity - before.cell->velocity) / step;
+        const double width        = before.width()->width + 0.5 * step * before.width()->velocity;
+        const double acceleration = (state.width()->velocity - before.width()->velocity) / step;
         const double moment = moment_xx(result, state, step), scale = pressure * height * width + std::abs(moment);
         largest = std::max(largest, moment);
-        ASSERT_NEAR(moment, width * (pressure * height + state.cell->mass * acceleration) + inertia, 1e-11 * scale);
+        ASSERT_NEAR(moment, width * (pressure * height + state.width()->mass * acceleration) + inertia, 1e-11 * scale);
       }
     EXPECT_GT(largest, pressure * height * 4) << "the discs must have been pressed together";
   }
@@ -146,9 +146,9 @@ namespace
           setting.solver.tolerance = 1e-9; // a single weak contact has an impulse of round-off size
           State state              = gas(9, 6);
           if (free)
-            state.cell->pressure = 1.5, state.cell->mass = 20;
+            state.width()->pressure = 1.5, state.width()->mass = 20;
           else
-            state.cell->velocity = -0.3;
+            state.width()->velocity = -0.3;
           double work = 0, friction = 0;
           for (int k = 0; k < 150; ++k)
             {
@@ -173,7 +173,7 @@ namespace
       setting.solver.tolerance = 1e-13;
       State state              = gas(width, 6);
       if (free)
-        state.cell->pressure = 1.5, state.cell->mass = 20;
+        state.width()->pressure = 1.5, state.width()->mass = 20;
       std::vector<double> offset(state.grains.size(), shift);
       for (std::size_t i = 0; i < offset.size(); ++i)
         {
@@ -203,7 +203,7 @@ namespace
                 EXPECT_NEAR((moved.grains.position[i] - reference.grains.position[i]).norm(), 0, 1e-10) << "shift " << shift;
                 EXPECT_NEAR(moved.grains.spin[i], reference.grains.spin[i], 1e-9) << "shift " << shift;
               }
-            EXPECT_NEAR(moved.cell->width, reference.cell->width, 1e-11);
+            EXPECT_NEAR(moved.width()->width, reference.width()->width, 1e-11);
           }
       }
   }
@@ -211,16 +211,16 @@ namespace
   // Six discs in a width of 5.9 overlap by 0.1/6 each. Only a free width can remove this overlap.
   TEST(Periodic, PenetrationsAreRemovedByAFreeWidth)
   {
-    StepSetting setting  = exact_setting(0.02);
-    State       state    = empty_cell(5.9, 1.5);
-    state.cell->pressure = 1, state.cell->mass = 3;
+    StepSetting setting     = exact_setting(0.02);
+    State       state       = empty_cell(5.9, 1.5);
+    state.width()->pressure = 1, state.width()->mass = 3;
     for (int k = 0; k < 6; ++k)
       add_grain(state.grains, {k * 5.9 / 6, 0.75}, 0.5, 1.);
     double penetration = 1;
     for (int k = 0; k < 50; ++k)
       penetration = advance(state, setting).largest_penetration;
     EXPECT_LT(penetration, 1e-3);
-    EXPECT_NEAR(state.cell->width, 6, 6e-3);
+    EXPECT_NEAR(state.width()->width, 6, 6e-3);
   }
 
   // A grain that met two images of another grain, or its own image, would need two contacts with it.
@@ -231,9 +231,9 @@ namespace
     add_grain(state.grains, {0, 1}, 0.5, 1.);
     add_grain(state.grains, {1.2, 1}, 0.5, 1.);
     EXPECT_THROW((void)advance(state, setting), std::invalid_argument);
-    state.cell->width = 5;
+    state.width()->width = 5;
     EXPECT_NO_THROW((void)advance(state, setting));
-    state.cell->width = 0;
+    state.width()->width = 0;
     EXPECT_THROW(validate_walls(state), std::invalid_argument);
   }
 } // namespace

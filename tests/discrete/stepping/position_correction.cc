@@ -100,12 +100,13 @@ namespace
     EXPECT_NEAR(pressed.state.walls[0].point.y(), 0.005, 1e-15);
     EXPECT_NEAR(pressed.state.grains.position[0].y(), 0.505, 1e-15);
 
-    State ring = overlapping_pair(-2);
-    ring.cell  = PeriodicCell{2.9 + 0.9 - 0.01, 0, 1., ring.grains.mass[0]}; // the second disc touches the image of the first
+    State ring       = overlapping_pair(-2);
+    ring.periodicity = PeriodicWidth{2.9 + 0.9 - 0.01, 0, 1.,
+                                     ring.grains.mass[0]}; // the second disc touches the image of the first
     AtRest       across(ring);
-    const double width = across.state.cell->width;
+    const double width = across.state.width()->width;
     across.correct();
-    EXPECT_GT(across.state.cell->width, width + 0.001);
+    EXPECT_GT(across.state.width()->width, width + 0.001);
     EXPECT_NEAR(gap_between(across.state, 0, 1), 0, 1e-15);
 
     State held           = overlapping_pair(0.01);

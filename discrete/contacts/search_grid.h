@@ -1,4 +1,4 @@
-// diptych: grains of similar size sorted into cells
+// diptych: grains of similar size sorted by place
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -13,14 +13,14 @@
 
 namespace diptych::discrete
 {
-  // Some of the grains, sorted by the cell of their centre. With a period the columns wrap around. In a lattice the rows wrap,
-  // too, and cells are parallelograms. If grains are so far apart that most cells would be empty, cells share bins. Time and
-  // memory therefore depend only on the number of grains.
-  class CellGrid
+  // Some of the grains, sorted by the grid cell of their centre. With a periodic width the columns wrap around. In a lattice the
+  // rows wrap, too, and grid cells are parallelograms. If grains are so far apart that most cells would be empty, cells share
+  // bins. Time and memory therefore depend only on the number of grains.
+  class SearchGrid
   {
   public:
     // `members`: numbers of the grains, at least one. `cell_size` > 0 [length].
-    CellGrid(const State &state, std::vector<int> members, double cell_size);
+    SearchGrid(const State &state, std::vector<int> members, double cell_size);
 
     template <class Visit> void visit_around(const Eigen::Vector2d &x, const double reach, Visit &&visit) const
     {
@@ -97,8 +97,8 @@ namespace diptych::discrete
   // cell is as wide as the largest diameter. Most samples need one grid.
   struct SizedGrid
   {
-    double   largest_radius;
-    CellGrid grid;
+    double     largest_radius;
+    SearchGrid grid;
   };
   std::vector<SizedGrid> sort_by_size(const State &state);
 } // namespace diptych::discrete

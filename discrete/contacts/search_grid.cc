@@ -1,6 +1,6 @@
-// diptych: grains of similar size sorted into cells
+// diptych: grains of similar size sorted by place
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include "discrete/contacts/cell_grid.h"
+#include "discrete/contacts/search_grid.h"
 
 #include <limits>
 #include <map>
@@ -9,7 +9,7 @@
 
 namespace diptych::discrete
 {
-  CellGrid::CellGrid(const State &state, std::vector<int> members, const double cell_size)
+  SearchGrid::SearchGrid(const State &state, std::vector<int> members, const double cell_size)
       : members_(std::move(members))
   {
     const double    n   = double(members_.size());
@@ -22,9 +22,9 @@ namespace diptych::discrete
     origin_              = low;
     const auto number_of = [&](const double length) { return std::int64_t(std::clamp(length / cell_size, 1., 4 * n + 16)); };
     const auto beyond    = [&](const double length) { return std::int64_t(bounded(std::floor(length / cell_size))) + 1; };
-    if (state.lattice)
+    if (const Lattice *lattice = state.lattice())
       {
-        const Eigen::Matrix2d inverse = state.lattice->vectors.inverse(); // its rows are 1/height long
+        const Eigen::Matrix2d inverse = lattice->vectors.inverse(); // its rows are 1/height long
         wraps_x_ = wraps_y_ = true;
         columns_            = number_of(1 / inverse.row(0).norm());
         rows_               = number_of(1 / inverse.row(1).norm());
@@ -32,10 +32,11 @@ namespace diptych::discrete
       }
     else
       {
-        wraps_x_  = state.cell.has_value();
-        columns_  = wraps_x_ ? number_of(state.cell->width) : beyond(high.x() - low.x());
-        rows_     = beyond(high.y() - low.y());
-        to_cells_ = Eigen::Vector2d(wraps_x_ ? double(columns_) / state.cell->width : 1 / cell_size, 1 / cell_size).asDiagonal();
+        const PeriodicWidth *periodic = state.width();
+        wraps_x_                      = periodic != nullptr;
+        columns_                      = periodic ? number_of(periodic->width) : beyond(high.x() - low.x());
+        rows_                         = beyond(high.y() - low.y());
+        to_cells_ = Eigen::Vector2d(periodic ? double(columns_) / periodic->width : 1 / cell_size, 1 / cell_size).asDiagonal();
       }
     cells_per_length_ = to_cells_.rowwise().norm();
     is_shared_        = double(columns_) * double(rows_) > 16 * n + 64;
@@ -46,7 +47,7 @@ namespace diptych::discrete
     bins_.sort(n_bins_, members_.size(), [this](const unsigned int k, const auto &into) { into(bin(cell_[k][0], cell_[k][1])); });
   }
 
-  std::size_t CellGrid::bin(const std::int64_t column, const std::int64_t row) const
+  std::size_t SearchGrid::bin(const std::int64_t column, const std::int64_t row) const
   {
     if (!is_shared_)
       return std::size_t(row * columns_ + column);
@@ -56,7 +57,7 @@ namespace diptych::discrete
     return std::size_t((h ^ (h >> 32)) % n_bins_);
   }
 
-  CellGrid::Crowds CellGrid::crowds() const
+  SearchGrid::Crowds SearchGrid::crowds() const
   {
     std::map<Cell, std::size_t> count;
     for (const Cell &cell : cell_)
@@ -84,7 +85,7 @@ namespace diptych::discrete
         double radius = 0;
         for (const int i : members)
           radius = std::max(radius, r[i]);
-        grids.push_back({radius, CellGrid(state, std::move(members), 2 * radius)});
+        grids.push_back({radius, SearchGrid(state, std::move(members), 2 * radius)});
       }
     return grids;
   }
