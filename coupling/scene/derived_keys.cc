@@ -226,8 +226,8 @@ namespace diptych::coupling
     // (benchmarks/rigid_limit). From 4000 grains on the implicit ones cost two thirds of contact dynamics, or less.
     constexpr double accuracy_of_springs = 0.01, accuracy_of_compliant = 0.02, grains_for_compliant = 4000;
 
-    // Empty if springs can replace contact dynamics in this scene.
-    std::string obstacle_to_springs(const Scene &scene)
+    // Reason why springs cannot replace contact dynamics in this scene, if there is one.
+    std::optional<std::string> obstacle_to_springs(const Scene &scene)
     {
       const discrete::Options &o = scene.discrete;
       if (!scene.sample.file.empty())
@@ -236,7 +236,7 @@ namespace diptych::coupling
         return "the cost of springs was measured under pressure and along a strain";
       if (o.law.normal_restitution != 0 || o.law.tangential_restitution != 0 || o.method.store_problems)
         return "springs have neither restitution coefficients nor contact problems to store";
-      return "";
+      return {};
     }
 
     void choose_method(Scene &scene, const Given &given)
@@ -251,7 +251,7 @@ namespace diptych::coupling
       o.method.method     = Method::nscd;
       scene.method_reason = accuracy < accuracy_of_springs
                               ? "springs are right to " + discrete::exact_text(accuracy_of_springs) + " only"
-                              : obstacle_to_springs(scene);
+                              : obstacle_to_springs(scene).value_or("");
       if (!scene.method_reason.empty())
         return;
       if (accuracy >= accuracy_of_compliant && discrete::expected_grains(scene.sample) >= grains_for_compliant)
@@ -288,7 +288,7 @@ namespace diptych::coupling
 
   double cost_over_springs(const Scene &scene, const double accuracy)
   {
-    if (!obstacle_to_springs(scene).empty())
+    if (obstacle_to_springs(scene))
       return 0;
     // Explicit springs also take up the pressure before the loading.
     const double loading = scene.loading.axial_strain / inertial_number(scene);

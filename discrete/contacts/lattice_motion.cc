@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/contacts/lattice_motion.h"
 
-#include <cmath>
-
 namespace diptych::discrete
 {
   namespace
@@ -16,18 +14,6 @@ namespace diptych::discrete
       return {m(0, 0), m(1, 1), 0.5 * (m(0, 1) + m(1, 0))};
     }
   } // namespace
-
-  bool determines_motion(const Eigen::Matrix3d &form, const std::array<bool, 3> &is_stress)
-  {
-    Eigen::Matrix3d rows = form;
-    for (int k = 0; k < 3; ++k)
-      {
-        if (is_stress[k])
-          rows.row(k) *= isotropic;
-        rows.row(k).normalize();
-      }
-    return std::abs(rows.determinant()) > 1e-9;
-  }
 
   Eigen::Matrix3d lattice_inertia(const Grains &grains)
   {

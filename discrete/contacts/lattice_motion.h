@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include <Eigen/Core>
@@ -20,9 +19,6 @@ namespace diptych::discrete
   // Each control prescribes either a form of q' or the same form of this stress. V_i does not depend on the choice of images, so
   // no place of the cell differs from another. (Parrinello & Rahman 1981; for contact dynamics Radjai, C. R. Mecanique 346,
   // 2018.)
-
-  // False if a control follows from the others, whatever the grains do: a matrix of elastic moduli stands for their response.
-  bool determines_motion(const Eigen::Matrix3d &form, const std::array<bool, 3> &is_stress);
 
   // Inertia of the strains: mass x diameter^2 of the grains, with the ratios of an isotropic elastic response. With less
   // than half of it, over-relaxed sweeps and the lattice excite each other in dense packings.

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "discrete/contacts/lattice_motion.h"
-
 namespace diptych::discrete
 {
   namespace
@@ -32,8 +30,6 @@ namespace diptych::discrete
   {
     if (path.values.size() < 2 || path.progress.size() != path.values.size())
       throw std::invalid_argument("the path of a cell needs at least two rows, each with its progress");
-    if (!determines_motion(path.form, path.is_stress))
-      throw std::invalid_argument("the controls of the cell depend on each other");
     for (std::size_t row = 1; row < path.values.size(); ++row)
       if (!(path.progress[row] > path.progress[row - 1]) || !(strain_between(path, row, 1) > 0))
         throw std::invalid_argument("row " + std::to_string(row) + " (counted from 0) of the path of the cell changes nothing");
@@ -45,15 +41,5 @@ namespace diptych::discrete
     for (std::size_t row = 1; row < times.size(); ++row)
       times[row] = times[row - 1] + strain_between(path, row, pressure) / strain_rate;
     return times;
-  }
-
-  double time_at(const CellPath &path, const std::vector<double> &times, const double progress)
-  {
-    return TimeTable{path.progress, times}.at(progress);
-  }
-
-  double progress_at(const CellPath &path, const std::vector<double> &times, const double time)
-  {
-    return TimeTable{times, path.progress}.at(time);
   }
 } // namespace diptych::discrete

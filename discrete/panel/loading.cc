@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 #include "discrete/contacts/lattice_motion.h"
@@ -228,7 +227,7 @@ namespace diptych::discrete
     if (loading.mode == LoadingMode::time)
       return state.time;
     if (loading.mode == LoadingMode::path)
-      return progress_at(loading.path, state.lattice()->drive.values.time, state.time);
+      return TimeTable{state.lattice()->drive.values.time, loading.path.progress}.at(state.time);
     const Eigen::Vector2d travel = state.walls[1].point - initial_platen;
     return (loading.mode == LoadingMode::descent ? -travel.y() : travel.x()) / initial_height;
   }
@@ -237,27 +236,7 @@ namespace diptych::discrete
   {
     if (loading.mode != LoadingMode::path)
       return (to - from) / rate;
-    const std::vector<double> &times = state.lattice()->drive.values.time;
-    return time_at(loading.path, times, to) - time_at(loading.path, times, from);
-  }
-
-  std::string cell_obstacle(const State &state, const Loading &loading, const double mean_diameter, const double density)
-  {
-    if (!state.lattice())
-      return "";
-    constexpr double           fast    = 0.1; // inertial number at which grains collide rather than press
-    const Lattice             &lattice = *state.lattice();
-    const double               unit    = mean_diameter * std::sqrt(density / loading.pressure); // of time
-    const double               number = unit * lattice.rate.norm(), height = lattice.least_extent();
-    const std::vector<double> &radius = state.grains.radius;
-    std::ostringstream         text;
-    if (number > fast + 10 * unit * strain_rate(loading, mean_diameter, density))
-      text << "the grains do not carry the stress that loading/path prescribes: the cell deforms at an inertial number of "
-           << number << "; strains reached: exx " << lattice.strain[0] << ", eyy " << lattice.strain[1] << ", exy "
-           << 0.5 * lattice.strain[2];
-    else if (height < 4 * (*std::max_element(radius.begin(), radius.end()) + 0.5 * mean_diameter))
-      text << "the cell has become too narrow: its smaller height is " << height
-           << "; a larger sample/grains follows the path further";
-    return text.str();
+    const TimeTable times{loading.path.progress, state.lattice()->drive.values.time};
+    return times.at(to) - times.at(from);
   }
 } // namespace diptych::discrete

@@ -134,8 +134,4 @@ namespace diptych::discrete
 
   // Time between two values of the loading variable. `rate`: from strain_rate().
   double duration_between(const State &state, const Loading &loading, double rate, double from, double to);
-
-  // Reason why a cell cannot follow its path any further; empty if it can or there is none. The prescribed stress accelerates a
-  // cell whose grains do not carry it, and a large shear narrows every cell until a grain would meet two images of another one.
-  std::string cell_obstacle(const State &state, const Loading &loading, double mean_diameter, double density);
 } // namespace diptych::discrete

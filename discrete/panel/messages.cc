@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/panel/messages.h"
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace diptych::discrete
@@ -23,6 +25,31 @@ namespace diptych::discrete
     if (report.settling_steps > 0)
       text << ", largest overlap " << report.largest_overlap << " mean diameters";
     text << "; for slender or tiny samples a small sample/preparation_friction helps";
+    return text.str();
+  }
+
+  std::optional<std::string> cell_obstacle(const State   &state,
+                                           const Loading &loading,
+                                           const double   mean_diameter,
+                                           const double   density)
+  {
+    const Lattice *lattice = state.lattice();
+    if (!lattice)
+      return {};
+    constexpr double           fast   = 0.1; // inertial number at which grains collide rather than press
+    const double               unit   = mean_diameter * std::sqrt(density / loading.pressure); // of time
+    const double               number = unit * lattice->rate.norm(), height = lattice->least_extent();
+    const std::vector<double> &radius = state.grains.radius;
+    std::ostringstream         text;
+    if (number > fast + 10 * unit * strain_rate(loading, mean_diameter, density))
+      text << "the grains do not carry the stress that loading/path prescribes: the cell deforms at an inertial number of "
+           << number << "; strains reached: exx " << lattice->strain[0] << ", eyy " << lattice->strain[1] << ", exy "
+           << 0.5 * lattice->strain[2];
+    else if (height < 4 * (*std::max_element(radius.begin(), radius.end()) + 0.5 * mean_diameter))
+      text << "the cell has become too narrow: its smaller height is " << height
+           << "; a larger sample/grains follows the path further";
+    else
+      return {};
     return text.str();
   }
 

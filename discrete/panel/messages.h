@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "discrete/panel/options.h"
@@ -12,6 +13,10 @@ namespace diptych::discrete
   std::string press_text(const Options &options); // springs blew up while they took up the pressure
   std::string momentum_text(int step, double residual);
   std::string interpenetration_text(int step, double penetration); // [mean diameters]
+
+  // Reason why a cell cannot follow its path any further, if there is one. The prescribed stress accelerates a cell whose grains
+  // do not carry it, and a large shear narrows every cell until a grain would meet two images of another one.
+  std::optional<std::string> cell_obstacle(const State &state, const Loading &loading, double mean_diameter, double density);
 
   std::string endless_text(int stage, double steps, const StepChoice &choice);
 

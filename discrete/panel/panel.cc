@@ -300,13 +300,17 @@ namespace diptych::discrete
       const double  begin         = cpu_seconds();
       const bool    done          = advance_by(now.step, penalty() ? 0 : most_halvings);
       now.report.loading_cpu_s += cpu_seconds() - begin;
-      const Strains strains      = strains_of(now.state, now.reference);
-      now.report.axial_strain    = strains.axial;
-      now.report.shear_strain    = strains.shear;
-      now.report.progress        = loading_progress(now.state, loading_, now.reference.platen, now.reference.height);
-      const std::string obstacle = done ? cell_obstacle(now.state, loading_, sample_.mean_diameter, sample_.density) : "";
-      if (!done || (!obstacle.empty() && !fail(obstacle)))
+      const Strains strains   = strains_of(now.state, now.reference);
+      now.report.axial_strain = strains.axial;
+      now.report.shear_strain = strains.shear;
+      now.report.progress     = loading_progress(now.state, loading_, now.reference.platen, now.reference.height);
+      if (!done)
         return;
+      if (const auto obstacle = cell_obstacle(now.state, loading_, sample_.mean_diameter, sample_.density))
+        {
+          fail(*obstacle);
+          return;
+        }
       ++now.report.steps;
       --now.steps_left;
       if (now.steps_left % now.interval == 0)
