@@ -55,6 +55,15 @@ namespace diptych::continuum
   {};
   using LateralCondition = std::variant<SidePressure, RigidSides, PeriodicSides, FreeSides>;
 
+  inline bool sides_carry_pressure(const LateralCondition &lateral)
+  {
+    if (const auto *rigid = std::get_if<RigidSides>(&lateral))
+      return !rigid->widening;
+    if (const auto *periodic = std::get_if<PeriodicSides>(&lateral))
+      return !periodic->widening;
+    return std::holds_alternative<SidePressure>(lateral);
+  }
+
   struct Loading
   {
     double                              pressure = 1;  // lateral pressure, also the isotropic initial stress [pressure]

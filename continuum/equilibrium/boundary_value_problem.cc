@@ -35,15 +35,6 @@ namespace diptych::continuum
       return options.element == Displacement::q1_bbar ? ElementKind::q1_mean_dilation : ElementKind::q2;
     }
 
-    bool sides_carry_pressure(const LateralCondition &lateral)
-    {
-      if (const auto *rigid = std::get_if<RigidSides>(&lateral))
-        return !rigid->widening;
-      if (const auto *periodic = std::get_if<PeriodicSides>(&lateral))
-        return !periodic->widening;
-      return std::holds_alternative<SidePressure>(lateral);
-    }
-
     bool same_nodes(const SideContact &a, const SideContact &b)
     {
       const auto same = [](const Node &m, const Node &n) { return m.dofs == n.dofs; };

@@ -61,11 +61,20 @@ namespace diptych::discrete
     }
   } // namespace
 
-  std::vector<Wall> box_walls(const double width, const double height)
+  void enclose(State &state, const LateralCondition &lateral, const Eigen::Vector2d &size)
   {
-    std::vector<Wall> walls = {{{0, 0}, {0, 1}}, {{0, height}, {0, -1}}, {{0, 0}, {1, 0}}, {{width, 0}, {-1, 0}}};
-    walls[2].kind = walls[3].kind = WallKind::side;
-    return walls;
+    if (std::holds_alternative<CellSides>(lateral))
+      {
+        state.periodicity = Lattice{size.asDiagonal()};
+        return;
+      }
+    state.walls         = {{{0, 0}, {0, 1}}, {{0, size.y()}, {0, -1}}, {{0, 0}, {1, 0}}, {{size.x(), 0}, {-1, 0}}};
+    state.walls[2].kind = state.walls[3].kind = WallKind::side;
+    if (std::holds_alternative<PeriodicSides>(lateral))
+      {
+        state.periodicity = PeriodicWidth{size.x()};
+        state.walls.resize(2);
+      }
   }
 
   double default_wall_mass(const Grains &grains)
@@ -109,23 +118,21 @@ namespace diptych::discrete
   {
     SampleBox  box = box_around(o, file);
     FileSample sample{{}, file.stage};
-    State     &state     = sample.state;
-    state.walls          = box_walls(0, 0);
-    state.walls[0].point = state.walls[2].point = {*box.left_x, *box.lower_y};
-    state.walls[1].point = state.walls[3].point = {*box.right_x, *box.upper_y};
+    State     &state = sample.state;
+    enclose(state, preparation.lateral, {o.width, 0});
+    for (std::size_t w = 0; w < state.walls.size(); ++w)
+      state.walls[w].point = {w % 2 == 0 ? *box.left_x : *box.right_x, w % 2 == 0 ? *box.lower_y : *box.upper_y};
     if (!std::holds_alternative<RigidSides>(preparation.lateral))
       {
         box.left_x.reset();
         box.right_x.reset();
       }
-    if (std::holds_alternative<PeriodicSides>(preparation.lateral))
+    if (const PeriodicWidth *periodic = state.width())
       {
-        if (o.width <= 0)
+        if (periodic->width <= 0)
           throw WrongKeys({"sample/width", "discrete/lateral"},
                           "sample/width = 0: for a periodic sample from a file, give its period here");
-        state.periodicity = PeriodicWidth{o.width};
-        box.cell_width    = o.width;
-        state.walls.resize(2);
+        box.cell_width = periodic->width;
       }
     check_grains(file, box, o.allowed_overlap);
     if (const auto &fixed = file.grains.fixed; std::all_of(fixed.begin(), fixed.end(), [](const auto held) { return held != 0; }))

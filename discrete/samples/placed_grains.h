@@ -14,7 +14,8 @@
 
 namespace diptych::discrete
 {
-  std::vector<Wall> box_walls(double width, double height);
+  // Sets walls and periodicity of a box from the origin on; free sides have walls until set_sides().
+  void enclose(State &state, const LateralCondition &lateral, const Eigen::Vector2d &size);
 
   // Default inertia of a wall or cell width that moves under a force: sqrt(number of grains) x mean grain mass.
   double default_wall_mass(const Grains &grains);

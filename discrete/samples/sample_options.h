@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <string>
-
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "discrete/bodies/boundary.h"
 #include "discrete/choices.h"
@@ -137,9 +137,17 @@ namespace diptych::discrete
     Eigen::Vector2d  gravity  = Eigen::Vector2d::Zero();
   };
 
+  // Throws std::invalid_argument with key and range if options contradict each other.
+  void validate(const SampleOptions &options);
+
+  // Radii of n grains, ascending [length], and the area of such discs.
+  std::vector<double> sorted_radii(const SampleOptions &options, int n);
+  double              disc_area(const std::vector<double> &radius);
+
   // Number of grains of a generated sample, not rounded: sample/grains, or as many as fill width x height.
   double expected_grains(const SampleOptions &options);
 
   // Width and height of a generated sample at sample/solid_fraction [length]. The prepared sample has them within some percent.
   Eigen::Vector2d expected_size(const SampleOptions &options);
+  Eigen::Vector2d sample_size(const SampleOptions &options, double area); // of grains with this area
 } // namespace diptych::discrete

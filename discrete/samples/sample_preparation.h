@@ -10,9 +10,6 @@
 
 namespace diptych::discrete
 {
-  // Throws std::invalid_argument with key and range if options contradict each other.
-  void validate(const SampleOptions &options);
-
   // Largest overlap that may remain between the grains of a prepared sample. [mean diameters]
   inline constexpr double largest_prepared_overlap = 1e-4;
 
