@@ -221,20 +221,10 @@ namespace diptych::discrete
       SampleRequest request{options_.sampling, std::isnan(now.report.reference_residual)};
       if (options_.method.store_problems && hooks_.on_problem)
         request.on_problem = [this](const ContactProblem &problem, const std::vector<Contact> &contacts,
-                                    const std::vector<Impulse> &r) { store(problem, contacts, r); };
+                                    const std::vector<Impulse> &r) {
+          hooks_.on_problem(now.stage + 1, problem, stored_geometry(now.state.grains, contacts, setting_.step), r);
+        };
       return advance(now.state, setting_, cache_, now.steps_left == 1 ? &request : nullptr);
-    }
-
-    void store(const ContactProblem &problem, const std::vector<Contact> &contacts, const std::vector<Impulse> &impulses) const
-    {
-      // The contacts belong to mid-step, so the positions must, too.
-      const Grains  &g = now.state.grains;
-      StoredGeometry geometry{setting_.step, {}, g.radius, g.position};
-      for (std::size_t i = 0; i < g.size(); ++i)
-        geometry.position[i] += 0.5 * setting_.step * g.velocity[i];
-      for (const Contact &c : contacts)
-        geometry.gap.push_back(c.gap);
-      hooks_.on_problem(now.stage + 1, problem, geometry, impulses);
     }
 
     // Impulses act in pairs, so an error above round-off is a fault of the program.
@@ -304,13 +294,9 @@ namespace diptych::discrete
       now.report.axial_strain = strains.axial;
       now.report.shear_strain = strains.shear;
       now.report.progress     = loading_progress(now.state, loading_, now.reference.platen, now.reference.height);
-      if (!done)
+      const auto obstacle     = cell_obstacle(now.state, loading_, sample_.mean_diameter, sample_.density);
+      if (!done || (obstacle && !fail(*obstacle)))
         return;
-      if (const auto obstacle = cell_obstacle(now.state, loading_, sample_.mean_diameter, sample_.density))
-        {
-          fail(*obstacle);
-          return;
-        }
       ++now.report.steps;
       --now.steps_left;
       if (now.steps_left % now.interval == 0)

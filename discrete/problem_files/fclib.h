@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include "discrete/choices.h"
+#include "discrete/contacts/contact_detection.h"
 #include "discrete/contacts/contact_problem.h"
 #include "discrete/problem_files/delassus_problem.h"
 
@@ -66,6 +67,8 @@ namespace diptych::discrete
     std::vector<double>          radius;   // (discs)
     std::vector<Eigen::Vector2d> position; // (discs)
   };
+  // Of the contacts in the middle of a step that starts from these grains.
+  StoredGeometry stored_geometry(const Grains &grains, const std::vector<Contact> &contacts, double step);
 
   struct StoredText
   {

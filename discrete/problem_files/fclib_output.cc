@@ -169,6 +169,16 @@ namespace diptych::discrete
     }
   } // namespace
 
+  StoredGeometry stored_geometry(const Grains &grains, const std::vector<Contact> &contacts, const double step)
+  {
+    StoredGeometry geometry{step, {}, grains.radius, grains.position};
+    for (std::size_t i = 0; i < grains.size(); ++i)
+      geometry.position[i] += 0.5 * step * grains.velocity[i];
+    for (const Contact &c : contacts)
+      geometry.gap.push_back(c.gap);
+    return geometry;
+  }
+
   void write_fclib(const std::string                   &path,
                    const ContactProblem                &problem,
                    const StoredText                    &about,
