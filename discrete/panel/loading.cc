@@ -11,6 +11,7 @@
 #include "discrete/samples/placed_grains.h"
 #include "discrete/samples/sample_file.h"
 #include "discrete/samples/sample_preparation.h"
+#include "discrete/samples/settling.h"
 
 namespace diptych::discrete
 {
@@ -102,13 +103,10 @@ namespace diptych::discrete
     // Prescribed strains start at their rate; the others as if the grains were elastic.
     void start_lattice(State &state, const LoadingStart &start)
     {
-      Grains  &g       = state.grains;
       Lattice &lattice = *state.lattice();
       state.time       = 0;
-      std::fill(g.velocity.begin(), g.velocity.end(), Eigen::Vector2d::Zero());
-      for (std::vector<double> *values : {&g.spin, &g.rotation})
-        std::fill(values->begin(), values->end(), 0.);
-      lattice.stop();
+      stop(state);
+      std::fill(state.grains.rotation.begin(), state.grains.rotation.end(), 0.);
       set_drives(state, start);
       if (start.loading.affine_start)
         lattice.rate = start_rate(lattice.drive);
@@ -191,12 +189,11 @@ namespace diptych::discrete
   {
     if (start.loading.mode == LoadingMode::path)
       return start_lattice(state, start);
-    const Loading         &loading = start.loading;
-    const double           bottom = state.walls[0].point.y(), height = sample_height(state);
-    const Eigen::Vector2d  velocity = platen_velocity(loading, start.rate * height);
-    const LateralCondition lateral  = lateral_condition(start.lateral);
-    Grains                &g        = state.grains;
-    state.time                      = 0;
+    const Loading        &loading = start.loading;
+    const double          bottom = state.walls[0].point.y(), height = sample_height(state);
+    const Eigen::Vector2d velocity = platen_velocity(loading, start.rate * height);
+    Grains               &g        = state.grains;
+    state.time                     = 0;
     for (std::size_t i = 0; i < g.size(); ++i)
       {
         g.rotation[i] = 0;
@@ -209,10 +206,7 @@ namespace diptych::discrete
     for (Wall &wall : state.walls)
       wall.velocity.setZero();
     state.walls[1].velocity = velocity;
-    if (const auto *sides = std::get_if<RigidSides>(&lateral); sides && sides->velocity)
-      state.walls[3].velocity.x() = *sides->velocity;
-    if (const auto *periodic = std::get_if<PeriodicSides>(&lateral))
-      state.width()->velocity = periodic->free_width ? 0. : periodic->velocity;
+    std::visit([](auto &kind) { kind.stop(); }, state.periodicity);
     set_drives(state, start);
     for (Wall &wall : state.walls)
       wall.velocity = prescribed_wall_velocity(wall, 0.);

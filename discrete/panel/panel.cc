@@ -81,7 +81,7 @@ namespace diptych::discrete
                                 setting);
       prepared_->loading_variable = loading_variable_of(loading_.mode);
       prepared_->time             = 0; // the time of the preparation does not count
-      start_loading(now.state, {loading_, options_.lateral, options_.drives, rate_});
+      start_loading(now.state, loading_start());
       now.reference = make_reference(now.state, setting_.mean_diameter, loading_.mode == LoadingMode::time ? 0. : rate_);
       return true;
     }
@@ -91,7 +91,7 @@ namespace diptych::discrete
       now                       = checkpoint;
       setting_.step             = now.step;
       setting_.solver.tolerance = now.report.tolerance;
-      set_drives(now.state, {loading_, options_.lateral, options_.drives, rate_});
+      set_drives(now.state, loading_start());
     }
 
     void load_to_stage(const int stage)
@@ -132,6 +132,8 @@ namespace diptych::discrete
     }
 
   private:
+    LoadingStart loading_start() const { return {loading_, options_.lateral, options_.drives, rate_}; }
+
     bool penalty() const { return options_.method.method == Method::penalty; }
     bool stop_requested() const { return hooks_.stop_requested && hooks_.stop_requested(); }
 
@@ -140,7 +142,7 @@ namespace diptych::discrete
     // Compresses the springs of the penalty method. Returns false if it was stopped or the springs blew up.
     bool press(PreparedSample &prepared)
     {
-      const LoadingStart start{loading_, options_.lateral, options_.drives, rate_};
+      const LoadingStart start = loading_start();
       auto pressed = press_springs(now.state, {options_.penalty, start, setting_, sample_.density}, [this](const double share) {
         show_progress("pressing the springs", share);
         return !stop_requested();

@@ -129,10 +129,9 @@ namespace diptych::discrete
 
     const std::vector<int>          acting = acting_contacts(result.impulses);
     const std::vector<BodyVelocity> v_new  = velocities(problem, result.impulses, acting);
-    StepLedger ledger = step_ledger({trial, problem, result.contacts, result.impulses, acting, result.applied_force, v, v_new, h},
-                                    false);
-    count_springs(lost, ledger);
-    take_ledger(std::move(ledger), result);
+    static_cast<StepLedger &>(result)      = step_ledger(
+           {trial, problem, result.contacts, result.impulses, acting, result.applied_force, v, v_new, h}, false);
+    count_springs(lost, result);
     take_velocities(v_new, trial);
     drift(trial, 0.5 * h);
     if (has_blown_up(trial, h))

@@ -30,10 +30,10 @@ namespace diptych::discrete
   struct StepLedger
   {
     StepEnergies                 energies;
-    std::vector<Eigen::Vector2d> wall_force;          // of each wall on the sample = impulse / step
-    std::vector<double>          contact_impact;      // of each contact; the sum is energies.impact_dissipation [energy]
-    std::vector<double>          contact_dissipation; // of each contact; the sum is friction_dissipation + rolling_dissipation
-    LatticeStress                lattice;
+    std::vector<Eigen::Vector2d> wall_force;           // of each wall on the sample = impulse / step
+    std::vector<double>          contact_impact;       // of each contact; the sum is energies.impact_dissipation [energy]
+    std::vector<double>          contact_dissipation;  // of each contact; the sum is friction_dissipation + rolling_dissipation
+    LatticeStress                lattice;              // 0 without a lattice
     double                       unbalanced_force = 0; // mean over grains of |m dv/h| / mean normal contact force
     double momentum_residual = 0; // |sum m dv - h F - impulses of walls and fixed grains| / (sum |r| + sum m |v|)
   };

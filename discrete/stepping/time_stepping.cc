@@ -95,11 +95,11 @@ namespace diptych::discrete
 
     const std::vector<int>          acting = acting_contacts(result.impulses);
     const std::vector<BodyVelocity> v_new  = velocities(problem, result.impulses, acting);
-    StepLedger ledger = step_ledger({trial, problem, result.contacts, result.impulses, acting, result.applied_force, v, v_new, h},
-                                    setting.law.normal_restitution == 0 && corrected_share(setting.time) > 0);
+    static_cast<StepLedger &>(result)      = step_ledger(
+           {trial, problem, result.contacts, result.impulses, acting, result.applied_force, v, v_new, h},
+           setting.law.normal_restitution == 0 && corrected_share(setting.time) > 0);
     if (compliant)
-      count_springs(work_at_bounds(problem, v_new, result.impulses), ledger);
-    take_ledger(std::move(ledger), result);
+      count_springs(work_at_bounds(problem, v_new, result.impulses), result);
 
     take_velocities(v_new, trial);
     drift(trial, 0.5 * h);
@@ -109,17 +109,6 @@ namespace diptych::discrete
     trial.time += h;
     state = std::move(trial);
     return result;
-  }
-
-  void take_ledger(StepLedger ledger, StepResult &result)
-  {
-    result.energies            = ledger.energies;
-    result.wall_force          = std::move(ledger.wall_force);
-    result.contact_dissipation = std::move(ledger.contact_dissipation);
-    result.contact_impact      = std::move(ledger.contact_impact);
-    result.momentum_residual   = ledger.momentum_residual;
-    result.unbalanced_force    = ledger.unbalanced_force;
-    result.lattice             = ledger.lattice;
   }
 
   StepResult advance(State &state, const StepSetting &setting)

@@ -21,20 +21,13 @@ namespace diptych::discrete
     std::shared_ptr<ThreadTeam> team = std::make_shared<ThreadTeam>(1);
   };
 
-  struct [[nodiscard]] StepResult
+  struct [[nodiscard]] StepResult : StepLedger
   {
     SolveReport                    solve;
-    std::vector<Contact>           contacts;      // at mid-step, ascending in (i, j)
-    std::vector<Impulse>           impulses;      // of each contact
-    std::vector<Eigen::Vector2d>   applied_force; // on each grain: lateral action and gravity
-    std::vector<Eigen::Vector2d>   wall_force;    // of each wall on the sample = impulse / step
-    StepEnergies                   energies;
-    std::vector<double>            contact_dissipation;     // of each contact; sum: friction_dissipation + rolling_dissipation
-    std::vector<double>            contact_impact;          // along the normal, of each contact; sum: energies.impact_dissipation
+    std::vector<Contact>           contacts;                // at mid-step, ascending in (i, j)
+    std::vector<Impulse>           impulses;                // of each contact
+    std::vector<Eigen::Vector2d>   applied_force;           // on each grain: lateral action and gravity
     double                         largest_penetration = 0; // at mid-step [length]
-    double                         momentum_residual   = 0; // see StepLedger
-    double                         unbalanced_force    = 0; // mean over grains of |m dv/h| / mean normal contact force
-    LatticeStress                  lattice;                 // 0 without a lattice
     std::optional<SampledAccuracy> accuracy;                // if the step was sampled
   };
 
@@ -50,8 +43,6 @@ namespace diptych::discrete
   // continues until the grains' stress has the requested accuracy.
   StepResult advance(State &state, const StepSetting &setting, StepCache &cache, const SampleRequest *sample = nullptr);
   StepResult advance(State &state, const StepSetting &setting);
-
-  void take_ledger(StepLedger ledger, StepResult &result);
 
   // Lateral action and gravity on each grain at the present positions; zero for fixed grains. [pressure x length]
   std::vector<Eigen::Vector2d> applied_forces(const State &state, const StepSetting &setting);
