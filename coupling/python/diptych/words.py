@@ -30,6 +30,7 @@ class Parser(argparse.ArgumentParser):
     def __init__(self, name: str) -> None:
         super().__init__(prog="diptych " + name, allow_abbrev=False, add_help=False,
                          description=_diptych.commands().get(name, "compute many samples, and the statistics of all"))
+        self.name = name
         self.register("action", None, _Once)
         self._negative_number_matcher = re.compile(r"-[\d.]")  # --gravity -9.81,0
         self.add_argument("-h", "--help", action="help", help="Print this help message and exit")
@@ -41,7 +42,7 @@ class Parser(argparse.ArgumentParser):
             options = [name for action in self._actions for name in action.option_strings]
             near = _diptych.nearest_name(unused[0].partition("=")[0], options)
             told = f"; the nearest option is '{near}'" if unused[0].startswith("--") else f"; options: {' '.join(options)}"
-            raise SceneError(f"{self.prog}: '{' '.join(unused)}' is not used{told}")
+            raise SceneError(f"{self.name}: '{' '.join(unused)}' is not used{told}")
         return line
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
@@ -52,7 +53,7 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         required = re.sub(r"the following arguments are required: (.*)", r"\1 is required", message)
-        raise SceneError(f"{self.prog}: {re.sub(r'^argument (-h/)?', '', required)}")
+        raise SceneError(f"{self.name}: {re.sub(r'^argument (-h/)?', '', required)}")
 
     def format_help(self) -> str:
         named = [one for one in self._actions if one.option_strings]
@@ -97,7 +98,7 @@ def filled(text: str) -> str:
 
 
 def add_output(parser: Parser, meaning: str, required: bool = False) -> None:
-    parser.add_argument("--output", metavar="DIR", type=filled, default="", required=required, help=meaning)
+    parser.add_argument("--output", metavar="DIR", type=filled, required=required, help=meaning)
 
 
 def add_quiet(parser: Parser) -> None:

@@ -174,7 +174,7 @@ class Runs:
 
     def last_words(self, run: SceneRun) -> str:
         """The last line of its log, without the folder of the campaign."""
-        return last_words(self.path(run, ".log")).replace(self.directory + "/", "")
+        return last_words(self.path(run, ".log")).replace(f" {self.directory}/", " ")
 
     def found_end(self, run: SceneRun) -> dict[str, Any] | None:
         """exit_code, load and at_once of a run that need not be done again.
