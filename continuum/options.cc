@@ -32,10 +32,6 @@ namespace diptych::continuum
     require_keys(options.min_step > 0 && options.min_step <= options.initial_step && options.initial_step <= options.max_step,
                  {"min_step", "initial_step", "max_step"}, "steps: 0 < min_step = ", options.min_step,
                  " <= initial_step = ", options.initial_step, " <= max_step = ", options.max_step, " is needed");
-    require_keys(options.tolerance > 0 && options.tolerance < 1, {"tolerance"}, "tolerance = ", options.tolerance,
-                 " must lie in (0, 1)");
-    require_keys(options.max_newton_iterations > 0, {"max_newton_iterations"},
-                 "max_newton_iterations = ", options.max_newton_iterations, " must be positive");
     require_keys((!is_cosserat(options) && !traits(options.law).is_gradient) || options.element != Displacement::q1_bbar,
                  {"element", "law"}, "element = ", name_of(options.element), " with law = ", name_of(options.law),
                  ": laws with an internal length need q2 (equal orders of displacement and rotation lock)");
@@ -43,10 +39,8 @@ namespace diptych::continuum
                    (options.rectangle_width > 0 && options.rectangle_height > 0),
                  {"rectangle_width", "rectangle_height", "mesh"}, "rectangle_width = ", options.rectangle_width,
                  ", rectangle_height = ", options.rectangle_height, ": mesh = rectangle needs both");
-    if (traits(options.law).is_plastic)
-      validate(options.law, options.material);
-    else if (options.law != LawKind::library)
-      validate(options.material.elastic);
+    check_ranges(options, unused_keys(options));
+    validate(options.law, options.material);
   }
 
   std::vector<UnusedKey> unused_keys(const Options &o)
@@ -74,25 +68,17 @@ namespace diptych::continuum
   {
     constexpr double           softest = 50, stiffest = 1e6, most_cohesive = 1;
     std::vector<DoubtfulValue> found;
-    const auto                 add_if = [&](const bool doubtful, const char *key, const double value, const std::string &why) {
-      std::ostringstream text;
-      text << " = " << value << " (in units of loading/pressure) " << why;
-      if (doubtful)
-        found.push_back({key, text.str()});
-    };
-    if (o.law == LawKind::library)
-      return found;
-    const double E = o.material.elastic.youngs_modulus;
-    add_if(E < softest, "youngs_modulus", E, "is below 50: elastic strain reaches several percent before the sample yields");
-    add_if(E > stiffest, "youngs_modulus", E, "is above 1e6: was it given as an absolute modulus?");
-    if (!traits(o.law).is_plastic)
-      return found;
-    const std::string why = "is above 1: cohesion then exceeds the pressure; was it given as an absolute stress?";
-    if (o.material.hardening == HardeningKind::table)
-      for (const double cohesion : o.material.table_cohesion)
-        add_if(cohesion > most_cohesive, "table_cohesion", cohesion, why);
-    else
-      add_if(o.material.cohesion > most_cohesive, "cohesion", o.material.cohesion, why);
+    each_used_number(o.material, unused_keys(o), [&](const std::string &key, const double value, const char *, const auto &) {
+      const char *why = nullptr;
+      if (key == "youngs_modulus" && value < softest)
+        why = "is below 50: elastic strain reaches several percent before the sample yields";
+      if (key == "youngs_modulus" && value > stiffest)
+        why = "is above 1e6: was it given as an absolute modulus?";
+      if ((key == "cohesion" || key == "table_cohesion") && value > most_cohesive)
+        why = "is above 1: cohesion then exceeds the pressure; was it given as an absolute stress?";
+      if (why != nullptr)
+        found.push_back({key, concatenated(" = ", value, " (in units of loading/pressure) ", why)});
+    });
     return found;
   }
 } // namespace diptych::continuum

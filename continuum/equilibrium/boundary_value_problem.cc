@@ -372,7 +372,7 @@ namespace diptych::continuum
         for (unsigned int c = 0; c < 2; ++c)
           if (mesh.owned.is_element(node.dofs[c]))
             sum += nodal_force[node.dofs[c]] * nodal_force[node.dofs[c]];
-    const double floor = 1e-9 * in_units(options.material, units).elastic.youngs_modulus * mesh.extent.x();
+    const double floor = 1e-9 * options.material.elastic.youngs_modulus * units.stress * mesh.extent.x();
     return std::max(floor, std::sqrt(Utilities::MPI::sum(sum, mesh.communicator())));
   }
 } // namespace diptych::continuum

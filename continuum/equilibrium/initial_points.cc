@@ -5,8 +5,6 @@
 #include <cmath>
 #include <optional>
 
-#include "continuum/laws/hardening.h"
-
 namespace diptych::continuum
 {
   void set_at_rest(const Discretisation       &mesh,
@@ -20,7 +18,7 @@ namespace diptych::continuum
     const double             radius = options.weak_spot_radius * units.length;
     std::optional<Hardening> hardening;
     if (traits(options.law).is_plastic)
-      hardening.emplace(options.material, units);
+      hardening.emplace(in_units(options.material, units));
     for (std::size_t i = 0; i < points.size(); ++i)
       {
         auto &point          = points[i];
@@ -66,7 +64,7 @@ namespace diptych::continuum
                           const LawOptions           &law,
                           std::vector<MaterialState> &points)
   {
-    const double start = law.solid_fraction_start.value_or(law.critical_solid_fraction);
+    const double start = law.start_solid_fraction();
     for (std::size_t i = 0; i < points.size(); ++i)
       points[i].densification += std::log(of_cells[i / n_points] / start);
   }

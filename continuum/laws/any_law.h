@@ -4,9 +4,6 @@
 
 #include <variant>
 
-#include "continuum/laws/cosserat_drucker_prager.h"
-#include "continuum/laws/cosserat_mohr_coulomb.h"
-#include "continuum/laws/drucker_prager.h"
 #include "continuum/laws/gradient_law.h"
 #include "continuum/laws/kinematic_cone.h"
 #include "continuum/laws/library_law.h"
@@ -15,19 +12,13 @@
 
 namespace diptych::continuum
 {
-  using Law = std::variant<LinearElastic,
-                           MohrCoulomb,
-                           DruckerPrager,
-                           CosseratMohrCoulomb,
-                           CosseratDruckerPrager,
-                           KinematicLaw<false>,
-                           KinematicLaw<true>,
-                           GradientMohrCoulomb,
-                           GradientDruckerPrager,
-                           LibraryLaw>;
+  using Law = std::variant<LinearElastic, MohrCoulomb, ConeLaw, KinematicCone, GradientLaw, LibraryLaw>;
 
-  // Throws std::invalid_argument under the same conditions as validate(options), and if validate(law, options) does.
+  // Throws WrongKeys as validate(law, options) does.
   Law make_law(LawKind law, const LawOptions &options, const Units &units = {});
+
+  // The law of a point in a uniform deformation without rotation, where a nonlocal hardening variable equals the local one.
+  Law make_uniform_law(LawKind law, const LawOptions &options, const Units &units = {});
 
   // Sets the state variables of a law from a library at the initial stress. Other laws have none.
   template <class AnyLaw> void start(const AnyLaw &law, MaterialState &state)

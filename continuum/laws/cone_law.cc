@@ -20,13 +20,13 @@ namespace diptych::continuum
     const double sqrt3 = std::sqrt(3.);
   } // namespace
 
-  ConeLaw::ConeLaw(const LawOptions &options, const ConeShape shape, const bool is_cosserat, const Units &units)
-      : cone{Hardening(options, units), shape},
-        moduli_(elastic_moduli(in_units(options, units), is_cosserat)),
+  ConeLaw::ConeLaw(const LawOptions &options, const ConeShape shape, const bool is_cosserat)
+      : cone{Hardening(options), shape},
+        moduli_(elastic_moduli(options, is_cosserat)),
         pressure_modulus(shape == ConeShape::mohr_coulomb ? moduli_.plane_bulk : moduli_.bulk),
         elastic(continuum::elastic_tangent(moduli_)),
-        viscosity(in_units(options, units).viscosity),
-        couple_scale(is_cosserat ? std::sqrt(2.) * in_units(options, units).internal_length : 0)
+        viscosity(options.viscosity),
+        couple_scale(is_cosserat ? std::sqrt(2.) * options.internal_length : 0)
   {
     // Sum over the unit vectors of g: the outer product of the conjugate stress with itself.
     for (unsigned int k = 0; k < Deviatoric::dimension; ++k)

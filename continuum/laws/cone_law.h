@@ -13,12 +13,22 @@ namespace diptych::continuum
   //   g = (e_xx - e_yy, gamma_xy, -tr(e)/sqrt3, sqrt2 l kappa_x, sqrt2 l kappa_y).
   // Only Drucker-Prager uses the third entry, only Cosserat laws use the last two; unused entries are zero. The elastic
   // pressure increment is -B tr(e). Mohr-Coulomb has B = K + G/3 and s = -(s_xx + s_yy)/2, Drucker-Prager has B = K and s =
-  // -I1/3. The couple stress enters the yield function through m.m/(2 l^2). The skew stress is elastic and does not enter it.
+  // -I1/3. The couple stress enters the yield function through m.m/(2 l^2). The skew stress is elastic and does not enter it. The
+  // hardening variable grows by the plastic multiplier, which is the norm of the plastic part of g; a plastic curvature
+  // contributes to it.
+  //
+  // Drucker-Prager: F = sqrt(J2) + alpha I1 - k with alpha, k and the dilatancy matched to plane-strain flow (yield_cone.h). In
+  // such flow it has the strength of Mohr-Coulomb for any dilatancy. sigma_zz flows plastically. The multiplier is then the
+  // plastic d(eps_1 - eps_3) times sqrt(1 + sin^2(psi)/3), which is 0.7 % larger at psi = 12 degrees.
+  //
+  // Mohr-Coulomb: F = |q| - s sin(phi) - c cos(phi) in the plane. sigma_zz stays elastic and does not enter it. The law is
+  // therefore Mohr-Coulomb only where sigma_zz is the intermediate principal stress. The panel reports the share of the area
+  // where it is not. MohrCoulomb returns in three dimensions instead.
   class ConeLaw
   {
   public:
-    // Members as in LinearElastic. The constructor throws std::invalid_argument under the same conditions as validate(options).
-    ConeLaw(const LawOptions &options, ConeShape shape, bool is_cosserat, const Units &units);
+    // Members as in LinearElastic.
+    ConeLaw(const LawOptions &options, ConeShape shape, bool is_cosserat);
 
     // Implicit: F = |q| - s f - g0 = overstress with f, g0 and dilation d at the END of the step. Over the step the hardening
     // variable grows by the multiplier lambda, |q| falls by G lambda and s rises by B lambda d. Perzyna: overstress =

@@ -18,7 +18,7 @@ namespace diptych::continuum
     double skew   = 0; // Gc: a = Gc * relative rotation [pressure]; zero for a classical law; s for a gradient law
   };
 
-  // Reads `options` as stresses and lengths (in_units). The Cosserat part follows de Borst, Eng. Comput. 8 (1991). The relative
+  // Options as stresses and lengths (in_units). The Cosserat part follows de Borst, Eng. Comput. 8 (1991). The relative
   // rotation chi has the energy Gc chi^2 / 2.
   ElasticModuli elastic_moduli(const LawOptions &options, bool is_cosserat);
   Tangent       elastic_tangent(const ElasticModuli &moduli);

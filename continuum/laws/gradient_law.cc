@@ -4,11 +4,11 @@
 
 namespace diptych::continuum
 {
-  GradientLaw::GradientLaw(const LawOptions &options, const ConeShape shape, const Units &units)
-      : ConeLaw(options, shape, is_cosserat, units)
+  GradientLaw::GradientLaw(const LawOptions &options, const ConeShape shape)
+      : ConeLaw(options, shape, false)
   {
-    const double length = in_units(options, units).internal_length;
-    cone.hardening      = Hardening(options, units, options.nonlocal_weight);
+    const double length = options.internal_length;
+    cone.hardening      = Hardening(options, options.nonlocal_weight);
     moduli_.skew        = moduli_.shear;
     moduli_.couple      = moduli_.shear * length * length;
     elastic             = continuum::elastic_tangent(moduli_);

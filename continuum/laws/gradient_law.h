@@ -19,9 +19,7 @@ namespace diptych::continuum
   class GradientLaw : public ConeLaw
   {
   public:
-    static constexpr bool is_cosserat = false;
-
-    GradientLaw(const LawOptions &options, ConeShape shape, const Units &units);
+    GradientLaw(const LawOptions &options, ConeShape shape);
 
     MaterialUpdate update(const MaterialState &s0, const Strain &d_strain, double d_time) const;
 
@@ -31,21 +29,4 @@ namespace diptych::continuum
 
   // Tangent of the strains of the plane where kbar follows kappa, as in a uniform deformation: component `nonlocal` condensed.
   Tangent uniform_tangent(const Tangent &tangent);
-
-  // In the plane, as CosseratMohrCoulomb: sigma_zz stays elastic and does not enter the yield function.
-  class GradientMohrCoulomb : public GradientLaw
-  {
-  public:
-    explicit GradientMohrCoulomb(const LawOptions &options, const Units &units = {})
-        : GradientLaw(options, ConeShape::mohr_coulomb, units)
-    {}
-  };
-
-  class GradientDruckerPrager : public GradientLaw
-  {
-  public:
-    explicit GradientDruckerPrager(const LawOptions &options, const Units &units = {})
-        : GradientLaw(options, ConeShape::drucker_prager, units)
-    {}
-  };
 } // namespace diptych::continuum

@@ -6,9 +6,9 @@
 
 namespace diptych::continuum
 {
-  KinematicCone::KinematicCone(const LawOptions &options, const ConeShape shape, const bool is_cosserat, const Units &units)
-      : ConeLaw(options, shape, is_cosserat, units),
-        kinematic(in_units(options, units))
+  KinematicCone::KinematicCone(const LawOptions &options, const ConeShape shape, const bool is_cosserat)
+      : ConeLaw(options, shape, is_cosserat),
+        kinematic(std::get<KinematicHardening>(cone.hardening.form()))
   {
     for (unsigned int k = 0; k < unit.size(); ++k)
       {

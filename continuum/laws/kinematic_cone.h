@@ -9,13 +9,13 @@
 
 namespace diptych::continuum
 {
-  // hardening = kinematic with the deviatoric vector and the pressure of cone_law.h; the equations are in kinematic_return.h.
+  // hardening = kinematic with the deviatoric vector and the pressure of cone_law.h; the equations are in kinematic_hardening.h.
   // MaterialState: back_stress_ratio is R as a stress (trace zero); stress_ratio_gain is |R| + r - eta_0, so that the mobilised
   // friction angle is found as for critical_state. Couple stress has a back stress like shear stress.
   class KinematicCone : public ConeLaw
   {
   public:
-    KinematicCone(const LawOptions &options, ConeShape shape, bool is_cosserat, const Units &units);
+    KinematicCone(const LawOptions &options, ConeShape shape, bool is_cosserat);
 
     // Members as in ConeLaw.
     MaterialUpdate update(const MaterialState &s0, const Strain &d_strain, double d_time) const;
@@ -29,15 +29,5 @@ namespace diptych::continuum
 
     KinematicHardening    kinematic;
     std::array<Stress, 5> unit; // stress of a unit entry of q
-  };
-
-  template <bool cosserat> class KinematicLaw : public KinematicCone
-  {
-  public:
-    static constexpr bool is_cosserat = cosserat;
-
-    KinematicLaw(const LawOptions &options, const ConeShape shape, const Units &units = {})
-        : KinematicCone(options, shape, is_cosserat, units)
-    {}
   };
 } // namespace diptych::continuum

@@ -12,7 +12,7 @@ namespace diptych::continuum
   {
     using Vector = dealii::Tensor<1, 5>;
 
-    constexpr double steepest_sine = 0.95; // as in critical_state
+    constexpr double steepest_sine = CriticalStateHardening::largest_sine;
 
     // A value with its derivatives by the unknowns lambda and d = sin psi and by the trial's pressure.
     struct Value
@@ -57,8 +57,8 @@ namespace diptych::continuum
       {
         const KinematicHardening &h = hardening;
         ReturnPoint               p;
-        const double              w = std::exp(-lambda / h.strain);
-        p.decay                     = {w, -w / h.strain};
+        const double              w = std::exp(-lambda / h.mobilisation_strain);
+        p.decay                     = {w, -w / h.mobilisation_strain};
         p.radius                    = Value{h.elastic} + p.decay * (start_radius - h.elastic);
         const Value l{lambda, 1};
         const Value viscous = l * trial.viscous_modulus;
@@ -84,7 +84,7 @@ namespace diptych::continuum
         p.yield              = p.distance - p.pressure * p.radius - viscous;
         if (at_tip)
           p.yield = p.distance;
-        p.flow = Value{d, 0, 1} - (possible - Value{h.critical}) * (1 / h.dilatancy_ratio) + possible - p.decay * along -
+        p.flow = Value{d, 0, 1} - (possible - Value{h.stress_ratio}) * (1 / h.dilatancy_ratio) + possible - p.decay * along -
                  p.reach - p.radius;
         return p;
       }
@@ -193,24 +193,6 @@ namespace diptych::continuum
       return end;
     }
   } // namespace
-
-  KinematicHardening::KinematicHardening(const LawOptions &o)
-      : critical(o.critical_stress_ratio),
-        start(o.stress_ratio_start),
-        elastic(o.elastic_stress_ratio),
-        possible(o.critical_stress_ratio +
-                 o.strength_by_density * o.critical_solid_fraction *
-                   std::log(o.solid_fraction_start.value_or(o.critical_solid_fraction) / o.critical_solid_fraction)),
-        by_density(o.strength_by_density * o.critical_solid_fraction),
-        dilatancy_ratio(o.dilatancy_ratio),
-        strain(o.mobilisation_strain),
-        tension(o.cohesion / o.critical_stress_ratio)
-  {}
-
-  double KinematicHardening::radius(const double equivalent_plastic_strain) const
-  {
-    return elastic + (start - elastic) * std::exp(-equivalent_plastic_strain / strain);
-  }
 
   KinematicReturn return_to_moving_cone(const KinematicHardening &hardening, const KinematicTrial &trial)
   {

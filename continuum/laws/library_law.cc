@@ -39,13 +39,12 @@ namespace diptych::continuum
     }
   } // namespace
 
-  LibraryLaw::LibraryLaw(const LawOptions &options, const Units &units)
-      : path(options.library.file.path)
+  LibraryLaw::LibraryLaw(LibraryOptions options, const Units &units)
+      : path(options.file.path)
   {
-    LibraryOptions whole = options.library;
-    complete(whole);
+    complete(options);
     opened     = &law_library(path);
-    parameters = converted(whole.parameters, units);
+    parameters = converted(options.parameters, units);
     MaterialState rest;
     rest.stress[xx] = rest.stress[yy] = rest.stress_zz = -units.stress;
     start(rest);

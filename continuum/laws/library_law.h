@@ -16,9 +16,9 @@ namespace diptych::continuum
   class LibraryLaw
   {
   public:
-    // Completes options.library. Throws WrongKeys like complete(), and if the law fails at the isotropic stress -units.stress
+    // Completes the options. Throws WrongKeys like complete(), and if the law fails at the isotropic stress -units.stress
     // without strain: its tangent there takes the place of the elastic one.
-    explicit LibraryLaw(const LawOptions &options, const Units &units = {});
+    LibraryLaw(LibraryOptions options, const Units &units);
 
     // Members as in LinearElastic. update() also adds plastic strain and dissipation.
     MaterialUpdate update(const MaterialState &s0, const Strain &d_strain, double d_time) const;

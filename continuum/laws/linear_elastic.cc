@@ -7,17 +7,8 @@
 
 namespace diptych::continuum
 {
-  namespace
-  {
-    LawOptions checked(const LawOptions &options, const Units &units)
-    {
-      validate(options.elastic);
-      return in_units(options, units);
-    }
-  } // namespace
-
-  LinearElastic::LinearElastic(const LawOptions &options, const Units &units)
-      : moduli_(elastic_moduli(checked(options, units), is_cosserat)),
+  LinearElastic::LinearElastic(const LawOptions &options)
+      : moduli_(elastic_moduli(options, false)),
         tangent(continuum::elastic_tangent(moduli_))
   {}
 

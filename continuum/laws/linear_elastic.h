@@ -11,10 +11,8 @@ namespace diptych::continuum
   class LinearElastic
   {
   public:
-    static constexpr bool is_cosserat = false;
-
-    // Throws std::invalid_argument if an elastic option is out of range. Does not read the other options.
-    explicit LinearElastic(const LawOptions &options, const Units &units = {});
+    // Options of every law but LibraryLaw: valid for the law (validate), as stresses and lengths (in_units).
+    explicit LinearElastic(const LawOptions &options);
 
     // Returns the end state of the strain increment `d_strain` (tension positive) from the committed state `s0`, with the
     // consistent tangent. `d_time` is the length of the step along the loading. Only viscosity uses it; zero means rate

@@ -300,9 +300,9 @@ namespace diptych::continuum
     validate(path);
     // Three-dimensional Mohr-Coulomb judges where a law that stays in the plane leaves sigma_zz.
     std::optional<MohrCoulomb> judge;
-    if (traits(law).stays_in_plane)
-      judge.emplace(options, units);
+    if (traits(law).stays_in_plane())
+      judge.emplace(in_units(options, units));
     return std::visit([&](const auto &one) { return PointDriver(one, path, judge).run(); },
-                      make_law(uniform_law(law), options, units));
+                      make_uniform_law(law, options, units));
   }
 } // namespace diptych::continuum

@@ -14,10 +14,8 @@ namespace diptych::continuum
   class MohrCoulomb : public ConeLaw
   {
   public:
-    static constexpr bool is_cosserat = false;
-
-    explicit MohrCoulomb(const LawOptions &options, const Units &units = {})
-        : ConeLaw(options, ConeShape::mohr_coulomb, is_cosserat, units)
+    explicit MohrCoulomb(const LawOptions &options)
+        : ConeLaw(options, ConeShape::mohr_coulomb, false)
     {}
 
     // Regime::edge if two yield planes are active, Regime::plastic if one is, in the plane of deformation or not.

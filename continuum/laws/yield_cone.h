@@ -15,12 +15,6 @@ namespace diptych::continuum
     double dilation = 0, dilation_rate = 0;
   };
 
-  enum class ConeShape
-  {
-    mohr_coulomb,  // in the plane: |q| = (sigma_1 - sigma_2)/2, s = -(sigma_1 + sigma_2)/2
-    drucker_prager // |q| = sqrt(J2), s = -I1/3
-  };
-
   // slope = sin phi, intercept = c cos phi, dilation = sin psi.
   Cone mohr_coulomb_cone(const StrengthBySines &strength);
 

@@ -129,7 +129,7 @@ namespace diptych::coupling
         outside = row.step > 0 ? std::max(outside, row.share_zz_not_intermediate) : outside;
       if (part.is_coarse)
         text << "\n  this second run shows the effect of the mesh; comparison/coarse_element_size = 0 leaves it out";
-      if (continuum::traits(scene.continuum.law).stays_in_plane && outside > 0)
+      if (continuum::traits(scene.continuum.law).stays_in_plane() && outside > 0)
         text << "\n  sigma_zz is not the intermediate principal stress in up to " << 100 * outside
              << " % of the area, where this law's in-plane form is not exact"
              << (outside <= 0.05                                      ? ""

@@ -100,23 +100,15 @@ namespace diptych::coupling
       return o.mode == discrete::LoadingMode::time ? tidy(o.duration / 32) : std::min(1.25e-3, tidy(o.axial_strain / 8));
     }
 
-    // Keys of the law. A scene that sets one has a law of its own.
-    const Given law_keys = {"continuum/law",
-                            "continuum/hardening",
-                            "continuum/youngs_modulus",
-                            "continuum/poisson_ratio",
-                            "continuum/friction_angle_peak",
-                            "continuum/friction_angle_start",
-                            "continuum/friction_angle_residual",
-                            "continuum/dilatancy_angle_peak",
-                            "continuum/dilatancy_angle_residual",
-                            "continuum/mobilisation_strain",
-                            "continuum/softening_strain",
-                            "continuum/cohesion",
-                            "continuum/cohesion_residual",
-                            "continuum/viscosity",
-                            "continuum/internal_length",
-                            "continuum/couple_shear_ratio"};
+    // Whether the scene sets a key that its law uses, or the law itself.
+    bool has_own_law(const continuum::Options &o, Given given)
+    {
+      for (const continuum::UnusedKey &unused : continuum::unused_keys(o))
+        given.erase("continuum/" + unused.key);
+      std::vector<std::string> keys = continuum::keys_of(o.material);
+      keys.push_back("law");
+      return std::any_of(keys.begin(), keys.end(), [&](const std::string &key) { return given.count("continuum/" + key) > 0; });
+    }
 
     // True if the default law was calibrated on such grains: friction, grading, preparation, number, sides, speed, platens; no
     // rolling resistance.
@@ -140,8 +132,7 @@ namespace diptych::coupling
     // Empty if nobody fitted the law to such grains.
     std::string origin(const Scene &scene, const Given &given)
     {
-      const bool own = std::any_of(given.begin(), given.end(), [](const std::string &key) { return law_keys.count(key) > 0; });
-      return own || !default_law_suits(scene)
+      return has_own_law(scene.continuum, given) || !default_law_suits(scene)
                ? ""
                : "defaults, calibrated on dense samples of 1500 discs with friction 0.2 to 0.8 (benchmarks/calibration/defaults)";
     }

@@ -216,7 +216,7 @@ namespace
             EXPECT_NEAR(end.state.stress[curvature_x], 0, 1e-12);
             EXPECT_NEAR(end.state.stress[relative_rotation], traits(name).is_cosserat ? 0.5 * 500 / 2.4 * 0.002 : 0, 1e-12);
           }
-        if (!traits(name).stays_in_plane) // ignores sigma_zz
+        if (!traits(name).stays_in_plane()) // ignores sigma_zz
           {
             EXPECT_NEAR(end.state.stress_zz, 0.2674621, 1e-7);
           }

@@ -57,8 +57,8 @@ namespace
   {
     LawOptions options;
     options.internal_length = 3, options.couple_shear_ratio = 0.25;
-    const CosseratDruckerPrager law(options);
-    const double                G = 500 / 2.4;
+    const ConeLaw law(options, ConeShape::drucker_prager, true);
+    const double  G = 500 / 2.4;
     EXPECT_NEAR(law.elastic_tangent()[curvature_x][curvature_x], 2 * G * 9, 1e-10);
     EXPECT_NEAR(law.elastic_tangent()[relative_rotation][relative_rotation], G / 4, 1e-12);
     EXPECT_NEAR(law.elastic_tangent()[xx][yy], 500 * .2 / (1.2 * .6), 1e-10); // E nu/((1 + nu)(1 - 2 nu))
@@ -78,19 +78,19 @@ namespace
     o.table_dilatancy_angle = o.table_cohesion = {0, 0};
     HardeningState state{0.03};
     state.nonlocal_plastic_strain = 0.04;
-    EXPECT_NEAR(Hardening(o, {}, 2).at(state).friction, 25 * degree, 1e-12);
-    EXPECT_NEAR(Hardening(o, {}, 2).at(state).friction_rate, 100 * degree, 1e-12); // falls with kbar, rises with kappa
-    EXPECT_NEAR(Hardening(o, {}, 2).sines_by_nonlocal(state).friction_rate, -200 * degree * std::cos(25 * degree), 1e-12);
+    EXPECT_NEAR(Hardening(o, 2).at(state).friction, 25 * degree, 1e-12);
+    EXPECT_NEAR(Hardening(o, 2).at(state).friction_rate, 100 * degree, 1e-12); // falls with kbar, rises with kappa
+    EXPECT_NEAR(Hardening(o, 2).sines_by_nonlocal(state).friction_rate, -200 * degree * std::cos(25 * degree), 1e-12);
     o.table_strain          = {0, 0.03, 0.13};
     o.table_friction_angle  = {10, 30, 20}; // rises by 20, and falls from the softening variable 0.03 on
     o.table_dilatancy_angle = o.table_cohesion = {0, 0, 0};
-    EXPECT_NEAR(Hardening(o, {}, 2).at(state).friction, 28 * degree, 1e-12);
-    EXPECT_NEAR(Hardening(o, {}, 2).sines_by_nonlocal(state).friction_rate, -200 * degree * std::cos(28 * degree), 1e-12);
+    EXPECT_NEAR(Hardening(o, 2).at(state).friction, 28 * degree, 1e-12);
+    EXPECT_NEAR(Hardening(o, 2).sines_by_nonlocal(state).friction_rate, -200 * degree * std::cos(28 * degree), 1e-12);
     LawOptions m              = constant(30, 0, 0);
     m.hardening               = HardeningKind::mobilisation;
     m.friction_angle_residual = 20, m.dilatancy_angle_residual = 0, m.friction_angle_start = 10;
     m.softening_strain = 0.05, m.mobilisation_strain = 0.03;
-    EXPECT_NEAR(Hardening(m, {}, 2).at(state).friction, (20 - 10 * std::exp(-1.)) * degree, 1e-12);
+    EXPECT_NEAR(Hardening(m, 2).at(state).friction, (20 - 10 * std::exp(-1.)) * degree, 1e-12);
     EXPECT_THROW(make_law(LawKind::gradient_drucker_prager, critical(0.82, 0.1)), std::invalid_argument);
   }
 
@@ -102,7 +102,7 @@ namespace
       {
         const MaterialState s0 = state_of(-1, -1, -1, 0.03);
         Strain              e  = strain_of(0.003, -0.004, 0.001);
-        const auto          b  = update(make_law(uniform_law(name), options), s0, e);
+        const auto          b  = update(make_uniform_law(name, options), s0, e);
         e[nonlocal]            = b.state.equivalent_plastic_strain - s0.equivalent_plastic_strain;
         const auto    a        = update(make_law(name, options), s0, e);
         const Tangent D        = uniform_tangent(a.tangent);

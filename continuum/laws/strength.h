@@ -1,0 +1,65 @@
+// diptych: strength at one state of the hardening
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "continuum/laws/kinds.h"
+
+namespace diptych::continuum
+{
+  struct LawOptions;
+
+  constexpr double one_degree = 3.14159265358979323846 / 180;
+
+  inline double cosine(const double sine)
+  {
+    return std::sqrt((1 - sine) * (1 + sine));
+  }
+
+  // Strength at one value of the hardening variable. A `_rate` is the derivative by that variable.
+  struct Strength
+  {
+    double friction = 0, friction_rate = 0;   // phi [radians]
+    double dilatancy = 0, dilatancy_rate = 0; // psi [radians]
+    double cohesion = 0, cohesion_rate = 0;   // c [pressure]
+  };
+
+  // The same with the sines of the angles in place of the angles.
+  struct StrengthBySines
+  {
+    double friction = 0, friction_rate = 0;   // sin phi
+    double dilatancy = 0, dilatancy_rate = 0; // sin psi
+    double cohesion = 0, cohesion_rate = 0;   // c [pressure]
+    double friction_cosine = 1;               // cos phi
+  };
+
+  // sin psi over a step, with its derivative by the multiplier.
+  struct Dilation
+  {
+    double sine = 0, rate = 0;
+  };
+
+  // The part of a MaterialState on which the strength depends.
+  struct HardeningState
+  {
+    double equivalent_plastic_strain = 0;
+    double stress_ratio_gain = 0, densification = 0; // critical state: change since the start
+    double nonlocal_plastic_strain = 0;              // gradient laws
+  };
+
+  // Strength at one value of the hardening variable, as a scene gives it.
+  struct StrengthPoint
+  {
+    double strain = 0, friction = 0, dilatancy = 0, cohesion = 0; // [-, radians, pressure]
+  };
+
+  // Throws WrongKeys unless 0 <= dilatancy <= friction [degrees] and friction or cohesion is positive. `place`: "at the peak".
+  void check_strength(const std::string              &place,
+                      const std::vector<std::string> &keys,
+                      double                          friction,
+                      double                          dilatancy,
+                      double                          cohesion);
+} // namespace diptych::continuum
