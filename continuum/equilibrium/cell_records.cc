@@ -22,37 +22,37 @@ namespace diptych::continuum
 
     std::vector<double> packed(const MaterialState &s)
     {
-      std::vector<double> values(n_built_in);
-      for (unsigned int k = 0; k < n_components; ++k)
-        values[k] = s.stress[k];
-      const double rest[] = {
-        s.stress_zz,         s.nonlocal_plastic_strain, s.equivalent_plastic_strain, s.overstress,  s.plastic_strain.xx,
-        s.plastic_strain.yy, s.plastic_strain.zz,       s.plastic_strain.xy,         s.dissipation, s.stress_ratio_gain,
-        s.densification};
-      std::copy(std::begin(rest), std::end(rest), values.begin() + n_components);
-      for (unsigned int k = 0; k < n_components; ++k)
-        values[n_built_in - n_components + k] = s.back_stress_ratio[k];
-      values.insert(values.end(), s.variables.begin(), s.variables.end());
+      const HardeningState hardening = hardening_state(s);
+      const PlasticStrain &plastic   = s.plastic_strain;
+      const Stress        &back      = part_of<KinematicState>(s).back_stress_ratio;
+      const LibraryState  &variables = part_of<LibraryState>(s);
+      std::vector<double>  values(&s.stress[0], &s.stress[0] + n_components);
+      values.insert(values.end(),
+                    {s.stress_zz, hardening.nonlocal_plastic_strain, s.equivalent_plastic_strain, s.overstress, plastic.xx,
+                     plastic.yy, plastic.zz, plastic.xy, s.dissipation, hardening.stress_ratio_gain, hardening.densification});
+      values.insert(values.end(), &back[0], &back[0] + n_components);
+      values.insert(values.end(), variables.begin(), variables.end());
       return values;
     }
 
-    MaterialState unpacked(const double *values, const unsigned int n)
+    MaterialState unpacked(const Law &law, const double *values, const unsigned int n)
     {
       MaterialState s;
-      for (unsigned int k = 0; k < n_components; ++k)
-        s.stress[k] = values[k];
-      const double *rest          = values + n_components;
+      std::copy_n(values, n_components, &s.stress[0]);
+      const double *rest = values + n_components, *back = values + n_built_in - n_components;
       s.stress_zz                 = rest[0];
-      s.nonlocal_plastic_strain   = rest[1];
       s.equivalent_plastic_strain = rest[2];
       s.overstress                = rest[3];
       s.plastic_strain            = {rest[4], rest[5], rest[6], rest[7]};
       s.dissipation               = rest[8];
-      s.stress_ratio_gain         = rest[9];
-      s.densification             = rest[10];
-      for (unsigned int k = 0; k < n_components; ++k)
-        s.back_stress_ratio[k] = values[n_built_in - n_components + k];
-      s.variables.assign(values + n_built_in, values + n);
+      if (const Hardening *hardening = std::visit([](const auto &one) { return one.hardening(); }, law))
+        hardening->write({rest[2], rest[9], rest[10]}, s);
+      if (auto *moving = std::get_if<KinematicState>(&s.own))
+        std::copy_n(back, n_components, &moving->back_stress_ratio[0]);
+      if (std::holds_alternative<GradientLaw>(law))
+        s.own = NonlocalState{rest[1]};
+      if (std::holds_alternative<LibraryLaw>(law))
+        s.own = LibraryState(values + n_built_in, values + n);
       return s;
     }
 
@@ -199,7 +199,7 @@ namespace diptych::continuum
               restored.last.curvature[mesh.cells[c].local[i]]     = record[1 + 2 * mesh.reference.n_dofs + i];
             }
           for (unsigned int q = 0; q < mesh.reference.n_points; ++q)
-            restored.state.points.push_back(unpacked(&record[1 + n_fields * mesh.reference.n_dofs + q * n], n));
+            restored.state.points.push_back(unpacked(problem.law(), &record[1 + n_fields * mesh.reference.n_dofs + q * n], n));
           ++c;
         }
     restored.state.localisation.assign(restored.state.points.size(), {});

@@ -29,13 +29,12 @@ namespace diptych::continuum
         Eigen::Vector2d at   = Eigen::Vector2d::Zero();
         for (unsigned int node = 0; node < mesh.reference.n_nodes; ++node)
           at += mesh.reference.shape[i % mesh.reference.n_points][node] * mesh.nodes[cell.nodes[node]].initial;
-        const double         strain     = options.weak_spot_strain * std::exp(-(at - spot).squaredNorm() / (2 * radius * radius));
-        const HardeningState weakened   = hardening ? hardening->after({}, strain) : HardeningState{strain};
-        point.equivalent_plastic_strain = weakened.equivalent_plastic_strain;
-        point.stress_ratio_gain         = weakened.stress_ratio_gain;
-        point.densification             = weakened.densification;
+        const double strain             = options.weak_spot_strain * std::exp(-(at - spot).squaredNorm() / (2 * radius * radius));
+        point.equivalent_plastic_strain = strain;
+        if (hardening)
+          hardening->write(hardening->after({}, strain), point);
         if (traits(options.law).is_gradient)
-          point.nonlocal_plastic_strain = weakened.equivalent_plastic_strain;
+          own_part<NonlocalState>(point).plastic_strain = strain;
       }
   }
 
@@ -66,6 +65,12 @@ namespace diptych::continuum
   {
     const double start = law.start_solid_fraction();
     for (std::size_t i = 0; i < points.size(); ++i)
-      points[i].densification += std::log(of_cells[i / n_points] / start);
+      {
+        auto *critical = std::get_if<CriticalState>(&points[i].own);
+        if (!critical)
+          critical = std::get_if<KinematicState>(&points[i].own);
+        if (critical)
+          critical->densification += std::log(of_cells[i / n_points] / start);
+      }
   }
 } // namespace diptych::continuum

@@ -29,7 +29,8 @@ namespace diptych::continuum
   inline void turn(MaterialState &point, const double angle, const bool is_gradient = false)
   {
     turn(point.stress, angle, is_gradient);
-    turn(point.back_stress_ratio, angle);
+    if (auto *moving = std::get_if<KinematicState>(&point.own))
+      turn(moving->back_stress_ratio, angle);
   }
 
   // Tensors among the state variables of a law from a library, too.

@@ -151,11 +151,8 @@ namespace diptych::continuum
     state.stress_zz += cone.shape == ConeShape::mohr_coulomb
                          ? -moduli_.lateral / B * (end.pressure - trial.pressure)
                          : trial.pressure - end.pressure + 2 / sqrt3 * (end.shear - trial.shear) * trial.direction[out_of_plane];
-    const HardeningState hardened   = cone.hardening.after(hardening_state(trial.state), end.multiplier);
-    state.equivalent_plastic_strain = hardened.equivalent_plastic_strain;
-    state.stress_ratio_gain         = hardened.stress_ratio_gain;
-    state.densification             = hardened.densification;
-    state.overstress                = end.overstress;
+    cone.hardening.write(cone.hardening.after(hardening_state(trial.state), end.multiplier), state);
+    state.overstress = end.overstress;
 
     const Stress by_shear    = G * ((end.shear_by_shear - ratio) * n - end.pressure_by_shear * one); // coefficient of n.dg
     const Stress by_pressure = B * (end.pressure_by_pressure * one - end.shear_by_pressure * n);     // coefficient of tr(de)

@@ -16,17 +16,6 @@ namespace diptych::continuum
     }
   } // namespace
 
-  void check_strength(const std::string              &place,
-                      const std::vector<std::string> &keys,
-                      const double                    friction,
-                      const double                    dilatancy,
-                      const double                    cohesion)
-  {
-    require_keys(dilatancy <= friction, keys, "dilatancy angle ", dilatancy, ' ', place, " must not exceed the friction angle ",
-                 friction, " (plastic work would be negative)");
-    require_keys(friction > 0 || cohesion > 0, keys, "friction and cohesion are both zero ", place, ": one must be positive");
-  }
-
   void ConstantHardening::check(const LawOptions &o, LawKind)
   {
     check_strength("at the peak", {"dilatancy_angle_peak", "friction_angle_peak", "cohesion"}, o.friction_angle_peak,

@@ -17,7 +17,7 @@ namespace diptych::continuum
   MaterialUpdate GradientLaw::update(const MaterialState &s0, const Strain &d_strain, const double d_time) const
   {
     MaterialState start = s0;
-    start.nonlocal_plastic_strain += d_strain[nonlocal];
+    own_part<NonlocalState>(start).plastic_strain += d_strain[nonlocal];
     const Trial     trial    = elastic_trial(start, d_strain);
     const ConeStart at_start = start_of(trial.state);
     if (!is_outside(trial, at_start.cone))

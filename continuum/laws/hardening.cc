@@ -88,6 +88,16 @@ namespace diptych::continuum
     return end;
   }
 
+  void Hardening::write(const HardeningState &from, MaterialState &state) const
+  {
+    state.equivalent_plastic_strain = from.equivalent_plastic_strain;
+    if (!critical())
+      return;
+    const bool     moves = std::holds_alternative<KinematicHardening>(form_);
+    CriticalState &own   = moves ? own_part<KinematicState>(state) : own_part<CriticalState>(state);
+    own                  = {from.stress_ratio_gain, from.densification};
+  }
+
   std::optional<Dilation> Hardening::mean_dilation(const HardeningState &start,
                                                    const HardeningState &end,
                                                    const double          multiplier) const

@@ -11,7 +11,12 @@ namespace diptych::continuum
 {
   inline HardeningState hardening_state(const MaterialState &state)
   {
-    return {state.equivalent_plastic_strain, state.stress_ratio_gain, state.densification, state.nonlocal_plastic_strain};
+    const auto *critical = std::get_if<CriticalState>(&state.own);
+    if (!critical)
+      critical = std::get_if<KinematicState>(&state.own);
+    if (critical)
+      return {state.equivalent_plastic_strain, critical->stress_ratio_gain, critical->densification, 0};
+    return {state.equivalent_plastic_strain, 0, 0, part_of<NonlocalState>(state).plastic_strain};
   }
 
   // Hardening of any kind, as a law reads it.
@@ -37,6 +42,9 @@ namespace diptych::continuum
 
     // The state after plastic shear strain `multiplier` >= 0.
     HardeningState after(const HardeningState &state, double multiplier) const;
+
+    // Writes the hardening variable and the state of a critical-state law.
+    void write(const HardeningState &from, MaterialState &state) const;
 
     // Mean dilation of a critical-state law over the step from `start` to `end` = after(start, multiplier). It keeps volume and
     // solid fraction consistent. The flow of any other law uses the dilation at the end: no value.

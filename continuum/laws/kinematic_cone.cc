@@ -21,7 +21,7 @@ namespace diptych::continuum
   ConeLaw::Deviatoric KinematicCone::back_ratio(const MaterialState &state) const
   {
     MaterialState back;
-    back.stress    = state.back_stress_ratio;
+    back.stress    = part_of<KinematicState>(state).back_stress_ratio;
     back.stress_zz = -(back.stress[xx] + back.stress[yy]);
     return deviatoric(back);
   }
@@ -60,10 +60,11 @@ namespace diptych::continuum
     state.stress[yy] -= s;
     state.stress[relative_rotation] = trial.state.stress[relative_rotation];
     state.equivalent_plastic_strain += end.multiplier;
-    state.densification -= end.multiplier * end.dilation;
-    state.back_stress_ratio = conjugate(end.back);
-    state.stress_ratio_gain = end.back.norm() + kinematic.radius(state.equivalent_plastic_strain) - kinematic.start;
-    state.overstress        = viscous_modulus(d_time) * end.multiplier;
+    KinematicState &own = own_part<KinematicState>(state);
+    own.densification -= end.multiplier * end.dilation;
+    own.back_stress_ratio = conjugate(end.back);
+    own.stress_ratio_gain = end.back.norm() + kinematic.radius(state.equivalent_plastic_strain) - kinematic.start;
+    state.overstress      = viscous_modulus(d_time) * end.multiplier;
     return answer;
   }
 
@@ -74,7 +75,7 @@ namespace diptych::continuum
     t.pressure                  = trial.pressure + kinematic.tension;
     t.back                      = back_ratio(trial.state);
     t.equivalent_plastic_strain = trial.state.equivalent_plastic_strain;
-    t.densification             = trial.state.densification;
+    t.densification             = part_of<KinematicState>(trial.state).densification;
     t.shear_modulus             = moduli_.shear;
     t.pressure_modulus          = pressure_modulus;
     t.viscous_modulus           = viscous_modulus(d_time);

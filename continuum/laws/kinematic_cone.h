@@ -10,7 +10,7 @@
 namespace diptych::continuum
 {
   // hardening = kinematic with the deviatoric vector and the pressure of cone_law.h; the equations are in kinematic_hardening.h.
-  // MaterialState: back_stress_ratio is R as a stress (trace zero); stress_ratio_gain is |R| + r - eta_0, so that the mobilised
+  // KinematicState: back_stress_ratio is R as a stress (trace zero); stress_ratio_gain is |R| + r - eta_0, so that the mobilised
   // friction angle is found as for critical_state. Couple stress has a back stress like shear stress.
   class KinematicCone : public ConeLaw
   {

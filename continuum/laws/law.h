@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <variant>
 #include <vector>
 
 #include <deal.II/base/tensor.h>
@@ -51,21 +52,49 @@ namespace diptych::continuum
     double xx = 0, yy = 0, zz = 0, xy = 0;
   };
 
+  // What one kind of law follows besides. It counts from the start of the loading, where it is zero.
+  struct CriticalState // hardening = critical_state
+  {
+    double stress_ratio_gain = 0; // increase of the mobilised t/s [-]
+    double densification     = 0; // ln(solid fraction / initial one), from plastic strain [-]
+  };
+  struct KinematicState : CriticalState // hardening = kinematic
+  {
+    Stress back_stress_ratio; // axis of the cone, a deviatoric stress over the pressure [-]
+  };
+  struct NonlocalState // gradient laws
+  {
+    double plastic_strain = 0; // kbar, the nonlocal hardening variable [-]
+  };
+  using LibraryState = std::vector<double>; // state variables of a law from a library
+
   // Committed state of one material point.
   struct MaterialState
   {
-    Stress              stress;
-    double              stress_zz                 = 0; // [pressure]
-    double              equivalent_plastic_strain = 0; // hardening variable: integral of the plastic d(eps_1 - eps_3) [-]
-    double              stress_ratio_gain         = 0; // critical state: increase of the mobilised t/s since the start [-]
-    double              densification           = 0; // critical state: ln(solid fraction / initial one), from plastic strain [-]
-    double              nonlocal_plastic_strain = 0; // gradient laws: kbar, the nonlocal hardening variable [-]
-    Stress              back_stress_ratio;           // kinematic: axis of the cone, a deviatoric stress over the pressure [-]
-    double              overstress = 0;              // excess of the yield function that viscosity carries [pressure]
-    PlasticStrain       plastic_strain;              // updated by add_plastic_flow(), not by update(); law = library: by update()
-    double              dissipation = 0;             // plastic work per initial area [pressure]; likewise
-    std::vector<double> variables;                   // state variables of a law from a library; otherwise empty
+    Stress        stress;
+    double        stress_zz                 = 0; // [pressure]
+    double        equivalent_plastic_strain = 0; // hardening variable: integral of the plastic d(eps_1 - eps_3) [-]
+    double        overstress                = 0; // excess of the yield function that viscosity carries [pressure]
+    PlasticStrain plastic_strain;                // updated by add_plastic_flow(), not by update(); law = library: by update()
+    double        dissipation = 0;               // plastic work per initial area [pressure]; likewise
+
+    std::variant<std::monostate, CriticalState, KinematicState, NonlocalState, LibraryState> own;
   };
+
+  // The part of one kind of law; zeros in a state that has none.
+  template <class Part> const Part &part_of(const MaterialState &state)
+  {
+    static const Part none{};
+    const Part       *held = std::get_if<Part>(&state.own);
+    return held ? *held : none;
+  }
+  // The same to be written.
+  template <class Part> Part &own_part(MaterialState &state)
+  {
+    if (!std::holds_alternative<Part>(state.own))
+      state.own.emplace<Part>();
+    return *std::get_if<Part>(&state.own);
+  }
 
   struct MaterialUpdate
   {

@@ -73,14 +73,15 @@ namespace diptych::continuum
     bool same_bits(const MaterialUpdate &a, const MaterialUpdate &b)
     {
       return a.state.stress == b.state.stress && a.tangent == b.tangent && a.state.stress_zz == b.state.stress_zz &&
-             a.state.equivalent_plastic_strain == b.state.equivalent_plastic_strain && a.state.variables == b.state.variables &&
-             a.regime == b.regime && a.verdict == b.verdict;
+             a.state.equivalent_plastic_strain == b.state.equivalent_plastic_strain &&
+             part_of<LibraryState>(a.state) == part_of<LibraryState>(b.state) && a.regime == b.regime && a.verdict == b.verdict;
     }
 
     MaterialState turned_state(const Law &law, MaterialState state)
     {
-      state.stress            = turned(state.stress, turn_angle, 1);
-      state.back_stress_ratio = turned(state.back_stress_ratio, turn_angle, 1);
+      state.stress = turned(state.stress, turn_angle, 1);
+      if (auto *moving = std::get_if<KinematicState>(&state.own))
+        moving->back_stress_ratio = turned(moving->back_stress_ratio, turn_angle, 1);
       if (const auto *library = std::get_if<LibraryLaw>(&law))
         library->turn_variables(state, turn_angle);
       return state;

@@ -24,7 +24,7 @@ namespace diptych::continuum
           for (unsigned int k = 0; k < n_components; ++k)
             sum += answer.tangent[i][k];
         }
-      for (const double value : answer.state.variables)
+      for (const double value : part_of<LibraryState>(answer.state))
         sum += value;
       const PlasticStrain &p = answer.state.plastic_strain;
       return std::isfinite(sum + p.xx + p.yy + p.zz + p.xy);
@@ -59,15 +59,16 @@ namespace diptych::continuum
 
   void LibraryLaw::start(MaterialState &state) const
   {
-    state.variables.clear();
+    LibraryState &own = own_part<LibraryState>(state);
+    own.clear();
     for (int k = 0; k < opened->law->n_variables; ++k)
-      state.variables.push_back(opened->law->variables[k].start);
+      own.push_back(opened->law->variables[k].start);
     if (opened->start == nullptr)
       return;
     double variables[DIPTYCH_MOST_VARIABLES] = {};
-    std::copy(state.variables.begin(), state.variables.end(), variables);
+    std::copy(own.begin(), own.end(), variables);
     opened->start(parameters.data(), &state.stress[0], state.stress_zz, variables);
-    std::copy_n(variables, state.variables.size(), state.variables.begin());
+    std::copy_n(variables, own.size(), own.begin());
   }
 
   // The buffers have the full size: a library that fills six components of a law with three damages nothing.
@@ -79,9 +80,10 @@ namespace diptych::continuum
     const unsigned int n            = n_components();
     double             stress[most] = {}, variables[DIPTYCH_MOST_VARIABLES] = {}, tangent[most * most] = {};
     std::copy_n(&s0.stress[0], n, stress);
-    std::copy(s0.variables.begin(), s0.variables.end(), variables);
-    const diptych_step    step{parameters.data(),   &s0.stress[0], s0.stress_zz, s0.equivalent_plastic_strain,
-                            s0.variables.data(), &d_strain[0],  d_time};
+    const LibraryState &before = part_of<LibraryState>(s0);
+    std::copy(before.begin(), before.end(), variables);
+    const diptych_step    step{parameters.data(), &s0.stress[0], s0.stress_zz, s0.equivalent_plastic_strain,
+                            before.data(),     &d_strain[0],  d_time};
     diptych_answer        end{stress, s0.stress_zz, s0.equivalent_plastic_strain, variables, tangent, {}, 0, DIPTYCH_ELASTIC};
     const diptych_verdict verdict = opened->update(&step, &end);
 
@@ -93,7 +95,7 @@ namespace diptych::continuum
       }
     state.stress_zz                 = end.stress_zz;
     state.equivalent_plastic_strain = end.hardening;
-    std::copy_n(variables, state.variables.size(), state.variables.begin());
+    std::copy_n(variables, before.size(), own_part<LibraryState>(state).begin());
     state.plastic_strain.xx += end.plastic_strain[0];
     state.plastic_strain.yy += end.plastic_strain[1];
     state.plastic_strain.zz += end.plastic_strain[2];
@@ -115,8 +117,9 @@ namespace diptych::continuum
 
   void LibraryLaw::turn_variables(MaterialState &state, const double angle) const
   {
+    LibraryState &own = own_part<LibraryState>(state);
     for (const unsigned int k : opened->tensors)
-      turn_tensor(state.variables[k], state.variables[k + 1], state.variables[k + 2], std::cos(angle), std::sin(angle));
+      turn_tensor(own[k], own[k + 1], own[k + 2], std::cos(angle), std::sin(angle));
   }
 
   LibraryLaw::Failure LibraryLaw::failure(const MaterialState &s0,
@@ -139,8 +142,9 @@ namespace diptych::continuum
     for (unsigned int i = 0; i < n_components(); ++i)
       text << ' ' << s0.stress[i];
     text << ", zz " << s0.stress_zz << "; hardening " << s0.equivalent_plastic_strain;
-    for (std::size_t k = 0; k < s0.variables.size(); ++k)
-      text << ", " << opened->law->variables[k].name << ' ' << s0.variables[k];
+    const LibraryState &own = part_of<LibraryState>(s0);
+    for (std::size_t k = 0; k < own.size(); ++k)
+      text << ", " << opened->law->variables[k].name << ' ' << own[k];
     return {text.str(), is_not_finite};
   }
 } // namespace diptych::continuum

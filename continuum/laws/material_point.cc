@@ -244,7 +244,7 @@ namespace diptych::continuum
         row.overstress_share          = state.overstress / law.shear_strength(state);
         row.dissipation               = state.dissipation;
         row.verdict                   = now.verdict;
-        row.variables                 = state.variables;
+        row.variables                 = part_of<LibraryState>(state);
         return row;
       }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "continuum/laws/kinds.h"
+#include "continuum/require.h"
 
 namespace diptych::continuum
 {
@@ -56,10 +57,15 @@ namespace diptych::continuum
     double strain = 0, friction = 0, dilatancy = 0, cohesion = 0; // [-, radians, pressure]
   };
 
-  // Throws WrongKeys unless 0 <= dilatancy <= friction [degrees] and friction or cohesion is positive. `place`: "at the peak".
-  void check_strength(const std::string              &place,
-                      const std::vector<std::string> &keys,
-                      double                          friction,
-                      double                          dilatancy,
-                      double                          cohesion);
+  // Throws WrongKeys unless dilatancy <= friction [degrees] and friction or cohesion is positive. `place`: "at the peak".
+  inline void check_strength(const std::string              &place,
+                             const std::vector<std::string> &keys,
+                             const double                    friction,
+                             const double                    dilatancy,
+                             const double                    cohesion)
+  {
+    require_keys(dilatancy <= friction, keys, "dilatancy angle ", dilatancy, ' ', place, " must not exceed the friction angle ",
+                 friction, " (plastic work would be negative)");
+    require_keys(friction > 0 || cohesion > 0, keys, "friction and cohesion are both zero ", place, ": one must be positive");
+  }
 } // namespace diptych::continuum

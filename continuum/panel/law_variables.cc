@@ -7,14 +7,14 @@ namespace diptych::continuum
   std::vector<double> variables_of(const BoundaryValueProblem &problem, const std::size_t c)
   {
     const unsigned int  n = problem.discretisation().reference.n_points;
-    std::vector<double> means(problem.committed().points[c * n].variables.size(), 0.);
+    std::vector<double> means(part_of<LibraryState>(problem.committed().points[c * n]).size(), 0.);
     double              area = 0;
     for (unsigned int q = 0; q < n; ++q)
       {
         const double w = problem.geometry().cells[c].points[q].area;
         area += w;
         for (std::size_t k = 0; k < means.size(); ++k)
-          means[k] += w * problem.committed().points[c * n + q].variables[k];
+          means[k] += w * part_of<LibraryState>(problem.committed().points[c * n + q])[k];
       }
     for (double &mean : means)
       mean /= area;

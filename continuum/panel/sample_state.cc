@@ -98,7 +98,7 @@ namespace diptych::continuum
           if (is_cosserat)
             state.couple_stress += w * Eigen::Vector2d(point.stress[curvature_x], point.stress[curvature_y]);
           state.equivalent_plastic_strain += w * point.equivalent_plastic_strain;
-          state.nonlocal_plastic_strain += w * point.nonlocal_plastic_strain;
+          state.nonlocal_plastic_strain += w * part_of<NonlocalState>(point).plastic_strain;
           state.dissipation += w * point.dissipation;
           state.overstress += w * point.overstress;
           state.share_zz_not_intermediate += w * zz_is_not_intermediate(point);

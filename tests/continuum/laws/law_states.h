@@ -26,7 +26,8 @@ namespace diptych::continuum::tests
     state.stress[xx]                = sxx;
     state.stress[yy]                = syy;
     state.stress_zz                 = szz;
-    state.equivalent_plastic_strain = state.nonlocal_plastic_strain = kappa;
+    state.equivalent_plastic_strain = kappa;
+    state.own                       = NonlocalState{kappa}; // only gradient laws read it
     return state;
   }
 
