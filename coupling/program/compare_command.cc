@@ -136,7 +136,7 @@ namespace diptych::coupling
           {
             Progress progress(line.quiet);
             progress.update("drawing the report", 0);
-            draw(Drawing::page, directory, next);
+            draw("page", directory, next);
             progress.finish();
             record_phases(next, origin_of(line, scene), {timer.stop()});
           }

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include <vector>
 
 #include "coupling/processes/child_process.h"
 #include "coupling/processes/progress.h"
@@ -22,28 +23,7 @@ namespace diptych::coupling
   {
     namespace fs = std::filesystem;
 
-    const char *word_of(const Drawing drawing)
-    {
-      switch (drawing)
-        {
-        case Drawing::page:
-          return "page";
-        case Drawing::ensemble:
-          return "ensemble";
-        case Drawing::study:
-          return "study";
-        case Drawing::calibration:
-          return "calibration";
-        case Drawing::homogenised:
-          return "homogenised";
-        case Drawing::element:
-          return "element";
-        default:
-          return "movie";
-        }
-    }
-
-    // Removes unfinished files of a drawing that failed.
+    // A process that is killed leaves the file that it was writing.
     void remove_parts(const std::string &directory)
     {
       for (const char *name : {"report.html.part", "movie.gif.part"})
@@ -56,14 +36,17 @@ namespace diptych::coupling
     return fs::absolute(report_html(directory)).lexically_normal().string();
   }
 
-  void draw(const Drawing drawing, const std::string &directory, const std::string &next)
+  void draw(const std::string &what, const std::string &directory, const std::string &next)
   {
-    const std::string &into = next.empty() ? directory : next;
-    int                code = 0;
+    const std::string       &into  = next.empty() ? directory : next;
+    std::vector<std::string> words = {python, "-m", "diptych.report", what, directory};
+    if (!next.empty())
+      words.push_back(next);
+    int code = 0;
     use_python_package("report");
     try
       {
-        code = run_program({python, "-m", "diptych.report", word_of(drawing), directory, into});
+        code = run_program(words);
       }
     catch (const StoppedOnRequest &)
       {
@@ -76,38 +59,38 @@ namespace diptych::coupling
     if (code == wrong_input)
       throw std::invalid_argument(directory + ": the report could not be drawn");
     if (code != 0)
-      throw std::runtime_error("the report could not be drawn: " + std::string(python) + " -m diptych.report " +
-                               word_of(drawing) + " " + directory + " ended with exit code " + std::to_string(code));
+      throw std::runtime_error("the report could not be drawn: " + std::string(python) + " -m diptych.report " + what + " " +
+                               directory + " ended with exit code " + std::to_string(code));
   }
 
   int report_again(const CommandLine &line)
   {
     if (std::error_code none; !fs::is_directory(line.target, none))
       throw SceneError(line.target + " is not a result folder; diptych run SCENE makes one");
-    const Drawing drawing = is_study_folder(line.target)         ? Drawing::study
-                            : is_calibration_folder(line.target) ? Drawing::calibration
-                            : is_ensemble_folder(line.target)    ? Drawing::ensemble
-                            : is_homogenised_folder(line.target) ? Drawing::homogenised
-                            : is_element_folder(line.target)     ? Drawing::element
-                                                                 : Drawing::page;
-    if (drawing == Drawing::page && !fs::exists(comparison_json(line.target)))
+    const std::string what = is_study_folder(line.target)         ? "study"
+                             : is_calibration_folder(line.target) ? "calibration"
+                             : is_ensemble_folder(line.target)    ? "ensemble"
+                             : is_homogenised_folder(line.target) ? "homogenised"
+                             : is_element_folder(line.target)     ? "element"
+                                                                  : "page";
+    if (what == "page" && !fs::exists(comparison_json(line.target)))
       throw SceneError(line.target + " is not a result folder (no comparison.json), nor the folder of an ensemble, a study, a "
                                      "calibration, an element or homogenised grains");
-    if (drawing == Drawing::page)
+    if (what == "page")
       {
         check_files(line.target);
         check_files(line.target, "comparison");
       }
-    if (line.draws_movie && drawing != Drawing::page)
+    if (line.draws_movie && what != "page")
       throw SceneError("report " + line.target + " --movie: only a result folder with both panels has a movie");
-    if (drawing == Drawing::ensemble)
+    if (what == "ensemble")
       check_files(line.target, "ensemble");
     return writing(line.target, [&](FolderLock &) {
       Progress progress(line.quiet);
       progress.update("drawing the report", 0);
-      draw(drawing, line.target);
+      draw(what, line.target);
       if (line.draws_movie)
-        draw(Drawing::movie, line.target);
+        draw("movie", line.target);
       progress.finish();
       say(line, "report: " + report_file(line.target));
       return int(done);

@@ -247,7 +247,8 @@ class Formulas(unittest.TestCase):
         self.assertEqual({unit: Units(2.0, 10.0).size(unit) for unit in expected}, expected)
 
     def test_a_standard_error_stands_where_there_is_no_interval(self):
-        increment = Increment("stage-0", "stage", 0.0, 0.01, {"discrete": report_folder.panel([])}, LOADING_VARIABLES["axial_strain"])
+        increment = Increment(key="stage-0", kind="stage", start=0.0, end=0.01, record={"discrete": report_folder.panel([])},
+                              loading_variable=LOADING_VARIABLES["axial_strain"])
         increment.record["discrete"]["probes"][0]["fabric_to_stress_deg"] = report_folder.within(2.0, -3.0, 7.0)
         table = tables.probes(types.SimpleNamespace(numbers=Descriptions(report_folder.numbers())), increment)
         row = dict(zip(table["head"], table["rows"][0]))
@@ -258,7 +259,8 @@ class Formulas(unittest.TestCase):
         self.assertAlmostEqual(_turn({"angle_deg": -89.0}, 89.0), 2.0)  # not 178
 
     def test_an_ensembles_places_keep_their_ends_apart(self):
-        results = Ensemble("", {}, {}, None, LOADING_VARIABLES["axial_strain"], None, {}, None, "", {})
+        others = ("folder", "record", "quantities", "numbers", "progress", "curves", "averaging", "profiles", "scene_text", "provenance")
+        results = Ensemble(**dict.fromkeys(others), loading_variable=LOADING_VARIABLES["axial_strain"])
         self.assertEqual(results.place("window 1e-05-0.02"), ("window", "0.001–2\u00a0%"))
 
     def test_a_calibration_writes_numbers_without_exponents(self):

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -50,6 +50,13 @@ class Interval(NamedTuple):
     value: float
     low: float
     high: float
+
+
+def ends_text(low: float | None, high: float | None, form: Callable[[float], str] = "{:.4g}".format, between: str = ", ") -> str:
+    """The interval behind a value, such as " [1.2, 3.4]"; empty if an end is unknown (None or NaN)."""
+    if low is None or high is None or not (np.isfinite(low) and np.isfinite(high)):
+        return ""
+    return f" [{form(low)}{between}{form(high)}]"
 
 
 class Record(dict[str, Any]):

@@ -20,6 +20,10 @@ class SceneError(ValueError):
         self.key = key
 
 
+class InputError(ValueError):
+    """A file of a result folder is missing, broken or has another format."""
+
+
 class NotConverged(RuntimeError):
     """A panel or a law did not converge. The panel keeps the results so far. `reached`: those of a law; None for a panel."""
 

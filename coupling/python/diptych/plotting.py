@@ -13,9 +13,10 @@ if TYPE_CHECKING:
 
     from .arrays import Array, Band, History, Mesh
 
-# Okabe and Ito's palette, as in the report.
-PANELS = {"grains": {"color": "#0072B2"}, "continuum": {"color": "#D55E00", "linestyle": (0, (5, 1.5))}}
-_INK, _NO_VALUE = "#222222", "#c4c4c4"
+# Okabe and Ito's palette suits colour-blind readers. Line styles differ as well, for prints in grey.
+GRAINS, CONTINUUM, DASHES = "#0072B2", "#D55E00", (0, (5, 1.5))
+INK, NO_VALUE = "#222222", "#c4c4c4"
+PANELS = {"grains": {"color": GRAINS}, "continuum": {"color": CONTINUUM, "linestyle": DASHES}}
 _PER_CENT = ("axial_strain", "shear_strain", "volumetric_strain")
 _EDGE = 1.0986  # half widths from the middle of a band to the edge of its 10-90 % width: artanh(0.8)
 
@@ -40,7 +41,7 @@ def draw_cells(mesh: Mesh, values: Array, label: str, ax: Axes | None, look: dic
     from matplotlib.collections import PolyCollection
 
     cells = PolyCollection(mesh.polygons, array=np.ma.masked_invalid(values), edgecolor="face",
-                           **{"cmap": colormaps["viridis"].with_extremes(bad=_NO_VALUE), "linewidth": 0.3, **look})
+                           **{"cmap": colormaps["viridis"].with_extremes(bad=NO_VALUE), "linewidth": 0.3, **look})
     ax.add_collection(cells)
     ax.autoscale_view()
     ax.figure.colorbar(cells, ax=ax, label=label)
@@ -72,7 +73,7 @@ def draw_bands(bands: list[Band], ax: Axes | None, size: tuple[float, float]) ->
     alone, ax = ax is None, _axes(ax)
     for band in bands:
         for at, dashes in ((0.0, "-"), (-_EDGE, "--"), (_EDGE, "--")):
-            ax.axline(*band.line(1.0, at), color=_INK, linestyle=dashes, linewidth=1.2,
+            ax.axline(*band.line(1.0, at), color=INK, linestyle=dashes, linewidth=1.2,
                       path_effects=[withStroke(linewidth=2.8, foreground="white")])
     if alone and bands:
         (x, y), (width, height) = bands[0].centre, size

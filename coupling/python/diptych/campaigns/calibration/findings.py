@@ -13,7 +13,7 @@ import pandas as pd
 import scipy.stats
 
 from ... import _diptych
-from ...arrays import Array, Interval
+from ...arrays import Array, Interval, ends_text
 from ..runs.coordinates import Coordinates
 from .noise import Noise, covariance, covariance_of_mean
 from .posterior import Draws
@@ -73,8 +73,8 @@ def discrepancy_words(record: dict[str, Any]) -> list[str]:
     parts = []
     for key, name, unit in (("stress_ratio", "t/s", 1), ("volumetric_strain", "volume, %", 100),
                             ("correlation_strain", "correlation over strain, %", 100)):
-        value, low, high = (unit * number for number in record[key]["found"])
-        parts.append(f"{name} {value:.2g} [{low:.2g}, {high:.2g}] (before {unit * record[key]['before']:.2g})")
+        value, *ends = (unit * number for number in record[key]["found"])
+        parts.append(f"{name} {value:.2g}{ends_text(*ends, '{:.2g}'.format)} (before {unit * record[key]['before']:.2g})")
     rests = "one path alone" if record["paths"] == 1 else f"{record['paths']} paths"
     return [f"discrepancy of the law, deviation: {', '.join(parts)}; it rests on {rests}"]
 
@@ -238,8 +238,8 @@ def summary(record: dict[str, Any], cpu_s: float) -> str:
     lines = [f"{record['title']}: chi^2 of {record['n_observables']} observables {record['chi2_before']:.4g} -> "
              f"{record['chi2']:.4g}; {runs}{record['other_runs']} of predictions, {cpu_s:.4g} CPU s"]
     for p in record["parameters"]:
-        share = f"{p['coordinate']} {p['of']} {p['number']:.3g} " if p["of"] else ""
-        lines.append(f"  {p['key']} = {p['value']:.4g} {share}[{p['number_low']:.4g}, {p['number_high']:.4g}]"
+        share = f" {p['coordinate']} {p['of']} {p['number']:.3g}" if p["of"] else ""
+        lines.append(f"  {p['key']} = {p['value']:.4g}{share}{ends_text(p['number_low'], p['number_high'])}"
                      f"{'' if p['is_identified'] else ', not identified'}")
     for path in record["paths"]:
         for one in path["predictions"]:

@@ -8,10 +8,8 @@ import json
 import math
 import os
 import shutil
-import sys
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,7 +19,8 @@ import numpy as np
 from ... import _diptych
 from ...arrays import Interval
 from ...errors import NotConverged, SceneError, Stopped
-from .engine import (KEPT_OPEN, WRONG_INPUT, Options, Outcome, Run, complain, execute, last_words, n_seats, run_program, say)
+from ...files import part_of, read_json
+from .engine import (KEPT_OPEN, WRONG_INPUT, Options, Outcome, Run, complain, execute, last_words, n_seats, say)
 
 LAST_CODE_OF_A_RESULT = 3  # higher codes: the system failed, or a signal came
 
@@ -68,22 +67,9 @@ class Folder:
         os.makedirs(os.path.join(self.directory, "runs"), exist_ok=True)
 
 
-@contextmanager
-def _part_of(path: str) -> Iterator[str]:
-    """PATH.part to write to; it is renamed at the end."""
-    part = path + ".part"
-    try:
-        yield part
-        os.replace(part, path)
-    except BaseException:
-        if os.path.exists(part):
-            os.remove(part)
-        raise
-
-
 def write_text(path: str, text: str) -> None:
     """Writes PATH.part and renames it."""
-    with _part_of(path) as part, open(part, "w", encoding="utf-8") as file:
+    with part_of(path) as part, open(part, "w", encoding="utf-8") as file:
         file.write(text)
 
 
@@ -105,21 +91,10 @@ def write_json(path: str, record: Mapping[str, Any], indent: int | None = 1) -> 
     write_text(path, json.dumps(plain(record), indent=indent, sort_keys=True, ensure_ascii=False) + "\n")
 
 
-def read_json(path: str) -> Any:
-    """The record of a file. Raises ValueError, with the path, if it is missing or no JSON."""
-    try:
-        with open(path, encoding="utf-8") as file:
-            return json.load(file)
-    except FileNotFoundError:
-        raise ValueError(f"{path}: is missing") from None
-    except ValueError as error:
-        raise ValueError(f"{path}: no JSON: {error}") from error
-
-
 def write_arrays(path: str, arrays: Mapping[str, tuple[Any, str, str, str]],
                  attributes: Mapping[str, Mapping[str, float]]) -> None:
     """Writes HDF5 with checksums. arrays: name -> (values, title, unit, meaning); attributes: group -> name -> value."""
-    with _part_of(path) as part, h5py.File(part, "w", libver=("v110", "v110")) as file:
+    with part_of(path) as part, h5py.File(part, "w", libver=("v110", "v110")) as file:
         for name, (values, *words) in arrays.items():
             data = file.create_dataset(name, data=values, fletcher32=np.size(values) > 0 or None)
             data.attrs.update(zip(("title", "unit", "meaning"), map(np.bytes_, words)))
@@ -128,19 +103,14 @@ def write_arrays(path: str, arrays: Mapping[str, tuple[Any, str, str, str]],
 
 
 def draw(options: Options, page: str, directory: str) -> None:
-    """Draws report.html of a folder; page: "study", "ensemble", "calibration". Raises Stopped, ValueError or RuntimeError."""
-    report, code, words = os.path.join(directory, "report.html"), -1, [sys.executable, "-m", "diptych.report", page, directory]
+    """Draws report.html of a folder; page: "study", "ensemble", "calibration". Raises ValueError, OSError or ImportError."""
+    from ... import report  # matplotlib loads only now
+
     try:
-        code = run_program(words)
-    except Stopped:
-        raise Stopped(f"drawing the report: stopped on request; to draw it: diptych report {directory}") from None
-    finally:
-        if code != 0 and os.path.exists(report + ".part"):
-            os.remove(report + ".part")
-    if code != 0:
-        kind = ValueError if code == WRONG_INPUT else RuntimeError
-        raise kind(f"{directory}: the report could not be drawn: {' '.join(words)} ended with exit code {code}")
-    say(options, f"report: {os.path.abspath(report)}")
+        report.draw(page, directory)
+    except (ValueError, OSError, ImportError) as error:
+        raise type(error)(f"{directory}: the report could not be drawn: {error}") from error
+    say(options, f"report: {os.path.abspath(directory)}/report.html")
 
 
 @dataclass(kw_only=True)

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
-from ...arrays import Array, Interval
+from ...arrays import Array, Interval, ends_text
 from ..runs.coordinates import Parameter
 from .effects import PANELS, text_of_quantity
 from .evaluation import Results, is_finished
@@ -160,7 +160,7 @@ def text_of_indices(study: Study, record: dict[str, Any]) -> list[str]:
     lines = ["total indices from 0.01: the share of the variance that a parameter causes alone and together with others"]
     for quantity, one in zip(study.quantities, record["indices"]):
         ranked = sorted(((p["total"], p["parameter"].partition("/")[2]) for p in one["parameters"]), reverse=True)
-        found = ", ".join(f"{name} {value:.2f} [{low:.2f}, {high:.2f}]" for (value, low, high), name in ranked if value >= 0.01)
+        found = ", ".join(f"{name} {value:.2f}{ends_text(low, high, '{:.2f}'.format)}" for (value, low, high), name in ranked if value >= 0.01)
         lines.append(f"{text_of_quantity(quantity)} ({one['used']} of {record['points']} points, Q2 {one['q2']:.3f}): "
                      + (found or f"none, since fewer than {FEWEST_SAMPLES} points have a value or all values are equal"))
     return lines

@@ -5,6 +5,7 @@
 import numpy as np
 
 from .style import INK, PANEL_COLOURS, Pair, frame, signed, svg
+from ...arrays import ends_text
 from ..data.numbers import interval, plain
 from ..data.panels import PANEL_NAMES
 
@@ -65,6 +66,5 @@ def _panel(increment, panel, columns, spans):
 def _difference(number):
     if plain(number) is None:
         return ""
-    ends = interval(number)
-    text = f"difference {100 * plain(number):.1f} %" + (f" [{100 * ends[0]:.1f}, {100 * ends[1]:.1f}]" if ends else "")
-    return signed(text)
+    ends = ends_text(*(interval(number) or (None, None)), lambda end: f"{100 * end:.1f}")
+    return signed(f"difference {100 * plain(number):.1f} %{ends}")

@@ -8,9 +8,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator
 from matplotlib.transforms import ScaledTranslation
 
-from .style import CONTINUUM, FAINT, GRAINS, INK, THIRD, place_labels, ruled, svg
+from .style import CONTINUUM, DASHES, FAINT, GRAINS, INK, THIRD, place_labels, ruled, svg
 
-PANELS = {"discrete": ("grains", GRAINS, "o", "-"), "continuum": ("continuum", CONTINUUM, "s", (0, (5, 1.5)))}
+PANELS = {"discrete": ("grains", GRAINS, "o", "-"), "continuum": ("continuum", CONTINUUM, "s", DASHES)}
 LINE_COLOURS = (GRAINS, CONTINUUM, THIRD, "#CC79A7", "#E69F00", "#56B4E9")  # of the values of a second parameter
 WIDE = 20   # a numeric axis that spans more than this factor is logarithmic
 MOST_TICKS = 8

@@ -5,6 +5,7 @@
 import numpy as np
 
 from .style import FAINT, INK, PANEL_COLOURS, Pair, frame, signed, svg
+from ...arrays import ends_text
 from ..data.numbers import interval, plain
 from ..data.panels import PANEL_NAMES
 
@@ -84,5 +85,4 @@ def _label(name, number, word):
     value = plain(number)
     if value is None:
         return "rotation − spin" if name == "relative_rotation" else "mean of a strip"
-    ends = interval(number)
-    return signed(f"{word} {value:.2g}" + (f" [{ends[0]:.2g}, {ends[1]:.2g}]" if ends else ""))
+    return signed(f"{word} {value:.2g}" + ends_text(*(interval(number) or (None, None)), "{:.2g}".format))

@@ -5,6 +5,7 @@
 import numpy as np
 
 from .style import INK, PANEL_COLOURS, Pair, frame, signed, svg
+from ...arrays import ends_text
 from ..data.numbers import interval, plain
 from ..data.panels import DIFFUSE, PANEL_NAMES
 
@@ -64,8 +65,8 @@ def _turn(band, angle):
 def _draw_fit(axes, band, box, background):
     """u = a + b x + (jump/2) tanh((x - offset)/delta); background: a and b of the strips, or None; 10-90 % width shaded."""
     jump, offset, delta, width = (plain(band[name]) for name in ("jump", "offset_d", "half_width_d", "width_10_90_d"))
-    ends = interval(band["width_10_90_d"])
-    label = f"10–90 % width {width:.1f} d" + (signed(f" [{ends[0]:.1f}, {ends[1]:.1f}]") if ends else "")
+    ends = interval(band["width_10_90_d"]) or (None, None)
+    label = f"10–90 % width {width:.1f} d" + signed(ends_text(*ends, "{:.1f}".format))
     if None not in background:
         x = np.linspace(box[0], box[1], 150)
         axes.plot(x, background[0] + background[1] * x + jump / 2 * np.tanh((x - offset) / delta), color=INK, label="fit")

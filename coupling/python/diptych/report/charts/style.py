@@ -12,24 +12,20 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 from matplotlib.transforms import Bbox, blended_transform_factory
 
+from ...plotting import CONTINUUM, DASHES, GRAINS, INK, NO_VALUE
 from ..data.numbers import interval, plain
 
-# Okabe and Ito's palette suits colour-blind readers. Line styles differ as well, for prints in grey.
-GRAINS = "#0072B2"
-CONTINUUM = "#D55E00"
 THIRD = "#007A5E"   # for a third line
-INK = "#222222"
 FAINT = "#9a9a9a"
 GRID = "#e4e4e4"
-NO_VALUE = "#c4c4c4"
 PANEL_COLOURS = {"discrete": GRAINS, "continuum": CONTINUUM}
-PANEL_LINES = {"discrete": "-", "continuum": (0, (5, 1.5))}
+PANEL_LINES = {"discrete": "-", "continuum": DASHES}
 PANEL_MARKS = {"discrete": "o", "continuum": "s"}
 POINTS = 1500       # per curve
 ROUND_OFF = 1e-3    # %, smallest range of the axis for a sample with constant volume
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Picture:
     """One embedded image; width and height in CSS pixels."""
 
@@ -165,4 +161,4 @@ def svg(figure, alt):
     figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
     width, height = figure.get_size_inches()
     uri = "data:image/svg+xml;base64," + base64.b64encode(stream.getvalue()).decode("ascii")
-    return Picture(uri, alt, round(96 * width), round(96 * height))
+    return Picture(uri=uri, alt=alt, width=round(96 * width), height=round(96 * height))

@@ -4,8 +4,8 @@ import os
 
 import numpy as np
 
-from .. import InputError
-from .files import read_json
+from ...errors import InputError
+from ...files import read_json
 
 FORMAT = 1
 

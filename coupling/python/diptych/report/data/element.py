@@ -4,7 +4,8 @@
 import os
 from dataclasses import dataclass
 
-from .files import read_csv, read_json, require
+from ...files import read_json
+from .files import read_csv, require
 from .loading_variable import LoadingVariable, loading_variable_of
 
 

@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 import os
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
-from .files import open_arrays, read_json, read_provenance, read_text
+from ...files import read_json
+from .files import open_arrays, read_provenance, read_text
 from .numbers import Descriptions
 from .panels import PANEL_NAMES
 from .scene import scene_value
@@ -17,7 +18,7 @@ MOST_CURVES = 200  # members with a drawn curve
 NUMBER = re.compile(r"-?[0-9.]+(?:e[+-]?[0-9]+)?")
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Ensemble:
     """quantities: by name. numbers: those of a member's comparison. averaging: width of the running means; None: not stored.
 
@@ -35,7 +36,7 @@ class Ensemble:
     averaging: float
     scene_text: str
     provenance: dict
-    profiles: dict = field(default_factory=dict)
+    profiles: dict
 
     @property
     def parameters_from(self):
@@ -58,10 +59,11 @@ def load(folder):
     member, provenance = _member(folder, record["done"]), os.path.join(folder, "provenance.json")
     progress, curves, profiles, averaging = _curves(os.path.join(folder, "ensemble.h5"),
                                                     member.get("pressure", 1) * member.get("mean_diameter", 1))
-    return Ensemble(folder, record, {q["name"]: q for q in record["quantities"]}, Descriptions(member.get("numbers")),
-                    loading_variable_of(record.get("walk", member.get("walk"))), progress, curves, averaging,
-                    read_text(os.path.join(folder, "ensemble.prm")),
-                    read_provenance(provenance) if os.path.isfile(provenance) else {}, profiles)
+    return Ensemble(folder=folder, record=record, quantities={q["name"]: q for q in record["quantities"]},
+                    numbers=Descriptions(member.get("numbers")),
+                    loading_variable=loading_variable_of(record.get("walk", member.get("walk"))), progress=progress, curves=curves,
+                    averaging=averaging, profiles=profiles, scene_text=read_text(os.path.join(folder, "ensemble.prm")),
+                    provenance=read_provenance(provenance) if os.path.isfile(provenance) else {})
 
 
 def _member(folder, seeds):

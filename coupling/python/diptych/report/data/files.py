@@ -3,13 +3,13 @@
 
 import contextlib
 import csv
-import json
 import os
 
 import h5py
 import numpy as np
 
-from .. import InputError
+from ...errors import InputError
+from ...files import read_json
 
 
 def require(paths):
@@ -19,23 +19,8 @@ def require(paths):
         raise InputError(f"missing: {', '.join(missing)}")
 
 
-def read_json(path, format=None):
-    """The object of a JSON file. Raises InputError if it cannot be read, is no object or does not have the format."""
-    try:
-        with open(path, encoding="utf-8") as stream:
-            value = json.load(stream)
-    except (OSError, ValueError) as error:
-        raise InputError(f"{path}: {error}") from error
-    if not isinstance(value, dict):
-        raise InputError(f"{path}: an object is expected")
-    if format and value.get("format") != format:
-        raise InputError(f"{path}: format {value.get('format')!r}, but this report reads format {format}; "
-                         "compute it again with this version")
-    return value
-
-
 def read_provenance(path):
-    """The record in provenance.json. Raises InputError if it cannot be read or is not the record of a run."""
+    """The record in provenance.json. Raises InputError if it is not the record of a run."""
     record = read_json(path)
     if record.get("program") != "diptych" or not isinstance(record.get("phases"), list):
         raise InputError(f"{path}: is not the record of a run of diptych: 'program' or 'phases' is missing or wrong")

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 import meshio
 import numpy as np
 
-from .files import read_json, read_provenance, require
+from ...files import read_json
+from .files import read_provenance, require
 from .loading_variable import LoadingVariable, loading_variable_of
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Homogenised:
     """record: homogenised.json. polygons (k, 4, 2) [d] and maps of the last frame; polygons have the origin of the files."""
 
@@ -57,5 +58,5 @@ def load(folder):
     require([fields])
     mesh = meshio.vtu.read(fields)
     polygons = mesh.points[mesh.cells_dict["quad"], :2] / record["mean_diameter"]
-    return Homogenised(record, read_provenance(os.path.join(folder, "provenance.json")), polygons,
-                       {name: values[0] for name, values in mesh.cell_data.items()})
+    return Homogenised(record=record, provenance=read_provenance(os.path.join(folder, "provenance.json")), polygons=polygons,
+                       maps={name: values[0] for name, values in mesh.cell_data.items()})

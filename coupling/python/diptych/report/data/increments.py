@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import h5py
 import numpy as np
 
-from .. import InputError
+from ...errors import InputError
 from .numbers import Description
 from .loading_variable import LoadingVariable, loading_variable_of
 
@@ -15,7 +15,7 @@ MESHES = ("cells", "grid")
 SAME = 1e-6  # tolerance of progress
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Increment:
     """Change between two instants of the loading, in both panels.
 
@@ -72,11 +72,13 @@ def read(comparison, file, units):
     loading_variable = loading_variable_of(comparison.get("walk"))
     increments, groups = [], {}
     for k, window in enumerate(comparison["windows"]):
-        increments.append(Increment(f"window-{k}", "window", window["from"], window["to"], window, loading_variable))
+        increments.append(Increment(key=f"window-{k}", kind="window", start=window["from"], end=window["to"], record=window,
+                                    loading_variable=loading_variable))
         groups[f"window-{k}"] = f"window_{k}"
     start = 0.0
     for k, stage in enumerate(comparison["stages"]):
-        increments.append(Increment(f"stage-{k}", "stage", start, stage["progress"], stage, loading_variable))
+        increments.append(Increment(key=f"stage-{k}", kind="stage", start=start, end=stage["progress"], record=stage,
+                                    loading_variable=loading_variable))
         groups[f"stage-{k}"] = f"stage_{k + 1:04d}"
         start = stage["progress"]
     described = {}

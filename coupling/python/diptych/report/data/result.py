@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .files import open_arrays, read_csv, read_json, read_provenance, read_text, require
+from ...files import read_json
+from .files import open_arrays, read_csv, read_provenance, read_text, require
 from .increments import read, read_arrays
 from .numbers import Descriptions, Units
 from .panels import PANEL_NAMES
@@ -15,7 +16,7 @@ REQUIRED = ("comparison.json", "comparison.h5", "discrete.csv", "continuum.csv",
 FORMAT = 2
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Result:
     """comparison: the record in d and P, without its list `numbers`. arrays: {path in a group: Description}.
 
@@ -80,5 +81,6 @@ def load(folder, next_folder):
         for panel, columns in histories.items():
             columns.update(read_arrays(file[f"histories/{panel}"], units, arrays))
     imported = os.path.join(folder, "import.json")
-    return Result(comparison, read_provenance(path_of("provenance.json")), histories, increments, units, numbers, arrays,
-                  read_text(path_of("scene.prm")), read_json(imported) if os.path.exists(imported) else {})
+    return Result(comparison=comparison, provenance=read_provenance(path_of("provenance.json")), histories=histories,
+                  increments=increments, units=units, numbers=numbers, arrays=arrays, scene_text=read_text(path_of("scene.prm")),
+                  imported=read_json(imported) if os.path.exists(imported) else {})

@@ -3,7 +3,8 @@
 import os
 from dataclasses import dataclass
 
-from .files import open_arrays, read_json
+from ...files import read_json
+from .files import open_arrays
 
 FORMAT = 1
 PANELS = ("discrete", "continuum", "material_point")
@@ -14,7 +15,7 @@ CLASSES = {"right": ("#b7e1cd", "#222222", "R"), "struggled": ("#e3f0b5", "#2222
            "unjudged": ("#e8eef7", "#222222", "·"), "not run": ("white", "#222222", "?")}
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Study:
     """cost: of the finished points, by index in record["points"]. curves: {panel: (progress, {name: rows of points})}."""
 
@@ -65,7 +66,8 @@ class Study:
 def load(folder):
     """The study of a folder. Raises InputError if a file is missing, broken or has another format."""
     record, bill = (read_json(os.path.join(folder, name), FORMAT) for name in ("study.json", "study_cost.json"))
-    return Study(folder, record, bill, {c["point"]: c for c in bill["points"]}, _curves(os.path.join(folder, "study.h5")))
+    return Study(folder=folder, record=record, bill=bill, cost={c["point"]: c for c in bill["points"]},
+                 curves=_curves(os.path.join(folder, "study.h5")))
 
 
 def _curves(path):

@@ -2,17 +2,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 from ..charts import calibration as figures
-from ..charts import style
 from ..data.calibration import load
 from .writing import template, write
 from ..tables import calibration as tables
 
 
 def draw(folder):
-    """Raises InputError if a file is missing, broken or has another format."""
-    calibration = load(folder)
-    style.set_up()
-    write(folder, page(calibration))
+    write(folder, page(load(folder)))
 
 
 def page(calibration):

@@ -2,15 +2,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 from ..charts import element as figures
-from ..charts import style
 from ..data.element import load
 from .writing import template, write
 from ..tables import element as tables
 
 
 def draw(folder):
-    """Raises InputError if a file is missing, broken or has another format."""
-    style.set_up()
     element = load(folder)
     write(folder, template("element.html").render(record=element.record, charts=figures.figures(element),
                                                   numbers=tables.numbers(element.record), rms=tables.rms(element.record)))

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 from ..charts import ensemble as figures
-from ..charts import profiles, style
+from ..charts import profiles
 from ..data.ensemble import load
 from .writing import template, write
 from ..tables import ensemble as tables
@@ -10,10 +10,7 @@ from ..tables import summary
 
 
 def draw(folder):
-    """Raises InputError if ensemble.json is missing, broken or has another format."""
-    results = load(folder)
-    style.set_up()
-    write(folder, page(results))
+    write(folder, page(load(folder)))
 
 
 def page(results):

@@ -4,15 +4,13 @@
 import os
 
 from ..charts import homogenised as figures
-from ..charts import resolution, style
+from ..charts import resolution
 from ..data.homogenised import load
 from .writing import template, write
 from ..tables import homogenised as tables
 
 
 def draw(folder):
-    """Raises InputError if a file is missing, broken or has another format."""
-    style.set_up()
     result = load(folder)
     write(folder, template("homogenised.html").render(
         record=result.record, name=os.path.basename(os.path.abspath(folder)), command=result.provenance["command"],

@@ -11,7 +11,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from PIL import Image
 
-from ..charts.style import set_up
+from ...files import part_of
 from ..data.panels import PANEL_NAMES
 from ..data.result import load
 from .limits import box, limits
@@ -23,19 +23,17 @@ SHEAR = QUANTITIES[0]
 
 
 def draw(folder):
-    """Writes movie.gif: one frame per stage, or 40 evenly spaced stages of more. Raises InputError as `load` does."""
+    """Writes movie.gif: one frame per stage, or 40 evenly spaced stages of more."""
     result = load(folder, folder)
     stages = result.stages
     limit = limits(SHEAR, SHEAR.home, stages, result)
     scale = Normalize(0, max(limit(stage)[1] for stage in stages))
     shown = np.unique(np.linspace(0, len(stages) - 1, MOST_FRAMES).round().astype(int))
-    set_up()
     frames = [_frame(result, stages[k], box(stages), scale) for k in shown]
-    path = os.path.join(folder, "movie.gif")
     seconds = [SECONDS] * (len(frames) - 1) + [LAST_SECONDS]
-    frames[0].save(path + ".part", format="GIF", save_all=True, append_images=frames[1:], loop=0,
-                   duration=[int(1000 * s) for s in seconds])
-    os.replace(path + ".part", path)
+    with part_of(os.path.join(folder, "movie.gif")) as part:
+        frames[0].save(part, format="GIF", save_all=True, append_images=frames[1:], loop=0,
+                       duration=[int(1000 * s) for s in seconds])
 
 
 def _frame(result, stage, limits_of_axes, scale):

@@ -14,7 +14,7 @@ BOTH = "{panel}_"                    # prefix of a dataset on cells that both pa
 DEGREES = 180 / np.pi
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Quantity:
     """name: dataset of the grains, and with `prefix` that of the cells. continuum: dataset of the continuum, if it differs.
 
@@ -97,25 +97,25 @@ TURN = {"group": "Motion", "colour_map": "RdBu_r", "signed": True, "per_progress
 STRESS = {"group": "Stress", "colour_map": "cividis", "of_state": True}
 GRAINS_ONLY = {"group": "Grains only", "of_state": True, "grains_only": True}
 QUANTITIES = (
-    Quantity("shear", name="shear_strain_increment", title="shear strain increment ε₁ − ε₂", home="discs", from_zero=True,
+    Quantity(key="shear", name="shear_strain_increment", title="shear strain increment ε₁ − ε₂", home="discs", from_zero=True,
              per_progress=True, per_cent=True, **MOTION),
-    Quantity("displacement", name="displacement_over_platen", home="discs", from_zero=True, **MOTION),
+    Quantity(key="displacement", name="displacement_over_platen", home="discs", from_zero=True, **MOTION),
     # The continuum is quasi-static: relative to the platen, its velocity equals its displacement increment.
-    Quantity("velocity", name="speed_over_platen", continuum="displacement_over_platen", home="discs", from_zero=True,
+    Quantity(key="velocity", name="speed_over_platen", continuum="displacement_over_platen", home="discs", from_zero=True,
              of_state=True, **MOTION),
-    Quantity("rotation", name="rotation_increment", **TURN),
-    Quantity("spin", name="spin_increment", **TURN),
-    Quantity("turn", name="relative_rotation", **TURN),
-    Quantity("s", name="mean_stress", **STRESS),
-    Quantity("t_over_s", name="stress_ratio", from_zero=True, **STRESS),
-    Quantity("xx", name="stress", component=(0, 0), title="stress σ_xx", **STRESS),
-    Quantity("yy", name="stress", component=(1, 1), title="stress σ_yy", **STRESS),
-    Quantity("xy", name="stress", component=(0, 1), title="stress σ_xy", signed=True, **{**STRESS, "colour_map": "RdBu_r"}),
-    Quantity("yx", name="stress", component=(1, 0), title="stress σ_yx", signed=True, **{**STRESS, "colour_map": "RdBu_r"}),
-    Quantity("couple", name="couple_stress_size", from_zero=True, **STRESS),
-    Quantity("dissipation", name="dissipation", from_zero=True, **{**STRESS, "colour_map": "viridis"}),
-    Quantity("solid_fraction", name="solid_fraction", prefix="", **GRAINS_ONLY),
-    Quantity("coordination", name="coordination_number", **GRAINS_ONLY),
-    Quantity("temperature", name="granular_temperature", from_zero=True, **GRAINS_ONLY),
-    Quantity("error", name="standard_error", from_zero=True, **GRAINS_ONLY),
+    Quantity(key="rotation", name="rotation_increment", **TURN),
+    Quantity(key="spin", name="spin_increment", **TURN),
+    Quantity(key="turn", name="relative_rotation", **TURN),
+    Quantity(key="s", name="mean_stress", **STRESS),
+    Quantity(key="t_over_s", name="stress_ratio", from_zero=True, **STRESS),
+    Quantity(key="xx", name="stress", component=(0, 0), title="stress σ_xx", **STRESS),
+    Quantity(key="yy", name="stress", component=(1, 1), title="stress σ_yy", **STRESS),
+    Quantity(key="xy", name="stress", component=(0, 1), title="stress σ_xy", signed=True, **{**STRESS, "colour_map": "RdBu_r"}),
+    Quantity(key="yx", name="stress", component=(1, 0), title="stress σ_yx", signed=True, **{**STRESS, "colour_map": "RdBu_r"}),
+    Quantity(key="couple", name="couple_stress_size", from_zero=True, **STRESS),
+    Quantity(key="dissipation", name="dissipation", from_zero=True, **{**STRESS, "colour_map": "viridis"}),
+    Quantity(key="solid_fraction", name="solid_fraction", prefix="", **GRAINS_ONLY),
+    Quantity(key="coordination", name="coordination_number", **GRAINS_ONLY),
+    Quantity(key="temperature", name="granular_temperature", from_zero=True, **GRAINS_ONLY),
+    Quantity(key="error", name="standard_error", from_zero=True, **GRAINS_ONLY),
 )

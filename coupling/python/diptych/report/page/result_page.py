@@ -63,11 +63,8 @@ def paragraph(sentence):
 
 
 def draw(folder, next_folder=None):
-    """Writes the page to next_folder, whose files take the place of older ones in folder; default: folder. Raises InputError if a
-    file is missing, broken or has another format."""
-    result = load(folder, next_folder or folder)
-    style.set_up()
-    write(next_folder or folder, page(result))
+    """Writes the page to next_folder, whose files take the place of older ones in folder; default: folder."""
+    write(next_folder or folder, page(load(folder, next_folder or folder)))
 
 
 def page(result):

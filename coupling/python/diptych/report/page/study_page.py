@@ -4,7 +4,6 @@
 import numpy as np
 
 from ..charts import study as figures
-from ..charts import style
 from ..data.study import CLASSES, load
 from . import effects_page, sensitivity_page
 from .writing import template, write
@@ -15,9 +14,7 @@ PANEL_WORDS = {"discrete": "grains", "continuum": "continuum", "material_point":
 
 
 def draw(folder):
-    """Raises InputError if a file is missing, broken or has another format."""
     study = load(folder)
-    style.set_up()
     names = [f"{PANEL_WORDS[panel]}, {words}" for panel in study.curves for words in CURVE_NAMES.values()]
     if "sensitivity" in study.record:
         write(folder, sensitivity_page.page(study))

@@ -5,6 +5,8 @@ import os
 
 import jinja2
 
+from ...files import part_of
+
 TEMPLATES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "templates")
 
 
@@ -15,8 +17,5 @@ def template(name):
 
 
 def write(folder, text):
-    """Writes report.html. The old page stays until the new one is complete."""
-    path = os.path.join(folder, "report.html")
-    with open(path + ".part", "w", encoding="utf-8") as stream:
+    with part_of(os.path.join(folder, "report.html")) as part, open(part, "w", encoding="utf-8") as stream:
         stream.write(text)
-    os.replace(path + ".part", path)

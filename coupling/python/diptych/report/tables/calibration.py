@@ -3,6 +3,7 @@
 
 import numpy as np
 
+from ...arrays import ends_text
 from ..data.calibration import label, numbers
 
 QUANTITIES = {"peak_stress_ratio": "peak t/s", "volumetric_strain": "volumetric strain, last bin", "width_10_90": "width 10–90, last window, d",
@@ -33,9 +34,7 @@ def predictions(calibration):
     for path in calibration.paths:
         for one in path["predictions"]:
             difference = one["difference"]
-            ends = "–" if difference["value"] is None else text(difference["value"], 2)
-            if difference["low"] is not None:
-                ends += f" [{text(difference['low'], 2)}, {text(difference['high'], 2)}]"
+            ends = text(difference["value"], 2) + ends_text(difference["low"], difference["high"], lambda end: text(end, 2))
             rows.append([f"{path['name']} ({'fitted' if path['use'] == 'fit' else 'predicted'})", QUANTITIES[one["quantity"]], text(one["data"]),
                          text(one["before"]), text(one["after"]), ends, text(one["margin"], 2), one["verdict"]])
     return {"head": ["path", "", calibration.data, "before", "calibrated", "difference [95 %]", "margin", "verdict"], "rows": rows}

@@ -3,6 +3,7 @@
 
 import os
 
+from ...arrays import ends_text
 from ..data.ensemble import MOST_CURVES
 from ..data.panels import PANEL_NAMES
 from .wording import DECIMALS, UNBROKEN, ending, fixed, number, rounded, shown_unit
@@ -46,10 +47,7 @@ def with_interval(record, unit):
     """"16.9 [14.7, 19.1] d", with the unit once so that columns stay narrow."""
     if record is None or record["mean"] is None:
         return "–"
-    text = fixed(record["mean"], unit)
-    if record["low"] is not None and record["high"] is not None:
-        text += f" [{fixed(record['low'], unit)}, {fixed(record['high'], unit)}]"
-    return text + ending(unit)
+    return fixed(record["mean"], unit) + ends_text(record["low"], record["high"], lambda end: fixed(end, unit)) + ending(unit)
 
 
 def verdict_rows(results):

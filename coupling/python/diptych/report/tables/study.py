@@ -3,28 +3,22 @@
 
 import os
 
+from ...arrays import ends_text
 from ..data.study import CLASSES
 from .wording import number
 
 
-def share(value, relative, signed=True):
-    """A relative error as "+3.4 %", another one with three digits; an en dash for None."""
-    if value is None:
-        return "–"
-    text = f"{100 * value:+.1f}" if relative else f"{value:+.3g}"
-    text = text if signed else text.lstrip("+")
-    return text.replace("-", "−") + ("\u00a0%" if relative else "")
+def share(value, relative):
+    """An error with sign and without unit: "+3.4" for a relative one of 0.034 (per cent), or three digits."""
+    return (f"{100 * value:+.1f}" if relative else f"{value:+.3g}").replace("-", "−")
 
 
 def with_ends(error, relative):
     """"+3.4 [+2.1, +4.7] %"."""
     if error["value"] is None:
         return "–"
-    unit = "\u00a0%" if relative else ""
-    text = share(error["value"], relative).removesuffix("\u00a0%")
-    if error["low"] is not None and error["high"] is not None:
-        text += " [" + ", ".join(share(error[end], relative).removesuffix("\u00a0%") for end in ("low", "high")) + "]"
-    return text + unit
+    ends = ends_text(error["low"], error["high"], lambda end: share(end, relative))
+    return share(error["value"], relative) + ends + ("\u00a0%" if relative else "")
 
 
 def seconds(value):
@@ -35,7 +29,7 @@ def accuracy_of(study, row):
     if not row["quantity"]:
         return f"{row['accuracy']:g} × every limit"
     relative = next(q["relative"] for q in study.quantities if q["name"] == row["quantity"])
-    return share(row["accuracy"], relative, signed=False)
+    return share(row["accuracy"], relative).lstrip("+") + ("\u00a0%" if relative else "")
 
 
 def cheapest(study):
@@ -81,15 +75,12 @@ def orders(study):
     for row in study.record["orders"]:
         others = ", ".join(f"{axis['name']} {label}" for axis, label in zip(study.family(row["family"])["axes"], row["labels"]) if label)
         rows.append([row["quantity"], f"{row['family']}: {row['axis']}".lstrip(": "), others or "–", row["points"],
-                     _interval(row["order"], 2), _interval(row["limit"], 4)])
+                     _interval(row["order"], "{:.2g}".format), _interval(row["limit"], "{:.4g}".format)])
     return {"head": ["quantity", "along", "at", "points", "order [95 %]", "limit [95 %]"], "rows": rows}
 
 
-def _interval(record, digits):
-    text = f"{record['value']:.{digits}g}"
-    if record["low"] is not None and record["high"] is not None:
-        text += f" [{record['low']:.{digits}g}, {record['high']:.{digits}g}]"
-    return text.replace("-", "−")
+def _interval(record, form):
+    return (form(record["value"]) + ends_text(record["low"], record["high"], form)).replace("-", "−")
 
 
 def counts(study):

@@ -8,6 +8,8 @@ Meanings and units come from the list of numbers of the comparison. This file ad
 import math
 import re
 
+from ...arrays import ends_text
+
 ABSENT = "not computed"
 MESH_SET = "set by the mesh (local law)"
 MESH_SET_REASON = "It is not a material property, unless it is the same on two meshes."
@@ -101,11 +103,8 @@ def fixed(value, unit, decimals=None):
 
 def _with_ends(number, unit, form):
     """form(number), followed by its interval without the unit and without line breaks."""
-    text = form(number["value"])
-    if number.get("low") is None or number.get("high") is None:
-        return text
-    ends = [form(number[end]).removesuffix(ending(unit)) for end in ("low", "high")]
-    return f"{text} [{ends[0]},{UNBROKEN}{ends[1]}]"
+    return form(number["value"]) + ends_text(number.get("low"), number.get("high"),
+                                             lambda end: form(end).removesuffix(ending(unit)), "," + UNBROKEN)
 
 
 def number(value, unit="", digits=4):

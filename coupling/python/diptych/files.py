@@ -1,0 +1,42 @@
+# diptych: files of result folders
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Reads JSON, and replaces a file by a complete one."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from .errors import InputError
+
+
+@contextmanager
+def part_of(path: str) -> Iterator[str]:
+    """PATH.part to write to; it is renamed at the end."""
+    part = path + ".part"
+    try:
+        yield part
+        os.replace(part, path)
+    except BaseException:
+        if os.path.isfile(part):
+            os.remove(part)
+        raise
+
+
+def read_json(path: str, format: int | None = None) -> Any:
+    """The object of a JSON file. Raises InputError, with the path, if it is missing, broken or has another format."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            record = json.load(file)
+    except FileNotFoundError:
+        raise InputError(f"{path}: is missing") from None
+    except ValueError as error:
+        raise InputError(f"{path}: no JSON: {error}") from error
+    if not isinstance(record, dict):
+        raise InputError(f"{path}: an object is expected")
+    if format and record.get("format") != format:
+        raise InputError(f"{path}: format {record.get('format')!r}, but this version reads format {format}; compute it again")
+    return record
