@@ -20,7 +20,7 @@ from diptych.campaigns.calibration.findings import predictions
 from diptych.campaigns.calibration.grains import mean_of
 from diptych.campaigns.calibration.noise import Data, Noise, Observable
 from diptych.campaigns.calibration.profiles import PROFILE, STRIPS
-from diptych.campaigns.calibration.observations import Observation, Path, observe_curve, observe_history
+from diptych.campaigns.calibration.observations import Observation, Path, observe_curve
 from diptych.campaigns.calibration.search import least_squares
 from diptych.campaigns.calibration.standard import standard_calibration
 from diptych.campaigns.calibration.trials import Trials

@@ -16,7 +16,6 @@ DRAWINGS = {
     "calibration": ("page.calibration_page", "calibration.json, calibration_cost.json"),
     "element": ("page.element_page", "element.json, element.csv"),
     "homogenised": ("page.homogenised_page", "homogenised.json, fields_*.vtu, provenance.json"),
-    "step-study": ("charts.step_study", "study_step.json, study_step.csv"),
 }
 
 
