@@ -45,7 +45,7 @@ namespace diptych::coupling
     int         stage = 0; // number of the stage
   };
 
-  // Those of a run with grains or continuum.
+  // Options of a run with grains or continuum.
   struct SceneOptions
   {
     std::vector<std::string> overrides;           // --set section/key=value, after the keys of --set-file

@@ -24,7 +24,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    // What is wrong is wrong with the folder's files.
+    // An error here comes from the files of the folder.
     Comparison compared(const Scene &scene, const Results &results, Progress &progress)
     {
       const auto on_progress = [&](const double share) {

@@ -27,7 +27,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    // What the runs take over from the grains. The snapshot is the first process's.
+    // Input of the runs from the grains. Only the first process has the snapshot.
     struct Grains
     {
       double                            solid_fraction = 0;
@@ -91,7 +91,7 @@ namespace diptych::coupling
       return done;
     }
 
-    // What the curve says, and what should not be overlooked in it.
+    // Prints the peak and the warnings of a run.
     void say_result(const CommandLine                        &line,
                     const Scene                              &scene,
                     const ContinuumPart                      &part,

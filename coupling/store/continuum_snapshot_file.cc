@@ -114,7 +114,7 @@ namespace diptych::coupling
       });
     }
 
-    // Those of a law from a library: cells/law.NAME.
+    // Variables of a law from a library: cells/law.NAME.
     void read_variables(const Hdf5Reader &file, const std::string &group, const ArrayCheck &check, Snapshot &s)
     {
       for (const std::string &name : file.members(group + "/cells"))

@@ -57,7 +57,7 @@ namespace diptych::coupling
       return directory + "/provenance.json";
     }
 
-    // What every command writes: a file without it is another program's, and facts that it lacks were not just not recorded.
+    // Every command writes these entries. A file without them belongs to another program.
     void demand_record_of_a_run(const std::string &path, const json &record)
     {
       const auto demand = [&](const char *key, const bool good) {

@@ -38,7 +38,7 @@ namespace diptych::coupling
       return results;
     }
 
-    // What did not finish may have ended in such a state.
+    // The last snapshot of an unfinished run may have an inverted element.
     void check_meshes(const std::string &file, const ContinuumResults &results)
     {
       const std::size_t n = results.snapshots.size() - (results.facts.finished || results.snapshots.empty() ? 0 : 1);

@@ -55,7 +55,7 @@ namespace diptych::discrete
     double rolling_friction = 0; // bound of |r_m| / r_n: mu_r times length of the law / R; the next two count only if it is not 0
     double rolling_arm      = 0; // a; -a if the row is turned (step_problem.cc), so that r_m keeps its sign
     // Springs give way by C r within the step: the law holds for u_n + C_n r_n, u_t + C_t r_t and w + c_m + C_t r_m. C_n = 0
-    // means a rigid contact without the other two. It stands here because the next members are read only if they count.
+    // means a rigid contact without the other two. Place: the solver reads the members below only if C_n > 0.
     double normal_compliance     = 0; // C_n [1/mass]
     double tangential_compliance = 0; // C_t
     double rolling_term          = 0; // c_m [length/time]

@@ -39,7 +39,7 @@ namespace diptych::discrete
     double          progress            = 0; // of the loading variable: axial_strain, shear_strain, time or that of a path
     double          coordination        = 0; // contacts per grain that carry force, without rattlers
     double          fabric_anisotropy = 0, fabric_angle = 0; // of the contacts that carry force
-    // Of a lattice; 0 without one. Strains (exx, eyy, exy) and the mean stress that drives the cell (sxx, syy, sxy).
+    // A lattice only; 0 without one. Strains (exx, eyy, exy) and the mean stress that drives the cell (sxx, syy, sxy).
     Eigen::Vector3d strain = Eigen::Vector3d::Zero(), drive_stress = Eigen::Vector3d::Zero();
     LoadingVariable loading_variable = LoadingVariable::axial_strain;
   };
@@ -96,8 +96,7 @@ namespace diptych::discrete
     visit("progress", r.progress, "strain or time", "loading variable: axial strain, shear strain, time or that of the path");
     visit("rolling_dissipation", r.rolling_dissipation, "pressure length^2",
           "dissipation by rolling resistance since the start of the loading");
-    visit("walk", r.loading_variable, "-",
-          "which column progress equals: axial_strain, shear_strain or time; path: that of its rows");
+    visit("walk", r.loading_variable, "-", "name of the loading variable: axial_strain, shear_strain, time or path");
     visit("coordination", r.coordination, "-", "contacts with force per grain; walls count, grains without force do not");
     visit("fabric_anisotropy", r.fabric_anisotropy, "-",
           "2 (F1 - F2), principal values of the mean of n n^T over the contacts between grains with force, n: normal");

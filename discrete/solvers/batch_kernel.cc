@@ -63,7 +63,7 @@ namespace diptych::discrete
       bj.surface -= 2 * bj.inverse_mass * dr.tangential;
     }
 
-    // Of the spins after the tangential impulse changed, with the give of the springs.
+    // Rolling velocity after the tangential impulse changed, with the give of the springs.
     DIPTYCH_INLINE Four rolling_velocity_of(const RollingBatch &m, const TermBatch *more, const Bodies &bi, const Bodies &bj)
     {
       const Four w = rolling_velocity(read(m.arm), bi.surface, bj.surface);

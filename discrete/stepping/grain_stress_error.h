@@ -80,7 +80,7 @@ namespace diptych::discrete
     double stress_error  = 0;     // estimate
     double stress_change = 0;     // in the last doubling of the sweeps
     bool   reached       = false; // below snapshot_accuracy
-    // Of the copy that was solved further: its residual, the difference from it, and the ratio of that difference to the
+    // The copy that was solved further: its residual, the difference from it, and the ratio of that difference to the
     // residual. NaN if no copy was requested. The ratio is also NaN if the copy's residual is above a tenth of the first one.
     double reference_residual = std::numeric_limits<double>::quiet_NaN(), true_error = reference_residual;
     double error_over_residual = reference_residual;

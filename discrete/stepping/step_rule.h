@@ -80,7 +80,7 @@ namespace diptych::discrete
   {
     double strength = 0, dilation_loss = 0;
 
-    // What the step adds to the dilation, measured with its error of the strength, less what the residual takes from it.
+    // The dilation that the step adds, measured with its error of the strength, less the loss by the residual.
     double dilation() const { return 0.14 / 0.06 * strength - dilation_loss; }
   };
   ExpectedErrors expected_errors(const State &state, const StepSetting &setting, const FlowState &flow);

@@ -15,7 +15,7 @@ namespace
 {
   namespace fs = std::filesystem;
 
-  // What each folder may include of the project, and which libraries it must not know.
+  // The folders of the project that each folder may include, and the libraries that it must not know.
   const std::map<std::string, std::set<std::string>> allowed             = {{"discrete", {"discrete"}},
                                                                             {"continuum", {"continuum"}},
                                                                             {"coupling", {"discrete", "continuum", "coupling"}}};

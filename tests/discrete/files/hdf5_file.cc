@@ -13,8 +13,8 @@
 #include "discrete/files/text_file.h"
 #include "tests/files.h"
 
-// Of a file with a turned bit the library keeps what it has already read when it finds the bit (HDF5 1.10); what we leave open it
-// closes itself.
+// The library keeps open objects of a file with a turned bit that it has already read (HDF5 1.10); it closes
+// itself the objects that we leave open.
 extern "C" const char *__lsan_default_suppressions()
 {
   return "leak:libhdf5";

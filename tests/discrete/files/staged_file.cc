@@ -49,7 +49,7 @@ namespace
     EXPECT_FALSE(fs::exists(path)) << "the folder of the parts is gone";
   }
 
-  // Of a stage that is written already not a byte is touched: its part keeps its time of change and its content.
+  // No byte of a written stage is touched: its part keeps its time of change and its content.
   TEST_F(Stages, WrittenOnceAreNotWrittenAgain)
   {
     StagedFile file(path);

@@ -54,7 +54,7 @@ namespace
     EXPECT_THROW(TableFile(path + "none", "a,b", 0), std::invalid_argument);
   }
 
-  // What is written gives the same bits back, names of choices included.
+  // Reading gives the written bits back, names of choices included.
   TEST_F(Table, RowsSurviveTheText)
   {
     Dice                    dice;

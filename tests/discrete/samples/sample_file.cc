@@ -56,7 +56,7 @@ namespace
     EXPECT_THROW(write_grains_csv("/nowhere/at/all.csv", written), std::runtime_error);
   }
 
-  // What the hook throws is no fault of the file, which would be a std::invalid_argument.
+  // An exception of the hook is no fault of the file, which would be a std::invalid_argument.
   TEST(GrainsFromCsv, AReadingThatIsStoppedIsLeftAtOnce)
   {
     SampleOptions options;
