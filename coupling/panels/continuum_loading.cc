@@ -288,7 +288,9 @@ namespace diptych::coupling
             char sizes[160];
             std::snprintf(sizes, sizeof sizes, "elements of %.4g before refinement are larger than the sample, at most %.4g high",
                           edge, height);
-            throw SceneError({"", key, text_of(size), "a smaller size", ""}, std::string("is too large: ") + sizes + " [length]");
+            Refusal refusal{"", key, text_of(size)};
+            refusal.allowed = "a smaller size";
+            throw SceneError(refusal, std::string("is too large: ") + sizes + " [length]");
           }
   }
 

@@ -47,8 +47,7 @@ namespace diptych::python
       {
         coupling::require_continuum(scene);
         if (needs_grains() && !grains)
-          throw coupling::SceneError({{}, "continuum/mesh", "outline", "", "give their first snapshot"},
-                                     "needs the prepared grains");
+          throw coupling::SceneError({{}, "continuum/mesh", "outline"}, "needs the prepared grains; give their first snapshot");
         const auto turn = own_turn();
         start_mpi();
         {

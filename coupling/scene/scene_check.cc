@@ -187,7 +187,7 @@ namespace diptych::coupling
           const Entry first = about.front();
           lead = text_of(first.place) + ": " + (checked.section.empty() ? "" : first.name() + " = '" + first.value + "': ");
           if (first.name() == refusal.key)
-            refusal = {first.place, first.name(), first.value, "", ""};
+            refusal = {first.place, first.name(), first.value};
           about.erase(about.begin());
         }
       SceneError whole(lead + text + places_of(about));

@@ -33,10 +33,10 @@ namespace diptych::coupling
   struct Refusal
   {
     Place       place;
-    std::string key;     // section/key of a scene, or a section
-    std::string value;   // as the user gave it
-    std::string allowed; // the range or the choices
-    std::string hint;    // what to do
+    std::string key     = {}; // section/key of a scene, or a section
+    std::string value   = {}; // as the user gave it
+    std::string allowed = {}; // the range or the choices
+    std::string hint    = {}; // what to do
   };
 
   // "scene.prm, line 12: discrete/friction = '-0.3' is not allowed; give a number from 0 to 100 [-]"

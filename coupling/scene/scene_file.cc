@@ -27,11 +27,9 @@ namespace diptych::coupling
       const std::string asked   = section.substr(section.find('/') + 1); // a key may be meant
       const std::string nearest = discrete::nearest_name(asked, names), keys = keys_with(asked);
       const bool        is_key = std::find(known.begin(), known.end(), nearest) == known.end();
-      throw SceneError({place, section, "", "",
-                        !is_key        ? "the nearest is '" + nearest + "'"
-                        : keys.empty() ? keys_with(nearest)
-                                       : keys},
-                       "is not a section");
+      Refusal           refusal{place, section};
+      refusal.hint = !is_key ? "the nearest is '" + nearest + "'" : keys.empty() ? keys_with(nearest) : keys;
+      throw SceneError(refusal, "is not a section");
     }
 
     [[noreturn]] void refuse_key(const Entry &entry)
@@ -39,29 +37,31 @@ namespace diptych::coupling
       std::vector<std::string> names;
       for (const KeyDescription &key : described_keys(entry.section))
         names.push_back(key.name);
-      throw SceneError({entry.place, entry.name(), "", "",
-                        "the nearest is '" + entry.section + "/" + discrete::nearest_name(entry.key, names) + "'"},
-                       "is not a key");
+      Refusal refusal{entry.place, entry.name()};
+      refusal.hint = "the nearest is '" + entry.section + "/" + discrete::nearest_name(entry.key, names) + "'";
+      throw SceneError(refusal, "is not a key");
     }
 
     [[noreturn]] void refuse_value(const Entry &entry)
     {
-      const bool has_comma = entry.value.find(',') != std::string::npos;
+      Refusal refusal{entry.place, entry.name(), entry.value};
+      refusal.allowed = "a number"; // of a library
       for (const KeyDescription &key : described_keys(entry.section))
         if (key.name == entry.key)
-          throw SceneError({entry.place, entry.name(), entry.value, key.allowed + " [" + key.unit + "]",
-                            has_comma ? "decimals have a point, and only lists have commas" : ""},
-                           "is not allowed");
-      throw SceneError({entry.place, entry.name(), entry.value, "a number", ""}, "is not allowed"); // of a library
+          {
+            refusal.allowed = key.allowed + " [" + key.unit + "]";
+            if (entry.value.find(',') != std::string::npos)
+              refusal.hint = "decimals have a point, and only lists have commas";
+          }
+      throw SceneError(refusal, "is not allowed");
     }
 
     void demand_one_line(const Entry &entry)
     {
       if (entry.value.find_first_of("\n\r") != std::string::npos || entry.value.find('\0') != std::string::npos)
-        throw SceneError({entry.place, entry.name(), "", "", ""}, "holds a line break or a zero byte");
+        throw SceneError({entry.place, entry.name()}, "holds a line break or a zero byte");
       if (!entry.value.empty() && (std::strchr(" \t", entry.value.front()) || std::strchr(" \t", entry.value.back())))
-        throw SceneError({entry.place, entry.name(), entry.value, "", ""},
-                         "begins or ends with a blank, which a scene file cannot hold");
+        throw SceneError({entry.place, entry.name(), entry.value}, "begins or ends with a blank, which a scene file cannot hold");
     }
 
     bool is_left_to_others(const Entry &entry)

@@ -15,14 +15,14 @@ namespace diptych::coupling
     for (const auto &[section, content] : text.root.items())
       {
         if (!content.is_object())
-          throw SceneError({text.place("/" + section), section, "", "", ""}, "must be a section: an object of keys");
+          throw SceneError({text.place("/" + section), section}, "must be a section: an object of keys");
         demand_section(text.place("/" + section), section);
         for (const auto &[key, value] : content.items())
           {
             const Place place     = text.place("/" + section + "/" + key);
             const bool  long_form = value.is_object() && value.contains("value");
             if (value.is_object() && !long_form)
-              throw SceneError({place, section + "/" + key, "", "", ""}, "must be a value, not a section");
+              throw SceneError({place, section + "/" + key}, "must be a value, not a section");
             entries.push_back({section, key, value_text(long_form ? value["value"] : value), place, folder});
           }
       }

@@ -93,22 +93,21 @@ namespace diptych::coupling
             ++number;
           }
         if (n_last_backslashes(line) % 2 == 1)
-          throw SceneError({place, "", "", "", ""},
-                           "the line ends with \\, which continues it on the next one, but the file ends");
+          throw SceneError({place}, "the line ends with \\, which continues it on the next one, but the file ends");
         line.resize(line.size() - n_last_backslashes(line) / 2);
         if (line.empty())
           continue;
         if (const auto name = after("subsection", line))
           {
             if (!section.empty())
-              throw SceneError({place, section, "", "", ""}, "is not closed by 'end' before subsection '" + *name + "'");
+              throw SceneError({place, section}, "is not closed by 'end' before subsection '" + *name + "'");
             demand_section(place, *name);
             section = *name;
           }
         else if (strcasecmp(line.c_str(), "end") == 0)
           {
             if (section.empty())
-              throw SceneError({place, "", "", "", ""}, "'end' without a subsection");
+              throw SceneError({place}, "'end' without a subsection");
             section.clear();
           }
         else if (const auto set = after("set", line); set && set->find('=') != std::string::npos && set->find('=') > 0)
@@ -116,14 +115,14 @@ namespace diptych::coupling
             const std::string key(discrete::trimmed(set->substr(0, set->find('='))));
             const auto [first, is_first] = places.try_emplace(section + "/" + key, place);
             if (!is_first)
-              throw SceneError({place, section + "/" + key, "", "", ""}, "is set twice, first in " + text_of(first->second));
+              throw SceneError({place, section + "/" + key}, "is set twice, first in " + text_of(first->second));
             entries.push_back({section, key, std::string(discrete::trimmed(set->substr(set->find('=') + 1))), place, folder});
           }
         else
-          throw SceneError({place, "", "", "", ""}, "'" + line + "' is neither 'subsection NAME', 'set KEY = VALUE' nor 'end'");
+          throw SceneError({place}, "'" + line + "' is neither 'subsection NAME', 'set KEY = VALUE' nor 'end'");
       }
     if (!section.empty())
-      throw SceneError({{file, number}, section, "", "", ""}, "has no 'end'");
+      throw SceneError({{file, number}, section}, "has no 'end'");
     return entries;
   }
 
