@@ -7,13 +7,13 @@ import os
 
 from running import QUICK, SMALL, SOURCE, Folder, diptych, finished, listing, main, read_json
 
-CELL = os.path.join(SOURCE, "coupling", "templates", "element.prm")
+CELL = os.path.join(SOURCE, "benchmarks", "element", "scene.prm")
 
 
 class GrainsOnly(Folder):
     def test_grains_are_varied_and_homogenised(self):
-        finished("study", QUICK, *SMALL, "--panels", "discrete", "--vary", "discrete/friction=0.2,0.5", "--seeds", "1-2", "--output",
-                 self.folder, "--quiet")
+        finished("study", QUICK, *SMALL, "--panels", "discrete", "--vary", "discrete/friction=0.2,0.5", "--seeds", "1-2",
+                 "--output", self.folder, "--quiet")
         points = read_json(self.folder, "study.json")["points"]
         self.assertEqual([point["class"] for point in points], ["done"] * 2)
         grains = os.path.join(self.folder, points[0]["folders"][0])
@@ -23,8 +23,8 @@ class GrainsOnly(Folder):
     def test_what_needs_the_continuum_is_refused_in_a_sentence(self):
         vary = ["--vary", "discrete/friction=0.2,0.5"]
         for words in (["run", QUICK], ["run", QUICK, "--seeds", "1-2"], ["continuum", QUICK], ["study", QUICK, *vary],
-                      ["study", QUICK, *vary, "--panels", "continuum"], ["element", CELL], ["calibrate", QUICK, "--seeds", "1-2"],
-                      ["plan", QUICK, "--accuracy", "2", "%", "--for", "continuum.strength"]):
+                      ["study", QUICK, *vary, "--panels", "continuum"], ["element", CELL],
+                      ["calibrate", QUICK, "--seeds", "1-2"], ["plan", QUICK, "--accuracy", "2", "%", "--for", "continuum.strength"]):
             with self.subTest(words=words):
                 result = diptych(*words, "--output", self.folder)
                 self.assertEqual(result.returncode, 2, result.stderr)

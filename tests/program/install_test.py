@@ -75,8 +75,9 @@ class Package(unittest.TestCase):
         for script in (("bash-completion", "completions", "diptych"), ("zsh", "vendor-completions", "_diptych")):
             path = os.path.join(self.share, *script)
             self.assertTrue(content(path).startswith(b"#compdef diptych\n"))
-            told = subprocess.run(["bash", "-c", f"source {path}; COMP_WORDS=({self.program} run --set discrete/fric); COMP_CWORD=3; _diptych; "
-                                   "echo ${COMPREPLY[@]}"], capture_output=True, text=True, check=True).stdout
+            line = f"source {path}; COMP_WORDS=({self.program} run --set discrete/fric); COMP_CWORD=3; _diptych; "
+            told = subprocess.run(["bash", "-c", line + "echo ${COMPREPLY[@]}"], capture_output=True, text=True,
+                                  check=True).stdout
             self.assertEqual(told, "discrete/friction=\n")
 
     def test_another_project_links_the_library(self):

@@ -13,7 +13,8 @@ import unittest
 import numpy
 
 import browser
-from running import PROGRAM, QUICK, SOURCE, diptych, finished, half_files, history, main, read_json, setting, temporary, write
+from running import (PROGRAM, QUICK, SOURCE, diptych, finished, half_files, history, main, read_json, setting, temporary,
+                     write)
 
 
 def number(value):
@@ -228,7 +229,8 @@ class CommandLine(unittest.TestCase):
         script = write(os.path.join(temporary(self), "completion"), diptych("completion", "bash").stdout)
         for words, offered in ((["ru"], "run"), (["run", "scene.prm", "--see"], "--seeds"), (["solve", "--solver", ""], "psor"),
                                (["solve", "--form", "lo"], "local"), (["explain", "samp"], "sample"), (["explain", "res"], "results"),
-                               (["completion", ""], "bash"), (["study", "scene.prm", "--va"], "--vary"), (["study", "--panels", "d"], "discrete"),
+                               (["completion", ""], "bash"), (["study", "scene.prm", "--va"], "--vary"),
+                               (["study", "--panels", "d"], "discrete"),
                                (["run", "--set", "discrete/fric"], "discrete/friction="),
                                (["run", "--set", "continuum/law", "=", "mo"], "mohr_coulomb"),
                                (["run", "--set", "discrete/lateral", "="], "periodic")):

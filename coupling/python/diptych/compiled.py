@@ -20,8 +20,8 @@ def has_continuum() -> bool:
 def demand_continuum(what: str) -> None:
     """Raises SceneError in a build without the continuum. what: the command or object that needs it."""
     if not has_continuum():
-        raise SceneError(f"{what}: this program was built without the continuum; it computes grains alone, for example with "
-                         "`diptych discrete` or `diptych study --panels discrete`")
+        raise SceneError(f"{what}: this program was built without the continuum; it computes grains alone, for example "
+                         "with `diptych discrete` or `diptych study --panels discrete`")
 
 
 def continuum(what: str) -> Any:

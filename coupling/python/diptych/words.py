@@ -1,6 +1,6 @@
 # diptych: command lines: options, their values, help and refusals
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A parser whose help and refusals look as those of the commands in C++, and types of options that name what is allowed."""
+"""A parser whose help and refusals look as those of the commands in C++; types of options that name what is allowed."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ from .errors import SceneError
 class _Once(argparse.Action):
     """Stores a value; a second one is refused."""
 
-    def __call__(self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values: Any, option: Any = None) -> None:
+    def __call__(self, parser: argparse.ArgumentParser, namespace: argparse.Namespace, values: Any,
+                 option: Any = None) -> None:
         if option and option in namespace.given:
             raise argparse.ArgumentError(self, "is given more than once")
         namespace.given.append(option)
@@ -41,8 +42,8 @@ class Parser(argparse.ArgumentParser):
         if unused:
             options = [name for action in self._actions for name in action.option_strings]
             near = _diptych.nearest_name(unused[0].partition("=")[0], options)
-            told = f"; the nearest option is '{near}'" if unused[0].startswith("--") else f"; options: {' '.join(options)}"
-            raise SceneError(f"{self.name}: '{' '.join(unused)}' is not used{told}")
+            told = f"the nearest option is '{near}'" if unused[0].startswith("--") else f"options: {' '.join(options)}"
+            raise SceneError(f"{self.name}: '{' '.join(unused)}' is not used; {told}")
         return line
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
@@ -106,4 +107,5 @@ def add_quiet(parser: Parser) -> None:
 
 
 def add_overwrite(parser: Any) -> None:
-    parser.add_argument("--overwrite", action="store_true", help="rename results in the folder to DIR.1 and begin again")
+    parser.add_argument("--overwrite", action="store_true",
+                        help="rename results in the folder to DIR.1 and begin again")

@@ -1,6 +1,6 @@
 # diptych: the options of the commands of campaigns
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""One function adds the arguments of one command. It loads nothing that only a run needs, so that help comes at once."""
+"""A function adds the arguments of a command. It loads nothing that only a run needs, so that help comes at once."""
 
 from __future__ import annotations
 
@@ -31,7 +31,8 @@ def _add_runs(parser: Parser, folder: str) -> None:
     parser.add_argument("--threads", metavar="N", type=number(1, 1024, True), default=1,
                         help="threads of the contact solver; every number gives the same bits")
     parser.add_argument("--jobs", metavar="N", type=number(1, 4096, True), default=0,
-                        help="number of runs at once (default: usable cores / threads; under mpirun one for each process)")
+                        help="number of runs at once (default: usable cores / threads; under mpirun one for each "
+                             "process)")
     either = parser.add_mutually_exclusive_group()
     either.add_argument("--resume", action="store_true",
                         help="continue the results in the folder: keep finished runs, compute the others")
@@ -41,7 +42,8 @@ def _add_runs(parser: Parser, folder: str) -> None:
 
 def add_run(parser: Parser) -> None:
     _add_scene(parser)
-    _add_seeds(parser, "samples, a list like 1-8 or 1,3,5-7, each in DIR/seed_K; then means, intervals and verdicts", True)
+    _add_seeds(parser, "samples, a list like 1-8 or 1,3,5-7, each in DIR/seed_K; then means, intervals and verdicts",
+               True)
     parser.add_argument("--levels", metavar="LEVELS", default="", help=_LEVELS)
     parser.add_argument("--check", action="store_true",
                         help="check the scene and its first sample, print the resources, compute nothing")
@@ -71,8 +73,8 @@ def add_plan(parser: Parser) -> None:
                         help="relative, of the means: 2 %% or 0.02; covers errors of the method and the 95 %% interval")
     parser.add_argument("--for", metavar="NAMES", default="",
                         help="quantities, separated by commas: peak_stress_ratio, strength (both by default), "
-                             "final_volumetric_strain, width_10_90, angle, or a number of comparison.json; for one panel, put "
-                             "discrete. or continuum. before it")
+                             "final_volumetric_strain, width_10_90, angle, or a number of comparison.json; for one "
+                             "panel, put discrete. or continuum. before it")
     parser.add_argument("--run", action="store_true", help="also run the planned samples")
     _add_runs(parser, "folder of the plan (default: results/<scene name>_plan)")
 
@@ -90,7 +92,8 @@ def add_element(parser: Parser) -> None:
 
 
 def add_homogenise(parser: Parser) -> None:
-    parser.add_argument("target", metavar="SOURCE", help="folder with grains, or a format or reader as for import, then FILES")
+    parser.add_argument("target", metavar="SOURCE",
+                        help="folder with grains, or a format or reader as for import, then FILES")
     parser.add_argument("files", metavar="FILES", nargs="*", help="files of grains, contacts and walls of another code")
     parser.add_argument("--grid", metavar="D", type=number(0.5, 1000), default=3.0,
                         help="size of the cells in mean diameters (default: 3)")

@@ -43,8 +43,8 @@ def calibrate(trials: Trials) -> pd.DataFrame:
 
 
 def run_calibration(line: argparse.Namespace, options: Options) -> None:
-    """The command `diptych calibrate FILE`, or SCENE with --seeds. line: target, seeds, set, set_file and output. Raises Stopped or
-    NotConverged, with the best point so far in the folder."""
+    """The command `diptych calibrate FILE`, or SCENE with --seeds. line: target, seeds, set, set_file and output. Raises
+    Stopped or NotConverged, with the best point so far in the folder."""
     contents = standard_contents(line)
     text = json.dumps(contents, indent=1) + "\n" if contents else ""
     calibration = read_calibration(line.target, contents)

@@ -73,8 +73,8 @@ def _write(directory: str, record: dict[str, Any], curves: Curves) -> None:
 
 
 def run_element(line: argparse.Namespace, options: Options) -> None:
-    """diptych element SCENE. line: target, seeds, output, set, set_file. Raises NotConverged if a run ended before the end of the
-    path, or Stopped."""
+    """diptych element SCENE. line: target, seeds, output, set, set_file. Raises NotConverged if a run ended before the end
+    of the path, or Stopped."""
     settings = settings_of(line.set, line.set_file)
     scene = _diptych.read_changed_scene(line.target, settings, False)
     if scene.dict()["discrete"]["lateral"] != "cell":

@@ -245,8 +245,8 @@ def _origin(text: str) -> str:
 
 
 def run_ensemble(line: argparse.Namespace, options: Options) -> None:
-    """diptych run SCENE --seeds LIST. line: target, seeds, levels, check, output, set, set_file. Raises NotConverged if a seed
-    failed."""
+    """diptych run SCENE --seeds LIST. line: target, seeds, levels, check, output, set, set_file. Raises NotConverged if a
+    seed failed."""
     compiled, scene_file, seeds = continuum("run --seeds"), line.target, read_seeds(line.seeds)
     levels = read_levels(line.levels, len(seeds))
     settings = settings_of(line.set, line.set_file)
@@ -279,9 +279,9 @@ def run_ensemble(line: argparse.Namespace, options: Options) -> None:
         if finished:
             say(options, f"{len(finished)} of {len(seeds)} seeds are finished in {directory}: not run again")
         pending = [seed for seed in seeds if seed not in finished]
-        tasks = [Run(command="run", scene=scene_file, settings=[*settings, Setting("sample", "seed", str(seed), "--seeds")],
-                     folder=member_folder(directory, seed), log=member_folder(directory, seed) + ".log", resume=options.resume)
-                 for seed in pending]
+        tasks = [Run(command="run", scene=scene_file, folder=member_folder(directory, seed), resume=options.resume,
+                     log=member_folder(directory, seed) + ".log",
+                     settings=[*settings, Setting("sample", "seed", str(seed), "--seeds")]) for seed in pending]
         ends = list(zip(pending, execute(tasks, options, noun="seeds", finished=len(finished))))
         failed = [{"seed": seed, "exit_code": outcome.exit_code, "message": outcome.message}
                   for seed, outcome in ends if outcome.exit_code and not outcome.interrupted]

@@ -1,8 +1,8 @@
 # diptych: many runs, on workers of this machine and of the other processes of mpirun
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A worker is a process of worker.py that does one run after another. It receives a line of JSON and answers with the exit
-code on a line. Threads hand the runs to workers; under mpirun each other process has a worker, too. Results depend neither on
-the number of workers nor on the order of the runs.
+"""A worker is a process of worker.py that does one run after another. It receives a line of JSON and answers with the
+exit code on a line. Threads hand the runs to workers; under mpirun each other process has a worker, too. Results depend
+neither on the number of workers nor on the order of the runs.
 """
 
 from __future__ import annotations
@@ -144,7 +144,7 @@ def environment() -> dict[str, str]:
     """For a process of this package, without an MPI job, which would make a program one of its ranks."""
     package = os.path.dirname(os.path.dirname(os.path.abspath(_diptych.__file__)))
     path = os.pathsep.join(filter(None, [package, os.environ.get("PYTHONPATH")]))
-    own = {"DIPTYCH_PROGRAM": program(), "PYTHONPATH": path, "PYTHONSAFEPATH": "1"}  # no modules of the working directory
+    own = {"DIPTYCH_PROGRAM": program(), "PYTHONPATH": path, "PYTHONSAFEPATH": "1"}  # safe: not the working directory
     return own | {name: value for name, value in os.environ.items() if name not in own and
                   (name.startswith("OMPI_ALLOW_RUN_AS_ROOT") or not name.startswith(_JOB_VARIABLES))}
 

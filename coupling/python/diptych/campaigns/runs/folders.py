@@ -212,8 +212,8 @@ class Runs:
                 write_json(self.path(runs[k], ".json"), {"exit_code": outcome.exit_code, "revision": _diptych.git_revision,
                                                          "load": os.getloadavg()[0], "at_once": seats}, None)
 
-        tasks = [Run(command=run.command, scene=self.path(run, ".prm"), folder=self.path(run), log=self.path(run, ".log"),
-                     resume=goes_on and run.command != "material-point")
+        tasks = [Run(command=run.command, scene=self.path(run, ".prm"), folder=self.path(run),
+                     log=self.path(run, ".log"), resume=goes_on and run.command != "material-point")
                  for run, goes_on in zip(runs, resumes)]
         outcomes = execute(tasks, options, finished=total - len(runs), on_ended=on_ended)
         damaged = [k for k, outcome in enumerate(outcomes) if is_damaged(k, outcome)]

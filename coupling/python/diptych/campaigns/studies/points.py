@@ -48,8 +48,8 @@ def on_sample(settings: Sequence[Setting], seed: int | None, file: str) -> list[
 
 
 def scene_run(scene: str, command: str, settings: Sequence[Setting]) -> SceneRun:
-    """The run of a scene with settings; one without a scene if they contradict each other. Runs draw no report. Raises SceneError
-    if the command needs the continuum and this build has none."""
+    """The run of a scene with settings; one without a scene if they contradict each other. Runs draw no report. Raises
+    SceneError if the command needs the continuum and this build has none."""
     if command != "discrete":
         demand_continuum(command)
     try:

@@ -135,8 +135,8 @@ def _conclude(study: Study, points: Sequence[Point], record: dict[str, Any], opt
 
 
 def run_study(line: argparse.Namespace, options: Options) -> None:
-    """diptych study FILE. line: target, output, set, set_file, vary, seeds, panels, levels. Raises NotConverged if runs are
-    missing, or Stopped."""
+    """diptych study FILE. line: target, output, set, set_file, vary, seeds, panels, levels. Raises NotConverged if runs
+    are missing, or Stopped."""
     study, text = study_of_words(line)
     levels = levels_of_words(line, study)
     if study.ranges:
