@@ -15,7 +15,7 @@ class GrainsOnly(Folder):
         finished("study", QUICK, *SMALL, "--panels", "discrete", "--vary", "discrete/friction=0.2,0.5", "--seeds", "1-2",
                  "--output", self.folder, "--quiet")
         points = read_json(self.folder, "study.json")["points"]
-        self.assertEqual([point["class"] for point in points], ["done"] * 2)
+        self.assertEqual([point["quantities"][0]["n"] for point in points], [2, 2])
         grains = os.path.join(self.folder, points[0]["folders"][0])
         finished("homogenise", grains, "--output", self.path("fields"), "--quiet")
         self.assertIn("homogenised.json", listing(self.path("fields")))
