@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "discrete/contacts/contact_law.h"
 #include "discrete/contacts/internal_moment.h"
@@ -110,14 +111,6 @@ namespace diptych::discrete
       row.fabric_anisotropy = 2 * std::hypot(d, s);
       row.fabric_angle      = 0.5 * std::atan2(s, d) * 180 / M_PI;
     }
-
-    double sum(const std::vector<double> &values)
-    {
-      double total = 0;
-      for (const double value : values)
-        total += value;
-      return total;
-    }
   } // namespace
 
   Strains strains_of(const State &state, const Reference &reference)
@@ -137,7 +130,7 @@ namespace diptych::discrete
     reference.kinetic_energy = kinetic_energy(state);
     for (const double r : state.grains.radius)
       reference.grain_area += M_PI * r * r;
-    const double mass               = sum(state.grains.mass);
+    const double mass               = std::accumulate(state.grains.mass.begin(), state.grains.mass.end(), 0.);
     reference.mean_density          = mass / reference.grain_area;
     reference.platen_kinetic_energy = 0.25 * mass * std::pow(strain_rate * reference.height, 2);
     reference.strain_rate           = strain_rate;
@@ -186,7 +179,8 @@ namespace diptych::discrete
                       HistoryRow        &row)
   {
     const double     area    = outline_area(make_outline(state, setting.mean_diameter));
-    const double     spin    = sum(spin_terms(state.grains));
+    const auto       spins   = spin_terms(state.grains);
+    const double     spin    = std::accumulate(spins.begin(), spins.end(), 0.);
     const MomentSums sums    = sum_moments(state, result, setting.step);
     const Strains    strains = strains_of(state, reference);
 
