@@ -7,7 +7,7 @@
 #include <array>
 
 #include "continuum/mesh/mesh.h"
-#include "coupling/import/imported_folder.h"
+#include "coupling/grains/imported_grains.h"
 #include "coupling/panels/continuum_mesh.h"
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_error.h"

@@ -7,7 +7,7 @@
 #include <iostream>
 
 #include "continuum/mesh/mesh.h"
-#include "coupling/import/imported_folder.h"
+#include "coupling/grains/imported_grains.h"
 #include "coupling/processes/progress.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/store/file_names.h"

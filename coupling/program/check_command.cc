@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "coupling/comparison/prepared_sample.h"
-#include "coupling/import/imported_folder.h"
+#include "coupling/grains/imported_grains.h"
 #include "coupling/panels/continuum_loading.h"
 #include "coupling/panels/continuum_mesh.h"
 #include "coupling/processes/stop_signal.h"

@@ -47,7 +47,6 @@ namespace diptych::coupling
         add_panels();
         add_solve();
         add_results();
-        add_exchange();
         add_others();
       }
 
@@ -171,20 +170,6 @@ namespace diptych::coupling
         report->add_option("DIR", line.target, "result folder")->required();
         report->add_flag("--movie", line.draws_movie, "also draw both panels step by step: movie.gif");
         add_quiet(report);
-      }
-
-      void add_exchange()
-      {
-        CLI::App *out = add(Command::export_sample,
-                            "write a sample of a result folder for another code, or all stages for OVITO");
-        out->add_option("FOLDER", line.target, "result folder")->required();
-        out->add_option("--format", line.exported.format, "code that reads them; dump: OVITO")
-          ->required()
-          ->check(one_of({"lammps", "csv", "dump"}));
-        add_output(out, "folder of the exported files (default: FOLDER_for_FORMAT)");
-        out->add_option("--stage", line.exported.stage, "number of the snapshot (default: 0, the prepared sample); not for dump")
-          ->check(in_range(0, 1000000));
-        add_quiet(out);
       }
 
       void add_others()

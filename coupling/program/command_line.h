@@ -25,7 +25,6 @@ namespace diptych::coupling
     solve,
     compare,
     report,
-    export_sample,
     new_scene,
     explain,
     completion
@@ -39,12 +38,6 @@ namespace diptych::coupling
     std::optional<discrete::ProblemForm> form; // none: the better form in the file
   };
 
-  struct ExportOptions
-  {
-    std::string format;
-    int         stage = 0; // number of the stage
-  };
-
   // Options of a run with grains or continuum.
   struct SceneOptions
   {
@@ -55,15 +48,14 @@ namespace diptych::coupling
 
   struct CommandLine : RunOptions, SceneOptions
   {
-    Command       command = Command::explain;
-    std::string   target;              // scene or problem file, result folder, section or shell
-    std::string   output;              // --output
-    std::string   word;                // explain results WORD
-    bool          draws_movie = false; // report: --movie
-    SolveOptions  solve;
-    ExportOptions exported;
-    bool          prints_warnings = true; // true on the first of several processes
-    std::string   path;                   // material-point: --path; empty: that of the scene
+    Command      command = Command::explain;
+    std::string  target;              // scene or problem file, result folder, section or shell
+    std::string  output;              // --output
+    std::string  word;                // explain results WORD
+    bool         draws_movie = false; // report: --movie
+    SolveOptions solve;
+    bool         prints_warnings = true; // true on the first of several processes
+    std::string  path;                   // material-point: --path; empty: that of the scene
   };
 
   // The parsed command line, from the words after the program's name. If they are wrong or only ask for help, the version or a

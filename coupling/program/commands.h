@@ -16,7 +16,6 @@ namespace diptych::coupling
 
   int compare_again(const CommandLine &line); // compare DIR: a result folder or an ensemble
   int report_again(const CommandLine &line);  // report DIR: comparison, ensemble, study or calibration
-  int export_sample(const CommandLine &line); // export DIR
 
   int print_template(const CommandLine &line); // new [TEMPLATE]
   int print_completion();                      // completion bash

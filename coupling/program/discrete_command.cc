@@ -9,7 +9,6 @@
 #include <optional>
 #include <sstream>
 
-#include "coupling/import/imported_folder.h"
 #include "coupling/grains/imported_grains.h"
 #include "coupling/grains/interrupted_grains.h"
 #include "coupling/grains/recorded_grains.h"

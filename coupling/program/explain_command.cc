@@ -6,7 +6,6 @@
 #include <cctype>
 #include <iostream>
 
-#include "coupling/import/import_record.h"
 #include "coupling/program/result_entries.h"
 #include "coupling/scene/scene_error.h"
 #include "coupling/scene/scene_file.h"
@@ -54,7 +53,6 @@ namespace diptych::coupling
     visit_contact_values(s, add);
     visit_outline(s, add);
     add_record("provenance.json", ProvenanceDocument{Origin(), RunFacts()}, result);
-    add_record("import.json", ImportRecord(), result);
     result.push_back({h5, "not_told", "attribute, name", "-",
                       "arrays that are missing here because the files of another code did not hold them (imported)"});
     result.push_back({"checkpoint.h5, continuum_checkpoint.h5", "/", "group", "",

@@ -152,8 +152,6 @@ namespace
         return compare(line);
       case Command::report:
         return report_again(line);
-      case Command::export_sample:
-        return export_sample(line);
       case Command::new_scene:
         return print_template(line);
       case Command::completion:

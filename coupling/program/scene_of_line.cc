@@ -12,10 +12,10 @@ namespace diptych::coupling
   Opening opening_of(const CommandLine &line, const bool adds)
   {
     Opening opening;
-    opening.resume     = line.resume;
-    opening.overwrite  = line.overwrite;
-    opening.adds       = adds;
-    opening.command    = line.text;
+    opening.resume    = line.resume;
+    opening.overwrite = line.overwrite;
+    opening.adds      = adds;
+    opening.command   = line.text;
     if (std::error_code none; std::filesystem::is_regular_file(line.target, none))
       opening.inputs.emplace_back("the scene", line.target);
     for (const std::string &file : line.set_files)
@@ -33,7 +33,6 @@ namespace diptych::coupling
                                                           {Command::solve, "solve"},
                                                           {Command::compare, "compare"},
                                                           {Command::report, "report"},
-                                                          {Command::export_sample, "export"},
                                                           {Command::new_scene, "new"},
                                                           {Command::explain, "explain"},
                                                           {Command::completion, "completion"}};

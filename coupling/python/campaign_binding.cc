@@ -123,12 +123,16 @@ namespace diptych::python
         .def("set_aside", [](Lock &lock, const InputFiles &inputs) { set_aside(*lock.lock, inputs); })
         .def("release", [](Lock &lock) { lock.lock.reset(); });
       m.def("is_empty_folder", &is_empty_folder);
-      m.def("require_usable", [](const std::string &directory, const bool resume, const bool overwrite) {
-        Opening opening;
-        opening.resume    = resume;
-        opening.overwrite = overwrite;
-        require_usable(directory, opening);
-      });
+      m.def(
+        "require_usable",
+        [](const std::string &directory, const bool resume, const bool overwrite, const bool can_resume) {
+          Opening opening;
+          opening.resume     = resume;
+          opening.overwrite  = overwrite;
+          opening.can_resume = can_resume;
+          require_usable(directory, opening);
+        },
+        py::arg("directory"), py::arg("resume"), py::arg("overwrite"), py::arg("can_resume") = true);
       m.def("kept_in", &kept_in);
       m.def("holds_finished_run", [](const Scene &scene) { return ResultFolder(scene).holds_finished_run(); });
       // the keys by which the scene differs from that of the folder: (sample, continuum, comparison)

@@ -28,8 +28,8 @@ namespace
     {"discrete", {"files", "bodies", "contacts", "solvers", "stepping", "problem_files", "samples", "panel"}},
     {"continuum", {"laws", "mesh", "elements", "equilibrium", "panel"}},
     {"coupling",
-     {"cells", "statistics", "numbers", "processes", "averaging", "fields", "bands", "probes", "scene", "store", "import",
-      "comparison", "grains", "panels", "program", "python"}}};
+     {"cells", "statistics", "numbers", "processes", "averaging", "fields", "bands", "probes", "scene", "store", "comparison",
+      "grains", "panels", "program", "python"}}};
 
   std::vector<std::string> includes_of(const fs::path &file)
   {

@@ -34,6 +34,8 @@ REFUSED = [  # set, file, change, words of the message: the file, its line, the 
     ("plain_csv", "contacts_1.csv", lambda text: text + "1,2,,1\n", "column fx is empty"),
     ("plain_csv", "contacts_2.csv", lambda text: text.splitlines()[0], "every frame after the first needs them"),
     ("plain_csv", "particles_1.csv", once("\n2,", "\n1,"), "grain 1 occurs twice"),
+    ("plain_csv", "particles_1.csv", once("\n49,0.0025810061,0.00344787159", "\n49,0.00128904658,0.00128048082"),
+     "contacts_1.csv, line 3: frame 1: grains 69 and 49 have the same position"),
     ("plain_csv", "particles_1.csv", lambda text: text[:text.rstrip().rfind("\n") + 1], "lacks grain"),
     ("plain_csv", "particles_1.csv", once("id,x,y,r,vx", "id,x,y,r,d"), "contradict each other"),
     ("plain_csv", "walls.csv", lambda text: text + "1,0.03,0.05\n", "line 5: frame 1 has another width in line 3"),

@@ -39,6 +39,14 @@ def test_counts_masses_and_stresses_are_those_of_the_files(name, copy):
     assert record["doubtful"] == []
 
 
+def test_every_number_of_the_record_is_explained(copy):
+    record = checked(copy("plain_csv"))
+    names = [*record, *("frames/" + name for name in record["frames"][0])]
+    with open(os.path.join(SOURCE, "coupling", "python", "diptych", "campaigns", "result_entries.tsv")) as file:
+        explained = [line.split("\t")[1] for line in file if line.startswith("import.json\t")]
+    assert sorted(names) == sorted(explained)
+
+
 # LIGGGHTS evaluates the law again after the velocities have changed (2 % on moving plates).
 @pytest.mark.parametrize("name, tolerance", [("lammps", 1e-4), ("liggghts", 0.03), ("yade", 1e-6)])
 def test_forces_on_every_grain_add_up_to_the_resultants(name, tolerance, copy):
@@ -108,7 +116,7 @@ def test_a_static_stack_is_in_balance_with_its_weight(tmp_path):
         values += (7.0, -3.0)
     for wall in moved.walls:
         wall.place += (7.0, -3.0)[wall.side in ("lower", "upper")]
-    again = json.loads(diptych._diptych.check_frames("moved", [moved], [], importers.Options([])))["frames"][0]
+    again = importers.check_frames("moved", [moved], importers.Options([]))["frames"][0]
     assert np.allclose(frame["wall_stress"], again["wall_stress"], rtol=1e-9, atol=1e-3)
 
 

@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from . import _diptych
 from .campaigns.commands import do
 from .campaigns.runs.engine import DONE, code_and_text, complain, on_first_process
-from .importers import command as importers
 
 
 def main(words: Sequence[str]) -> int:
@@ -25,7 +24,5 @@ def main(words: Sequence[str]) -> int:
 
 
 if __name__ == "__main__":
-    if sys.argv[1] == "import":
-        sys.exit(importers.main(sys.argv[2:]))
     _diptych.install_signals()
     sys.exit(on_first_process(lambda: main(sys.argv[1:])))

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -57,6 +58,19 @@ def ends_text(low: float | None, high: float | None, form: Callable[[float], str
     if low is None or high is None or not (np.isfinite(low) and np.isfinite(high)):
         return ""
     return f" [{form(low)}{between}{form(high)}]"
+
+
+def plain(value: Any) -> Any:
+    """The value as JSON has it: NaN is null, an interval an object."""
+    if isinstance(value, Interval):
+        return plain(value._asdict())
+    if isinstance(value, Mapping):
+        return {key: plain(entry) for key, entry in value.items()}
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return [plain(entry) for entry in value]
+    if isinstance(value, np.generic):
+        return plain(value.item())
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 class Record(dict[str, Any]):

@@ -4,7 +4,9 @@
 
 from __future__ import annotations
 
-from ..importers.command import add_options
+import argparse
+
+from ..importers.exports import FORMATS
 from ..words import Parser, add_output, add_overwrite, add_quiet, number
 
 _LEVELS = "auto, or two accuracies: means of the grains in the limit of short steps"
@@ -98,4 +100,50 @@ def add_homogenise(parser: Parser) -> None:
     parser.add_argument("--grid", metavar="D", type=number(0.5, 1000), default=3.0,
                         help="size of the cells in mean diameters (default: 3)")
     add_output(parser, "folder of the results (default: FOLDER_homogenised; required with FILES)")
-    add_options(parser)
+    _add_import_options(parser)
+
+
+def _vector(text: str) -> tuple[float, float]:
+    try:
+        x, y = (float(part) for part in text.split(","))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{text}' is not GX,GY, two numbers such as 0,-9.81") from None
+    return x, y
+
+
+def _add_import_options(parser: Parser) -> None:
+    parser.add_argument("--columns", metavar="KIND=NAMES", action="append", default=[],
+                        help="KIND=NAME,NAME,...: names of columns that the files do not name; KIND: particles, contacts "
+                        "or walls; may be repeated")
+    for name, meaning in (
+            ("thickness", "thickness of a layer of spheres; divides forces and masses; 1 keeps forces per length"),
+            ("timestep", "time step, for codes that count steps"),
+            ("density", "mass per area, if no file contains masses"),
+            ("pressure", "lateral pressure (default: that of the right wall in the first frame with forces)"),
+            ("mean-diameter", "unit d of the results (default: mean of the grains)")):
+        parser.add_argument("--" + name, metavar="NUMBER", type=number(1e-30, 1e30), help=meaning)
+    parser.add_argument("--gravity", metavar="GX,GY", type=_vector,
+                        help="acceleration of the grains (default: that of the files)")
+    parser.add_argument("--frames", metavar="LIST", default="",
+                        help="only these frames, such as 10-20,30; counted from 0 in ascending order")
+    parser.add_argument("--walls-touch", action="store_true",
+                        help="put walls without a place in the files where the grains reach farthest")
+    add_overwrite(parser)
+    add_quiet(parser)
+
+
+def add_import(parser: Parser) -> None:
+    parser.add_argument("format", metavar="FORMAT",
+                        help="code that wrote the files, or a Python file that registers your own reader")
+    parser.add_argument("files", metavar="FILES", nargs="+", help="files of grains, contacts and walls, in any order")
+    add_output(parser, "folder of the imported sample", required=True)
+    _add_import_options(parser)
+
+
+def add_export(parser: Parser) -> None:
+    parser.add_argument("target", metavar="FOLDER", help="result folder")
+    parser.add_argument("--format", required=True, choices=FORMATS, help="code that reads them; dump: OVITO")
+    add_output(parser, "folder of the exported files (default: FOLDER_for_FORMAT)")
+    parser.add_argument("--stage", metavar="N", type=number(0, 1000000, True), default=0,
+                        help="number of the snapshot (default: 0, the prepared sample); not for dump")
+    add_quiet(parser)

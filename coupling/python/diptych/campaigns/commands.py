@@ -18,7 +18,9 @@ COMMANDS = {"run": (arguments.add_run, "ensembles.ensemble", "run_ensemble"),
             "plan": (arguments.add_plan, "plans.plan", "main_plan"),
             "calibrate": (arguments.add_calibrate, "calibration.calibration", "run_calibration"),
             "element": (arguments.add_element, "element.element", "run_element"),
-            "homogenise": (arguments.add_homogenise, "element.homogenise", "run_homogenise")}
+            "homogenise": (arguments.add_homogenise, "element.homogenise", "run_homogenise"),
+            "import": (arguments.add_import, "exchange.imports", "run_import"),
+            "export": (arguments.add_export, "exchange.exports", "run_export")}
 
 
 def with_joined_per_cent(words: Sequence[str]) -> list[str]:

@@ -5,13 +5,12 @@
 A reader is a function that takes Options and returns a list of Frame in ascending order; register() gives it a name.
 """
 
-from .command import main
 from .frames import Frame, Options, Wall, contacts_of, refused
-from .readers import check, read, register
+from .readers import check, check_frames, read, register
 from .table_files import read_table
 from .tables import Table, grains_of
 from .text import read_lines
 from .walls import sorted_files
 
-__all__ = ["Frame", "Options", "Table", "Wall", "check", "contacts_of", "grains_of", "main", "read", "read_lines",
+__all__ = ["Frame", "Options", "Table", "Wall", "check", "check_frames", "contacts_of", "grains_of", "read", "read_lines",
            "read_table", "refused", "register", "sorted_files"]

@@ -10,8 +10,10 @@ import numpy as np
 
 from ..errors import SceneError
 
-GRAINS = ("id", "position", "radius", "mass", "velocity", "spin", "rotation", "resultant", "line")
-CONTACTS = ("first", "second", "wall", "force", "point", "overlap", "slides", "line")
+# Names of the arrays -> number of their axes; those of two axes are vectors.
+GRAINS = {"id": 1, "position": 2, "radius": 1, "mass": 1, "velocity": 2, "spin": 1, "rotation": 1, "resultant": 2, "line": 1}
+CONTACTS = {"first": 1, "second": 1, "wall": 1, "force": 2, "point": 2, "overlap": 1, "slides": 1, "line": 1}
+REQUIRED = {"grains": ("id", "position", "radius"), "contacts": ("first", "second", "wall", "force")}
 
 
 def refused(path: str, text: str, line: int = 0) -> SceneError:
@@ -93,10 +95,6 @@ class Options:
     gravity: tuple[float, float] | None = None
     frames: str = ""
     walls_touch: bool = False
-    output: str = ""
-    overwrite: bool = False
-    quiet: bool = False
-    command: str = "diptych import"
     notes: list[str] = field(default_factory=list)
     used: set[str] = field(default_factory=set)  # options that had an effect
     wall_tables: list[Any] = field(default_factory=list)  # Tables that a reader found among its files
@@ -119,6 +117,29 @@ class Options:
         """Tells the user about data that were left out or changed; once."""
         if text not in self.notes:
             self.notes.append(text)
+
+
+def completed(frame: Frame, kind: str) -> dict[str, np.ndarray]:
+    """All arrays of the "grains" or "contacts" of a frame as numbers; those that it lacks are nan, lines 0.
+
+    Raises ValueError for an array that is missing or has another shape, and for forces that are not finite.
+    """
+    what, given, axes = f"{kind} of frame {frame.name}", getattr(frame, kind), GRAINS if kind == "grains" else CONTACTS
+    if given is None:
+        given = {name: np.empty((0, 2)[:axes[name]]) for name in REQUIRED[kind]}
+    for name in REQUIRED[kind]:
+        if name not in given:
+            raise ValueError(f"{what} lacks '{name}'")
+    shape, full = (len(given[REQUIRED[kind][0]]), 2), {}
+    for name, n_axes in axes.items():
+        values = np.asarray(given.get(name, np.full(shape[:n_axes], 0 if name == "line" else np.nan)), dtype=float)
+        if values.shape != shape[:n_axes]:
+            raise ValueError(f"{what}['{name}']: an array of shape {shape[:n_axes]} is needed, this one has {values.shape}")
+        full[name] = values
+    if "force" in full:
+        refuse_where(frame.contact_file, ~np.isfinite(full["force"]).all(axis=1), full["line"],
+                     lambda k: f"frame {frame.name}: a force is not finite")
+    return full
 
 
 def contacts_of(first: Any, second: Any, force: Any, wall: Any = -1, **more: Any) -> dict[str, np.ndarray]:

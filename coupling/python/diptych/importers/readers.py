@@ -1,15 +1,17 @@
 # diptych: readers by their names, and the frames that they return
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Reads files with the reader of a format. The compiled module checks the frames."""
+"""Reads files with the reader of a format, and checks them."""
 
 import importlib
-import json
 import os
 from typing import Any, Callable, Sequence
 
 from .. import _diptych
+from ..arrays import plain
 from ..errors import SceneError
+from .arrival import arrive
 from .frames import CONTACTS, GRAINS, Frame, Options, refused
+from .grain_results import results_of
 from .walls import add_wall_tables
 
 Reader = Callable[[Options], "list[Frame]"]
@@ -19,7 +21,7 @@ registered: dict[str, Reader] = {}
 
 
 def register(name: str) -> Callable[[Reader], Reader]:
-    """Decorator: makes a function the reader of a format. main() and read() then know the name."""
+    """Decorator: makes a function the reader of a format. The command and read() then know the name."""
     def keep(reader: Reader) -> Reader:
         registered[name] = reader
         return reader
@@ -31,8 +33,9 @@ def _reader(name: str) -> Reader:
         return registered[name]
     if name in _MODULES:
         return importlib.import_module("." + _MODULES[name], __package__).read
-    raise SceneError(f"import {name}: unknown format; known are {', '.join([*_MODULES, *registered])}, or a Python file that "
-                     "registers a reader")
+    known = [*_MODULES, *registered]
+    raise SceneError(f"import {name}: unknown format; known are {', '.join(known)} (the nearest is "
+                     f"'{_diptych.nearest_name(name, known)}'), or a Python file that registers a reader")
 
 
 def _selected(frames: list[Frame], text: str) -> list[Frame]:
@@ -96,4 +99,11 @@ def read(format: str, files: Sequence[str], **options: Any) -> list[Frame]:
 def check(format: str, files: Sequence[str], **options: Any) -> dict[str, Any]:
     """Reads and checks files without writing: the content of import.json as a dict. Raises SceneError."""
     given = Options([str(file) for file in files], **options)
-    return json.loads(_diptych.check_frames(format, read_frames(format, given), given.notes, given))
+    return check_frames(format, read_frames(format, given), given)
+
+
+def check_frames(format: str, frames: Sequence[Frame], options: Options) -> dict[str, Any]:
+    """The same for frames of your own."""
+    arrival = arrive(format, frames, options)
+    results_of(arrival)
+    return plain(arrival.record())

@@ -15,9 +15,7 @@ import numpy as np
 from ... import _diptych
 from ...errors import SceneError
 from ...homogenisation import Homogenised, homogenise
-from ...importers.command import format_of
-from ...importers.frames import Options as ImportOptions
-from ...importers.readers import read_frames
+from ..exchange.imports import import_files, import_options
 from ..runs.engine import Options, say, tell
 from ..runs.folders import Folder, draw, write_json, write_text
 
@@ -36,18 +34,10 @@ def _source(line: argparse.Namespace) -> tuple[str, str]:
     if not os.path.isfile(os.path.join(grains, "discrete.h5")):
         raise SceneError(f"{line.target}: holds no discrete.h5. Give a folder of `diptych run`, `discrete` or `import`; or a FORMAT "
                          "of `diptych import` and FILES")
-    for name, value in vars(line).items():
-        if name in ImportOptions.__dataclass_fields__ and value and name not in ("command", "files", "output", "overwrite", "quiet"):
+    for name, value in vars(import_options(line)).items():
+        if value:
             raise SceneError(f"homogenise {line.target}: --{name.replace('_', '-')} has no effect on a folder; it is for FORMAT FILES")
     return line.output or grains + "_homogenised", grains
-
-
-def _import(line: argparse.Namespace, folder: str, options: Options) -> None:
-    given = {name: value for name, value in vars(line).items() if name in ImportOptions.__dataclass_fields__}
-    own = ImportOptions(**{**given, "output": folder, "overwrite": False, "command": shlex.join(["diptych", *options.words])})
-    format = format_of(line.target)
-    frames = read_frames(format, own)
-    _diptych.import_frames(format, frames, own.notes, own)
 
 
 def _write_fields(folder: str, found: Homogenised) -> None:
@@ -96,7 +86,7 @@ def run_homogenise(line: argparse.Namespace, options: Options) -> None:
             _diptych.require_usable(folder, False, True)
             locked.set_aside([("the folder with the grains", line.target), *(("the file", file) for file in line.files)])
         if line.files:
-            _import(line, grains, options)
+            import_files(line.target, import_options(line), grains, options)
         found = homogenise(grains, line.grid)
         found.table().to_csv(os.path.join(folder, "homogenised.csv.part"), index_label="frame")
         os.replace(os.path.join(folder, "homogenised.csv.part"), os.path.join(folder, "homogenised.csv"))

@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import json
-import math
 import os
 import shutil
 from collections import Counter
@@ -17,7 +16,7 @@ import h5py
 import numpy as np
 
 from ... import _diptych
-from ...arrays import Interval
+from ...arrays import plain
 from ...errors import NotConverged, SceneError, Stopped
 from ...files import part_of, read_json
 from .engine import (KEPT_OPEN, WRONG_INPUT, Options, Outcome, Run, complain, execute, last_words, n_seats, say)
@@ -71,19 +70,6 @@ def write_text(path: str, text: str) -> None:
     """Writes PATH.part and renames it."""
     with part_of(path) as part, open(part, "w", encoding="utf-8") as file:
         file.write(text)
-
-
-def plain(value: Any) -> Any:
-    """The value as JSON has it: NaN is null, an interval an object."""
-    if isinstance(value, Interval):
-        return plain(value._asdict())
-    if isinstance(value, Mapping):
-        return {key: plain(entry) for key, entry in value.items()}
-    if isinstance(value, (list, tuple, np.ndarray)):
-        return [plain(entry) for entry in value]
-    if isinstance(value, np.generic):
-        return plain(value.item())
-    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def write_json(path: str, record: Mapping[str, Any], indent: int | None = 1) -> None:

@@ -1,0 +1,121 @@
+# diptych: the command `import`
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Frames of another code, checked and stored like results of the grains."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import os
+import resource
+import runpy
+import shlex
+import signal
+import time
+import traceback
+from typing import Any
+
+from ... import _diptych
+from ...arrays import plain
+from ...errors import SceneError, Stopped
+from ...importers.arrival import Arrival, arrive
+from ...importers.frames import Options as ImportOptions
+from ...importers.grain_results import facts_of, results_of, scene_of
+from ...importers.readers import read_frames, registered
+from ..runs.engine import Options, complain, say
+from ..runs.folders import Folder, write_json, write_text
+
+LAYOUT = "%-18.18s %8s %7s %9s %9s %10s %10s %10s %10s %14s %12s %13s"
+HEAD = ("frame", "strain %", "grains", "contacts", "on walls", "solid fr.", "stress xx", "yy", "xy", "walls diff %",
+        "balance rms", "overlap/d")
+
+
+def import_options(line: argparse.Namespace) -> ImportOptions:
+    """The options of an import among the words."""
+    known = ImportOptions.__dataclass_fields__
+    return ImportOptions(**{name: value for name, value in vars(line).items() if name in known})
+
+
+def _format_of(word: str) -> str:
+    """The name of a format: the word itself, or that of the reader that a Python file registers. Raises SceneError."""
+    if not word.endswith(".py"):
+        return word
+    runpy.run_path(word)
+    if not registered:
+        raise SceneError(f"{word} registers no reader; write @importers.register('NAME') above the function that "
+                         "takes the options and returns frames")
+    return next(reversed(registered))
+
+
+def _read(word: str, given: ImportOptions) -> Arrival:
+    try:
+        format = _format_of(word)
+        return arrive(format, read_frames(format, given), given)
+    except ValueError as error:
+        if word.endswith(".py") and not isinstance(error, SceneError):
+            traceback.print_exc()  # shows the line of the user's reader
+        raise
+
+
+def _say_checks(arrival: Arrival, options: Options) -> None:
+    def cell(value: float, format: str) -> str:
+        return format % value if math.isfinite(value) else "-"
+
+    say(options, LAYOUT % HEAD)
+    for c in arrival.checks:
+        on_walls = sum(c[side + "_contacts"] for side in ("lower", "upper", "left", "right"))
+        (xx, xy), (yx, yy) = c["contact_stress"]
+        say(options, LAYOUT % (
+            c["frame"], cell(100 * c["axial_strain"], "%.4f"), c["grains"], c["contacts"], on_walls,
+            cell(c["solid_fraction"], "%.4f"), cell(xx, "%.6g"), cell(yy, "%.6g"), cell(0.5 * (xy + yx), "%.4g"),
+            cell(100 * c["stress_difference"], "%.2g"), cell(c["balance_rms"], "%.2g"),
+            cell(c["largest_overlap"], "%.2g")))
+    say(options, "balance: forces on each grain minus its net force in the files, over the mean contact force"
+        if arrival.checks[-1]["balance_against_resultants"] else
+        "balance: forces on each grain, over the mean contact force (the files hold no net forces, so accelerations "
+        "count as imbalance)")
+    for text in arrival.remarks:
+        say(options, f"note: {text}")
+    for text in arrival.lacking:
+        say(options, f"not in the files: {text}")
+    for text in arrival.doubtful:
+        complain(f"diptych import: warning: {text}")
+
+
+def import_files(word: str, given: ImportOptions, folder: str, options: Options) -> None:
+    """Imports files with the reader of a format, or of a Python file. Writes the files of the grains, import.json and
+    provenance.json; from two frames on also scene.prm. Raises SceneError, and then writes nothing."""
+    began = time.perf_counter(), time.process_time()
+    _diptych.require_usable(folder, False, options.overwrite, False)
+    arrival = _read(word, given)
+    results = results_of(arrival)
+    is_loading = len(results.snapshots) > 1
+    scene = scene_of(arrival, results, given.pressure) if is_loading else ""
+    with Folder(folder) as locked:
+        if options.overwrite and not _diptych.is_empty_folder(folder):
+            locked.set_aside([("the file", file) for file in given.files])
+        # first: a killed import is recognised as one
+        write_json(os.path.join(folder, "import.json"), arrival.record(), 2)
+        _diptych.write_grains(results, folder)
+        if scene:
+            write_text(os.path.join(folder, "scene.prm"), scene)
+        cost = ("import", time.perf_counter() - began[0], time.process_time() - began[1],
+                resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
+        origin: Any = (os.path.basename(os.path.normpath(folder)), [1], shlex.join(["diptych", *options.words]))
+        _diptych.record_phase(folder, origin, cost)
+        _diptych.record_grains(folder, json.dumps(plain(facts_of(arrival, results))))
+    _say_checks(arrival, options)
+    say(options, f"written to {folder}; both panels: diptych run {os.path.join(folder, 'scene.prm')}" if scene else
+        f"written to {folder}; one frame is no loading, so there is no scene")
+
+
+def _stop(*_: Any) -> None:
+    raise Stopped("import: stopped on request")
+
+
+def run_import(line: argparse.Namespace, options: Options) -> None:
+    """The command `diptych import`."""
+    for each in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(each, _stop)
+    import_files(line.format, import_options(line), line.output, options)
