@@ -22,8 +22,8 @@ DRAWINGS = {
 def draw(what, folder, *next_folder):
     """Draws the page of a folder, report.html, or another picture. The old one stays until the new one is complete.
 
-    Raises InputError, with the file, if a file of the folder is missing, broken or has another format; OSError if a file cannot be
-    written; ImportError if a module is missing.
+    Raises InputError, with the file, if a file of the folder is missing, broken or has another format; OSError if a
+    file cannot be written; ImportError if a module is missing.
     """
     module, inputs = DRAWINGS[what]
     try:
@@ -36,8 +36,8 @@ def draw(what, folder, *next_folder):
     except InputError:
         raise
     except ImportError as error:
-        raise ImportError(f"{sys.executable} lacks a module: {error}. Install python3-h5py, python3-matplotlib, python3-jinja2 and "
-                          "python3-meshio (Debian)") from error
+        raise ImportError(f"{sys.executable} lacks a module: {error}. Install python3-h5py, python3-matplotlib, "
+                          "python3-jinja2 and python3-meshio (Debian)") from error
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         raise InputError(f"{folder}: one of {inputs} has contents that this version does not write: "
                          f"{type(error).__name__}: {error}") from error

@@ -1,7 +1,7 @@
 # diptych: the program `diptych` runs python3 -m diptych.report WHAT DIR [NEXT] for pages and pictures
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Exit codes: 0 done, 2 wrong input (usage, missing or broken file, another format), 4 a module is missing or a file cannot be
-written."""
+"""Exit codes: 0 done, 2 wrong input (usage, missing or broken file, another format), 4 a module is missing or a file
+cannot be written."""
 
 import gc
 import sys

@@ -8,13 +8,16 @@ from scipy.integrate import trapezoid
 from .style import CONTINUUM, FAINT, GRAINS, INK, ruled, svg
 from ..data.calibration import label, numbers
 
-CURVES = {"stress_ratio": ("stress_ratio", "stress ratio t/s", 1), "volumetric_strain": ("volume", "volumetric strain, %", 100)}
-KINDS = {"stress_ratio": "t/s", "volumetric_strain": "volume", "ln_width": "ln width", "rotation_profile": "rotation profile"}
+CURVES = {"stress_ratio": ("stress_ratio", "stress ratio t/s", 1),
+          "volumetric_strain": ("volume", "volumetric strain, %", 100)}
+KINDS = {"stress_ratio": "t/s", "volumetric_strain": "volume", "ln_width": "ln width",
+         "rotation_profile": "rotation profile"}
 MARKS = {"stress_ratio": "o", "volumetric_strain": "s", "ln_width": "D", "rotation_profile": "^"}
 
 
 def curve(path, kind, model):
-    """Data, as mean of the grains or measured, and the model before and after, each with two deviations of one sample."""
+    """Data, as mean of the grains or measured, and the model before and after, each with two deviations of one
+    sample."""
     figure = Figure(figsize=(4.5, 3.1))
     axes = ruled(figure.add_axes([0.15, 0.16, 0.825, 0.8]))
     label = draw_curve(axes, path, kind, model)
@@ -28,16 +31,21 @@ def draw_curve(axes, path, kind, model):
     x = 100 * numbers(path["progress"])
     low, high = scale * numbers(path[name + "_low"]), scale * numbers(path[name + "_high"])
     if np.isfinite(low).any():
-        axes.fill_between(x, low, high, color=GRAINS, alpha=0.18, linewidth=0, label="grains, ± 2 deviations of a sample")
+        axes.fill_between(x, low, high, color=GRAINS, alpha=0.18, linewidth=0,
+                          label="grains, ± 2 deviations of a sample")
     measured = [o for o in path["observables"] if path["curve"] and o["kind"] == kind and o["mean"] is not None]
     if measured:
-        middle, mean, deviation = (numbers(column) for column in zip(*[(50 * (o["from"] + o["to"]), o["mean"], o["deviation"]) for o in measured]))
-        axes.errorbar(middle, scale * mean, 2 * scale * deviation, fmt="none", ecolor=GRAINS, label="measured, ± 2 deviations")
-    axes.plot(x, scale * numbers(path[name]), color=GRAINS, label="measured" if path["curve"] else f"grains, mean of {len(path['seeds'])}")
+        middle = [50 * (o["from"] + o["to"]) for o in measured]
+        mean, deviation = (numbers([o[key] for o in measured]) for key in ("mean", "deviation"))
+        axes.errorbar(middle, scale * mean, 2 * scale * deviation, fmt="none", ecolor=GRAINS,
+                      label="measured, ± 2 deviations")
+    axes.plot(x, scale * numbers(path[name]), color=GRAINS,
+              label="measured" if path["curve"] else f"grains, mean of {len(path['seeds'])}")
     if f"{name}_after_low" in path:
-        axes.fill_between(x, *(scale * numbers(path[f"{name}_after_{end}"]) for end in ("low", "high")), color=CONTINUUM, alpha=0.15, linewidth=0,
-                          label="calibrated, ± 2 deviations of a sample")
-    for when, look in (("before", dict(color=FAINT, linestyle=(0, (2, 1.5)))), ("after", dict(color=CONTINUUM, linestyle=(0, (5, 1.5))))):
+        axes.fill_between(x, *(scale * numbers(path[f"{name}_after_{end}"]) for end in ("low", "high")),
+                          color=CONTINUUM, alpha=0.15, linewidth=0, label="calibrated, ± 2 deviations of a sample")
+    for when, look in (("before", dict(color=FAINT, linestyle=(0, (2, 1.5)))),
+                       ("after", dict(color=CONTINUUM, linestyle=(0, (5, 1.5))))):
         y = scale * numbers(path[f"{name}_{when}"])
         if len(y) == len(x):
             axes.plot(x, y, label=f"{model}, before" if when == "before" else f"{model}, calibrated", **look)
@@ -49,7 +57,8 @@ def draw_curve(axes, path, kind, model):
 
 def residuals(path):
     """(model - data) / standard deviation of the means."""
-    entries = [o for o in path["observables"] if o["after"] is not None and o["mean"] is not None and o["deviation_of_mean"]]
+    entries = [o for o in path["observables"] if o["after"] is not None and o["mean"] is not None
+               and o["deviation_of_mean"]]
     if not entries:
         return None
     figure = Figure(figsize=(4.5, 3.1))
@@ -59,7 +68,8 @@ def residuals(path):
     for kind, mark in MARKS.items():
         of_kind = [o for o in entries if o["kind"] == kind]
         for counts in (True, False):
-            points = [(50 * (o["from"] + o["to"]), (o["after"] - o["mean"]) / o["deviation_of_mean"]) for o in of_kind if o["counts"] == counts]
+            points = [(50 * (o["from"] + o["to"]), (o["after"] - o["mean"]) / o["deviation_of_mean"]) for o in of_kind
+                      if o["counts"] == counts]
             if points:
                 axes.plot(*zip(*points), mark, color=INK, markersize=5, markerfacecolor=INK if counts else "white",
                           label=KINDS[kind] + ("" if counts else ", not fitted"))
@@ -70,30 +80,36 @@ def residuals(path):
 
 def discrepancy(path):
     """model - data of t/s and volume with two deviations of the means, and the estimated discrepancy as a band."""
-    kinds = [kind for kind in CURVES if any(o["kind"] == kind and o["discrepancy"] is not None for o in path["observables"])]
+    kinds = [kind for kind in CURVES
+             if any(o["kind"] == kind and o["discrepancy"] is not None for o in path["observables"])]
     if not kinds:
         return None
     figure = Figure(figsize=(4.5, 0.5 + 1.9 * len(kinds)), layout="constrained")
     for axes, kind in zip(np.atleast_1d(figure.subplots(len(kinds), 1, sharex=True)), kinds):
         scale = CURVES[kind][2]
-        columns = [(50 * (o["from"] + o["to"]), *(scale * numbers([o["after"], o["mean"], o["deviation_of_mean"], o["discrepancy"], o["discrepancy_deviation"]])))
-                   for o in path["observables"] if o["kind"] == kind and o["discrepancy"] is not None]
-        x, after, mean, deviation, middle, spread = np.array(columns, dtype=float).T
+        entries = [o for o in path["observables"] if o["kind"] == kind and o["discrepancy"] is not None]
+        x = np.array([50 * (o["from"] + o["to"]) for o in entries])
+        after, mean, deviation, middle, spread = (scale * numbers([o[key] for o in entries]) for key in (
+            "after", "mean", "deviation_of_mean", "discrepancy", "discrepancy_deviation"))
         ruled(axes).axhline(0, color=FAINT, linewidth=0.8)
-        axes.fill_between(x, middle - 1.96 * spread, middle + 1.96 * spread, color=CONTINUUM, alpha=0.2, linewidth=0, label="discrepancy, 95 %")
+        axes.fill_between(x, middle - 1.96 * spread, middle + 1.96 * spread, color=CONTINUUM, alpha=0.2, linewidth=0,
+                          label="discrepancy, 95 %")
         axes.plot(x, middle, color=CONTINUUM, label="discrepancy, mean")
-        axes.errorbar(x, after - mean, 2 * deviation, fmt="o", color=INK, markersize=3.5, linewidth=0.8, label="model − data, ± 2 deviations")
+        axes.errorbar(x, after - mean, 2 * deviation, fmt="o", color=INK, markersize=3.5, linewidth=0.8,
+                      label="model − data, ± 2 deviations")
         axes.set_ylabel(KINDS[kind] + (", %" if scale == 100 else ""))
     axes.set_xlabel("axial strain, %")
     figure.axes[0].legend(loc="lower center", bbox_to_anchor=(0.5, 1), ncol=3, fontsize=7, columnspacing=1)
-    return svg(figure, f"Discrepancy of the law over strain on {path['name']}: estimate with its band, and the residuals.")
+    return svg(figure,
+               f"Discrepancy of the law over strain on {path['name']}: estimate with its band, and the residuals.")
 
 
 def corner(calibration):
     """The posterior: a histogram of each parameter with its prior, draws of each pair, and their correlation."""
     entries, n = calibration.parameters, len(calibration.parameters)
-    draws = [np.log10(p["draws"]) if p["coordinate"] == "logarithm" else numbers(p["draws"]) for p in entries]
-    ends = [np.log10([p["low"], p["start"], p["high"]]) if p["coordinate"] == "logarithm" else numbers([p["low"], p["start"], p["high"]]) for p in entries]
+    scales = [np.log10 if p["coordinate"] == "logarithm" else numbers for p in entries]
+    draws = [scale(p["draws"]) for scale, p in zip(scales, entries)]
+    ends = [scale([p["low"], p["start"], p["high"]]) for scale, p in zip(scales, entries)]
     size = 1.45 * n + 1.2
     figure = Figure(figsize=(size, size))
     grid = figure.subplots(n, n, squeeze=False)
@@ -110,7 +126,8 @@ def corner(calibration):
             axes.plot(draws[j], draws[i], ".", color=CONTINUUM, markersize=1.6, alpha=0.6)
             axes.set_ylim(ends[i][0], ends[i][2])
         else:
-            axes.text(0.5, 0.5, f"{np.corrcoef(draws[i], draws[j])[0, 1]:.1f}".replace("-", "−"), ha="center", va="center", transform=axes.transAxes)
+            axes.text(0.5, 0.5, f"{np.corrcoef(draws[i], draws[j])[0, 1]:.1f}".replace("-", "−"), ha="center",
+                      va="center", transform=axes.transAxes)
         axes.set(xlim=(low, high), xticks=[], yticks=[])
         for edge in ("top", "right") if i >= j else ("top", "right", "left", "bottom"):
             axes.spines[edge].set_visible(False)
@@ -118,8 +135,10 @@ def corner(calibration):
             if shown:
                 name = label(entries[k]).replace("_", " ").replace(" angle", "\nangle").replace(" length", "\nlength")
                 name = name.replace(" modulus", "\nmodulus").replace(" strain", "\nstrain")
-                axis.set_label_text(name + {"share_of": ", share", "drop_from": ", drop"}.get(entries[k]["coordinate"], ""))
+                axis.set_label_text(name
+                                    + {"share_of": ", share", "drop_from": ", drop"}.get(entries[k]["coordinate"], ""))
                 axis.set_ticks([ends[k][0], ends[k][2]], [f"{entries[k][end]:g}" for end in ("low", "high")])
-                for text, side in zip(axis.get_ticklabels(), (("left", "right"), ("bottom", "top"))[axis is axes.yaxis]):
+                for text, side in zip(axis.get_ticklabels(),
+                                      (("left", "right"), ("bottom", "top"))[axis is axes.yaxis]):
                     text.set(**{"verticalalignment" if axis is axes.yaxis else "horizontalalignment": side})
     return svg(figure, "Posterior of the parameters: histograms with the prior, draws of every pair, correlations.")

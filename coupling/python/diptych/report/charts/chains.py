@@ -18,7 +18,8 @@ def distribution(increment):
     for key, colour, dashes in (("inside", GRAINS, "-"), ("outside", INK, (0, (5, 1.5)))):
         values = np.array(chains[key]["values"], dtype=float)
         keep = np.isfinite(values) & (above > 0)
-        axes.plot(values[keep], above[keep], color=colour, linestyle=dashes, label=f"{key} ({chains[key]['grains']} grains)")
+        axes.plot(values[keep], above[keep], color=colour, linestyle=dashes,
+                  label=f"{key} ({chains[key]['grains']} grains)")
     axes.axvline(1, color=INK, linewidth=0.7, linestyle=":")
     logarithmic(axes)
     axes.set(xlabel="major principal stress of a grain / mean", ylabel="share of grains above", xlim=(0, None))
@@ -38,8 +39,8 @@ def traction(increment):
             edges, values = (np.array(record[name], dtype=float) for name in ("edges_d", part))
             spread = plain(record.get("variation_" + part))
             label = PANEL_NAMES[panel] + ("" if spread is None else f": {100 * spread:.0f} %")
-            axes.stairs(values, edges, baseline=None, color=PANEL_COLOURS[panel], linestyle=PANEL_LINES[panel], linewidth=1.4,
-                        label=label)
+            axes.stairs(values, edges, baseline=None, color=PANEL_COLOURS[panel], linestyle=PANEL_LINES[panel],
+                        linewidth=1.4, label=label)
             if record.get(part + "_error"):  # only of grains
                 middle, error = (edges[1:] + edges[:-1]) / 2, np.array(record[part + "_error"], dtype=float)
                 known = np.isfinite(error) & np.isfinite(values)

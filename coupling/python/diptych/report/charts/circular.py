@@ -29,10 +29,12 @@ def pair(increment):
 
 
 def _sampling(circle):
-    """Explains the bars. In equilibrium, neighbouring blocks compensate each other, so the difference is smaller than the bars."""
+    """Explains the bars. In equilibrium, neighbouring blocks compensate each other, so the difference is smaller than
+    the bars."""
     alone = plain(circle.get("independent_blocks"))
-    return "" if alone is None else ("Bars: standard errors for independent blocks along the diameter. Independent blocks would "
-                                     f"differ from the mean stress by {100 * alone:.1f}\u00a0%.")
+    return "" if alone is None else (
+        "Bars: standard errors for independent blocks along the diameter. Independent blocks would differ from the "
+        f"mean stress by {100 * alone:.1f}\u00a0%.")
 
 
 def _columns(circle):
@@ -48,9 +50,10 @@ def _columns(circle):
 def _panel(increment, panel, columns, spans):
     figure, both = frame("circular", (4.5, 3.9), [[0.14, 0.555 - 0.435 * k, 0.835, 0.375] for k in range(len(PARTS))])
     for k, ((part, label), axes) in enumerate(zip(PARTS, both)):
-        axes.errorbar(columns["angles_deg"], columns[part], columns[part + "_error"], fmt="o", markersize=3, elinewidth=0.8,
-                      color=PANEL_COLOURS[panel], label="across the diameter")
-        axes.plot(columns["angles_deg"], columns["predicted_" + part], color=INK, linewidth=1.3, label="from the mean stress")
+        axes.errorbar(columns["angles_deg"], columns[part], columns[part + "_error"], fmt="o", markersize=3,
+                      elinewidth=0.8, color=PANEL_COLOURS[panel], label="across the diameter")
+        axes.plot(columns["angles_deg"], columns["predicted_" + part], color=INK, linewidth=1.3,
+                  label="from the mean stress")
         axes.set(ylabel=label, xlim=(0, 180), ylim=spans[part], xticks=range(0, 181, 30))
         axes.tick_params(labelbottom=k == 1)
         if k == 0:

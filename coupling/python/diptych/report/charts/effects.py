@@ -19,10 +19,11 @@ BESIDE = 4  # points between the samples and their mean
 
 
 def over_parameter(study, family, places, label):
-    """Means with 95 % intervals of one quantity over the first parameter of a family, samples as dots. One line per panel and per value
-    of the other parameters. places: {panel: index of the quantity}. None without values."""
+    """Means with 95 % intervals of one quantity over the first parameter of a family, samples as dots. One line per
+    panel and per value of the other parameters. places: {panel: index of the quantity}. None without values."""
     across, lines = family["axes"][0], _lines(study, family)
-    below = 0.5 if _are_numbers(across) else 0.45 + 0.033 * max(len(p["label"]) for p in across["points"])  # inches, for long names
+    # inches, for long names
+    below = 0.5 if _are_numbers(across) else 0.45 + 0.033 * max(len(p["label"]) for p in across["points"])
     height = 2.8 + below
     figure = Figure(figsize=(5.2, height))
     axes = ruled(figure.add_axes([0.17, below / height, 0.81, 2.67 / height]))
@@ -42,9 +43,10 @@ def over_parameter(study, family, places, label):
                       for points_right in (shift, shift - BESIDE))
         for place, point in points:
             values = [v for v in point["quantities"][k]["values"] if v is not None]
-            axes.plot([positions[place]] * len(values), values, "o", color=colour, transform=beside, markersize=3, alpha=0.6,
-                      markeredgewidth=0)
-        look = {"color": colour, "transform": at, "markerfacecolor": "white" if panel == "continuum" and len(names) > 1 else colour}
+            axes.plot([positions[place]] * len(values), values, "o", color=colour, transform=beside, markersize=3,
+                      alpha=0.6, markeredgewidth=0)
+        look = {"color": colour, "transform": at,
+                "markerfacecolor": "white" if panel == "continuum" and len(names) > 1 else colour}
         _line([(positions[place], point["quantities"][k]) for place, point in points], axes, mark, dashes, look,
               ", ".join(text for text in (word, name) if text))
     if list(places) == ["difference"]:
@@ -80,11 +82,13 @@ def _line(found, axes, mark, dashes, look, label):
     colour, shift = look["color"], look["transform"]
     for at, one in known:
         if one["low"] is not None:
-            axes.plot([at] * 2, [one["low"], one["high"]], "_-", color=colour, transform=shift, linewidth=1, markersize=5)
+            axes.plot([at] * 2, [one["low"], one["high"]], "_-", color=colour, transform=shift, linewidth=1,
+                      markersize=5)
 
 
 def _lines(study, family):
-    """{values of the other parameters: [(place on the first axis, point)]}. Parameters that move together are one line."""
+    """{values of the other parameters: [(place on the first axis, point)]}. Parameters that move together are one
+    line."""
     lines, others = {}, family["axes"][1:] if family["grid"] else []
     for _, point in study.of_family(family["name"]):
         name = ", ".join(f"{axis['name']} {label}" for axis, label in zip(others, point["labels"][1:]))

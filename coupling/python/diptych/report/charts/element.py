@@ -9,11 +9,14 @@ from .style import CONTINUUM, GRAINS, INK, PANEL_LINES, ROUND_OFF, THIRD, chart,
 CHARTS = {
     "stress_ratio": (1.0, "stress ratio t/s", "Stress ratio t/s of the mean stress."),
     "volumetric_strain": (100.0, "volumetric strain (%)", "Volumetric strain 1 − V/V₀; dilation is negative."),
-    "fabric_anisotropy": (1.0, "anisotropy a of the fabric", "Anisotropy a of the contact normals, in the density 1 + a cos 2(θ − θ₀)."),
-    "coordination": (1.0, "contacts per grain", "Mean number of force-carrying contacts per grain, without grains that have none."),
+    "fabric_anisotropy": (1.0, "anisotropy a of the fabric",
+                          "Anisotropy a of the contact normals, in the density 1 + a cos 2(θ − θ₀)."),
+    "coordination": (1.0, "contacts per grain",
+                     "Mean number of force-carrying contacts per grain, without grains that have none."),
     "mean_stress": (1.0, "mean stress s/P", "Mean stress s = (σ₁ + σ₂)/2 over the pressure P of the start."),
 }
-DIRECTIONS = (("grains_stress_direction", GRAINS, "o", "grains, σ₁"), ("grains_fabric_direction", THIRD, "^", "grains, contact normals"),
+DIRECTIONS = (("grains_stress_direction", GRAINS, "o", "grains, σ₁"),
+              ("grains_fabric_direction", THIRD, "^", "grains, contact normals"),
               ("law_stress_direction", CONTINUUM, "s", "law, σ₁"))
 
 
@@ -49,11 +52,11 @@ def _directions(element):
     figure, axes = chart(element, "direction (degrees)")
     for name, colour, mark, label in DIRECTIONS:
         if name in element.curves:
-            axes.plot(element.loading_variable.factor * element.curves["progress"], (element.curves[name] + 30) % 180 - 30, mark,
-                      color=colour, markersize=2.5, label=label)
+            axes.plot(element.loading_variable.factor * element.curves["progress"],
+                      (element.curves[name] + 30) % 180 - 30, mark, color=colour, markersize=2.5, label=label)
     axes.set(ylim=(-30, 150), yticks=range(-30, 151, 30))
     axes.set_xlim(left=0)
     axes.legend(loc="best")
     return (svg(figure, "Directions along the path, grains and law."),
-            "Directions from the horizontal: of the larger principal stress, and of most contact normals. They mean nothing where t/s or "
-            "the anisotropy vanish.")
+            "Directions from the horizontal: of the larger principal stress, and of most contact normals. They mean "
+            "nothing where t/s or the anisotropy vanish.")

@@ -15,7 +15,8 @@ BAND = 0.25  # opacity
 
 
 def differences(rows):
-    """Each difference over its margin, with both intervals. rows: [(label, verdict record)]. None without differences."""
+    """Each difference over its margin, with both intervals. rows: [(label, verdict record)]. None without
+    differences."""
     rows = [(label, v) for label, v in rows if v["difference"]["value"] is not None]
     if not rows:
         return None
@@ -31,13 +32,14 @@ def differences(rows):
             if None not in ends:
                 axes.plot([scale * x for x in ends], [k, k], color=INK, linewidth=width, solid_capstyle="butt")
         filled = verdict["verdict"] != "cannot tell"
-        axes.plot(scale * verdict["difference"]["value"], k, VERDICT_MARKS[verdict["verdict"]], color=INK, markersize=6.5,
-                  markerfacecolor=INK if filled else "white", markeredgewidth=1.2)
-    axes.set(yticks=range(len(rows)), yticklabels=[textwrap.fill(label, 28) for label, _ in rows], ylim=(len(rows) - 0.4, -0.6),
-             xlabel="(continuum − grains) / margin")
+        axes.plot(scale * verdict["difference"]["value"], k, VERDICT_MARKS[verdict["verdict"]], color=INK,
+                  markersize=6.5, markerfacecolor=INK if filled else "white", markeredgewidth=1.2)
+    axes.set(yticks=range(len(rows)), yticklabels=[textwrap.fill(label, 28) for label, _ in rows],
+             ylim=(len(rows) - 0.4, -0.6), xlabel="(continuum − grains) / margin")
     axes.set_xlim(*_limits(rows))
     axes.tick_params(axis="y", length=0)
-    return svg(figure, "Difference of the panels in units of its margin, with 90 % and 95 % intervals, one row per quantity: "
+    return svg(figure,
+               "Difference of the panels in units of its margin, with 90 % and 95 % intervals, one row per quantity: "
                + "; ".join(f"{label}: {verdict['verdict']}" for label, verdict in rows) + ".")
 
 
@@ -88,7 +90,8 @@ def curves(results, name, label, scale=1.0):
         across, members = results.loading_variable.factor * results.progress, curve["members"][:MOST_CURVES]
         axes.plot(across, scale * members.T, color=colour, linewidth=0.5, alpha=min(0.5, 8 / len(members)))
         known = np.isfinite(curve["low"]) & np.isfinite(curve["high"])
-        axes.fill_between(across, scale * curve["low"], scale * curve["high"], where=known, color=colour, alpha=BAND, linewidth=0)
+        axes.fill_between(across, scale * curve["low"], scale * curve["high"], where=known, color=colour, alpha=BAND,
+                          linewidth=0)
         axes.plot(across, scale * curve["mean"], color=colour, linewidth=1.8, linestyle=PANEL_LINES[panel],
                   label=PANEL_NAMES[panel])
     if not axes.lines:

@@ -1,7 +1,7 @@
 # diptych: charts of histories over the loading, both panels
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Every step from discrete.csv and continuum.csv, running means from comparison.h5, stages from comparison.json. Forces in P d
-(unit thickness)."""
+"""Every step from discrete.csv and continuum.csv, running means from comparison.h5, stages from comparison.json. Forces
+in P d (unit thickness)."""
 
 import numpy as np
 
@@ -16,10 +16,11 @@ RAW_WIDTH = {"discrete": 0.5, "continuum": 0.9}
 def figures(result):
     """List of (Picture or None, caption) in the order of the page."""
     return [
-        _both(result, ("stress_ratio", "stress_ratio_mean"), 1.0, "stress ratio t/s", "Stress ratio of the whole sample. Thin: "
-              f"every step; thick: mean over {result.averaging}. Open marks: stages, with 95 % intervals of the mean in time."),
-        _both(result, ("volumetric_strain", "volumetric_strain"), 100.0, "volumetric strain (%)", "Volumetric strain 1 − V/V₀, "
-              "every step; dilation is negative. Open marks: stages."),
+        _both(result, ("stress_ratio", "stress_ratio_mean"), 1.0, "stress ratio t/s",
+              f"Stress ratio of the whole sample. Thin: every step; thick: mean over {result.averaging}. Open marks: "
+              "stages, with 95 % intervals of the mean in time."),
+        _both(result, ("volumetric_strain", "volumetric_strain"), 100.0, "volumetric strain (%)",
+              "Volumetric strain 1 − V/V₀, every step; dilation is negative. Open marks: stages."),
         _platens(result),
         _platen_difference(result),
     ]
@@ -34,8 +35,8 @@ def _both(result, columns, scale, label, caption):
         if raw is not None and thick != every:
             axes.plot(*thin(across * raw[0], scale * raw[1]), color=colour, alpha=0.5, linewidth=RAW_WIDTH[panel])
         if mean is not None:
-            axes.plot(*thin(across * mean[0], scale * mean[1]), color=colour, linewidth=1.8, linestyle=PANEL_LINES[panel],
-                      label=PANEL_NAMES[panel])
+            axes.plot(*thin(across * mean[0], scale * mean[1]), color=colour, linewidth=1.8,
+                      linestyle=PANEL_LINES[panel], label=PANEL_NAMES[panel])
         if raw is None and mean is None:
             continue
         with_intervals(axes, [across * s.end for s in result.stages],
@@ -54,7 +55,8 @@ def _both(result, columns, scale, label, caption):
 
 
 def _platens(result):
-    caption = f"Vertical force of each platen on the sample. Thin: every step of the grains; thick: mean over {result.averaging}."
+    caption = ("Vertical force of each platen on the sample. Thin: every step of the grains; thick: mean over "
+               f"{result.averaging}.")
     figure, axes = chart(result, "vertical platen force (P d)")
     across, unit, drawn = result.loading_variable.factor, result.units.size("pressure length"), 0
     for panel, colour in PANEL_COLOURS.items():
@@ -74,8 +76,8 @@ def _platens(result):
 
 
 def _platen_difference(result):
-    caption = ("Relative difference of the vertical forces of both platens on the grains, |F_lower + F_upper| over their mean "
-               "magnitude. Moreau (1997) reports less than 1 %.")
+    caption = ("Relative difference of the vertical forces of both platens on the grains, |F_lower + F_upper| "
+               "over their mean magnitude. Moreau (1997) reports less than 1 %.")
     found = result.history("discrete", "platen_difference")
     if found is None or not (found[1] > 0).any():
         return None, caption

@@ -10,9 +10,12 @@ from ..data.numbers import plain, scaled
 
 WIDTH, TALLEST = 3.6, 4.6  # of a map, inches
 CURVES = (("t_over_s", 1.0, "stress ratio t/s", "Stress ratio of the sample."),
-          ("volumetric_strain", 100.0, "volumetric strain (%)", "Volumetric strain 1 − V/V₀ of the outline; dilation is negative."),
-          ("coordination_number", 1.0, "contacts per grain", "Mean number of force-carrying contacts per grain, rattlers included."),
-          ("anisotropy", 1.0, "anisotropy a of the fabric", "Anisotropy a of the contact normals, in the density 1 + a cos 2(θ − θ₀)."))
+          ("volumetric_strain", 100.0, "volumetric strain (%)",
+           "Volumetric strain 1 − V/V₀ of the outline; dilation is negative."),
+          ("coordination_number", 1.0, "contacts per grain",
+           "Mean number of force-carrying contacts per grain, rattlers included."),
+          ("anisotropy", 1.0, "anisotropy a of the fabric",
+           "Anisotropy a of the contact normals, in the density 1 + a cos 2(θ − θ₀)."))
 
 
 def maps(result):
@@ -24,10 +27,12 @@ def maps(result):
                        f"Mean stress s = (σ₁ + σ₂)/2{at}."),
                   _map(result, result.maps["t_over_s"], "cividis", "stress ratio t/s", f"Stress ratio t/s{at}.")]
     shown.append(_map(result, result.maps["solid_fraction"], "viridis", "solid fraction", f"Solid fraction{at}."))
-    for increment, name in ((result.increments[-1:], "shear_strain_increment"), ([result.whole], "shear_strain_since_start")):
+    for increment, name in ((result.increments[-1:], "shear_strain_increment"),
+                            ([result.whole], "shear_strain_since_start")):
         for one in filter(None, increment):
+            when = f"from {across.number(one['from'])} to {across.text(one['to'])}"
             shown.append(_map(result, 100 * result.maps[name], "viridis", "shear strain ε₁ − ε₂ (%)",
-                              f"Shear strain from {across.number(one['from'])} to {across.text(one['to'])}: {_bands_text(one)}.", one))
+                              f"Shear strain {when}: {_bands_text(one)}.", one))
     return shown
 
 
@@ -42,10 +47,12 @@ def _map(result, values, colours, label, caption, increment=None):
     scale = min((WIDTH - 0.2) / size[0], TALLEST / size[1])
     height = scale * size[1] + 1.05
     figure = Figure(figsize=(WIDTH, height))
-    axes = figure.add_axes([0.5 - scale * size[0] / WIDTH / 2, 1.0 / height, scale * size[0] / WIDTH, scale * size[1] / height])
+    axes = figure.add_axes([0.5 - scale * size[0] / WIDTH / 2, 1.0 / height, scale * size[0] / WIDTH,
+                            scale * size[1] / height])
     known = values[np.isfinite(values)]
     limits = np.percentile(known, (2, 98)) if len(known) else (0, 1)
-    cells = PolyCollection(result.polygons, array=np.ma.masked_invalid(values), cmap=colours, edgecolors="face", linewidths=0.3)
+    cells = PolyCollection(result.polygons, array=np.ma.masked_invalid(values), cmap=colours, edgecolors="face",
+                           linewidths=0.3)
     cells.get_cmap().set_bad(NO_VALUE)
     cells.set_clim(*limits)
     axes.add_collection(cells)
@@ -54,8 +61,8 @@ def _map(result, values, colours, label, caption, increment=None):
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
     axes.axis("off")
     _scale_bar(figure, scale, size[0], height)
-    bar = figure.colorbar(cells, cax=figure.add_axes([0.42, 0.66 / height, 0.53, 0.12 / height]), orientation="horizontal",
-                          extend="both")
+    bar = figure.colorbar(cells, cax=figure.add_axes([0.42, 0.66 / height, 0.53, 0.12 / height]),
+                          orientation="horizontal", extend="both")
     bar.set_label(label)
     bar.ax.locator_params(nbins=4)
     return svg(figure, f"Map: {caption}"), caption
@@ -120,4 +127,5 @@ def _bands(result, key, label):
     else:
         axes.set_ylim(bottom=0)
     return (svg(figure, f"{label} over {result.loading_variable.word}."),
-            f"{label[0].upper() + label[1:]}, at the end of each increment. Filled: the stronger band; open: the other one.")
+            f"{label[0].upper() + label[1:]}, at the end of each increment. Filled: the stronger band; "
+            "open: the other one.")

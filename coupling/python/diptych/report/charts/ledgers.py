@@ -20,15 +20,16 @@ def figures(result):
 
 
 def _energies(result):
-    caption = ("Energies since the start. Grains: work = friction + rolling resistance + impacts + change of kinetic energy; the accuracy table gives the residual. "
-               "Continuum: plastic work.")
+    caption = ("Energies since the start. Grains: work = friction + rolling resistance + impacts + change of kinetic "
+               "energy; the accuracy table gives the residual. Continuum: plastic work.")
     figure, axes = chart(result, "energy (P d²)")
     unit = result.units.size("pressure length^2")
     for panel, lines in ENERGIES.items():
         for name, label, colour, dashes in lines:
             found = result.history(panel, name)
             if found is not None and (found[1] != 0).any():
-                axes.plot(*thin(result.loading_variable.factor * found[0], found[1] / unit), color=colour, linestyle=dashes, label=label)
+                axes.plot(*thin(result.loading_variable.factor * found[0], found[1] / unit), color=colour,
+                          linestyle=dashes, label=label)
     if not axes.lines:
         return None, caption
     axes.set_xlim(left=0)
@@ -38,8 +39,9 @@ def _energies(result):
 
 
 def _kinetic_energy(result):
-    caption = ("Kinetic energy of the grains over M|V|²/4 (half of the mass moving with the platen). A median above 2 indicates solver "
-               "noise. Single peaks are rearrangements of the packing. The continuum is quasi-static and has no kinetic energy.")
+    caption = ("Kinetic energy of the grains over M|V|²/4 (half of the mass moving with the platen). A median above 2 "
+               "indicates solver noise. Single peaks are rearrangements of the packing. The continuum is quasi-static "
+               "and has no kinetic energy.")
     found = result.history("discrete", "kinetic_energy_ratio")
     if found is None or not (found[1] > 0).any():
         return None, caption
@@ -60,8 +62,8 @@ def _kinetic_energy(result):
 
 def solver(result):
     """(Picture or None, caption): sweeps and residual of every step."""
-    caption = ("Contact solver, every step: number of sweeps over the contacts, and the residual (natural map, relative), computed "
-               "outside the solver.")
+    caption = ("Contact solver, every step: number of sweeps over the contacts, and the residual (natural map, "
+               "relative), computed outside the solver.")
     sweeps, residual = (result.history("discrete", name) for name in ("sweeps", "residual"))
     if sweeps is None or residual is None:
         return None, caption
@@ -69,7 +71,8 @@ def solver(result):
     for k, ((progress, values), label) in enumerate(((sweeps, "sweeps"), (residual, "residual"))):
         axes = ruled(figure.add_axes([0.15, 0.6 - 0.43 * k, 0.825, 0.36]))
         good = values > 0
-        axes.plot(*thin(result.loading_variable.factor * progress[good], values[good]), color=PANEL_COLOURS["discrete"], linewidth=0.6)
+        axes.plot(*thin(result.loading_variable.factor * progress[good], values[good]), color=PANEL_COLOURS["discrete"],
+                  linewidth=0.6)
         axes.set(ylabel=label, ylim=decades(values[good]))
         logarithmic(axes)
         axes.set_xlim(left=0)

@@ -13,7 +13,8 @@ SECTORS = 24
 
 
 def roses(increment):
-    """[Picture]: share of contact normals in each sector over the isotropic share. Counts include both senses of a normal."""
+    """[Picture]: share of contact normals in each sector over the isotropic share. Counts include both senses of a
+    normal."""
     probes = increment.panel("discrete").get("probes") or []
     found = [(p, np.asarray(p["normals_24"], dtype=float)) for p in probes if len(p.get("normals_24") or []) == SECTORS]
     found = [(probe, SECTORS * counts / counts.sum()) for probe, counts in found if counts.sum() > 0]

@@ -26,7 +26,8 @@ def pair(increment):
         return Pair(None, None, "No band in this increment.")
     numbers = {panel: increment.panel(panel).get("profile") or {} for panel in PANEL_NAMES}
     limits = _limits(curves)
-    angles = [f"{PANEL_NAMES[panel].lower()} {signed(format(numbers[panel]['angle_deg'], '.1f'))}°" for panel in PANEL_NAMES
+    angles = [f"{PANEL_NAMES[panel].lower()} {signed(format(numbers[panel]['angle_deg'], '.1f'))}°"
+              for panel in PANEL_NAMES
               if "angle_deg" in numbers[panel]]
     return Pair(*[_panel(panel, curves[panel], numbers[panel], limits, increment.title) for panel in PANEL_NAMES],
                 caption=f"Profile across a band of inclination: {', '.join(angles)}; {increment.title}.")
@@ -40,7 +41,8 @@ def of_means(curves, title):
 
 def _curves(arrays, panel):
     start = f"profile/{panel}/"
-    found = {path.removeprefix(start): np.asarray(values, dtype=float) for path, values in arrays.items() if path.startswith(start)}
+    found = {path.removeprefix(start): np.asarray(values, dtype=float) for path, values in arrays.items()
+             if path.startswith(start)}
     return found if len(found.get("distance", ())) else {}
 
 
@@ -48,10 +50,12 @@ def _limits(curves):
     """{row: (low, high)} that hold both panels, with room for the legend."""
     limits = {}
     for name in ROWS:
-        drawn = [one[key] for one in curves.values() for key in (name, "spin") if key == name or name == "relative_rotation"]
+        keys = (name, "spin") if name == "relative_rotation" else (name,)
+        drawn = [one[key] for one in curves.values() for key in keys]
         known = np.concatenate([values[np.isfinite(values)] for values in drawn])
         margin = 0.08 * (np.ptp(known) or 1) if len(known) else 0.1
-        limits[name] = (known.min() - margin, known.max() + (6 if name == "relative_rotation" else 4) * margin) if len(known) else (0, 1)
+        room = (6 if name == "relative_rotation" else 4) * margin
+        limits[name] = (known.min() - margin, known.max() + room) if len(known) else (0, 1)
     return limits
 
 
@@ -62,11 +66,13 @@ def _panel(panel, curves, numbers, limits, title):
     for (name, (label, key, word)), axes in zip(ROWS.items(), every):
         value, low, high = curves[name].T
         if name == "relative_rotation":
-            axes.plot(x, curves["spin"][:, 0], color=INK, linewidth=0.9, linestyle=(0, (4, 2)), label="spin of the material")
+            axes.plot(x, curves["spin"][:, 0], color=INK, linewidth=0.9, linestyle=(0, (4, 2)),
+                      label="spin of the material")
         if np.isfinite(value).any():
             known = np.isfinite(low) & np.isfinite(high)
             axes.fill_between(x, low, high, where=known, color=colour, alpha=0.25, linewidth=0)
-            axes.plot(x, value, color=colour, marker=".", markersize=3.5, linewidth=1.2, label=_label(name, numbers.get(key), word))
+            axes.plot(x, value, color=colour, marker=".", markersize=3.5, linewidth=1.2,
+                      label=_label(name, numbers.get(key), word))
         else:
             axes.text(0.5, 0.5, NONE.get(name, CLASSICAL), transform=axes.transAxes, ha="center", color=INK)
         axes.axvline(0, color=FAINT, linewidth=0.7)
@@ -77,8 +83,8 @@ def _panel(panel, curves, numbers, limits, title):
             axes.legend(loc="upper left", handlelength=1.2, fontsize=6.5)
     every[0].set_title(PANEL_NAMES[panel], loc="left", fontweight="bold")
     every[-1].set_xlabel("distance from the band / d")
-    return svg(figure, f"{PANEL_NAMES[panel]}: rotation minus spin, couple stress, solid fraction and fluctuation of velocity over the "
-               f"distance from the band, with 95 % intervals, {title}.")
+    return svg(figure, f"{PANEL_NAMES[panel]}: rotation minus spin, couple stress, solid fraction and fluctuation of "
+               f"velocity over the distance from the band, with 95 % intervals, {title}.")
 
 
 def _label(name, number, word):

@@ -10,14 +10,15 @@ LOOKS = ((GRAINS, "o", "-"), (INK, "s", (0, (5, 1.5))), (THIRD, "^", (0, (2, 1.2
 
 
 def figures(study, stress="mean stress s (P)"):
-    """List of (Picture, caption): values at points and scatter over cells, against the width of the kernel and the size of the cells.
-    stress: label of s."""
+    """List of (Picture, caption): values at points and scatter over cells, against the width of the kernel and the size
+    of the cells. stress: label of s."""
     shaded = " Shaded: the plateau." if study.get("plateau_d") else ""
     found = []
     for rows, key, words in ((study.get("kernel") or [], "width_d", "standard deviation of the kernel (d)"),
                              (study.get("cells") or [], "size_d", "size of the cells (d)")):
         rows = [row for row in rows if plain(row.get(key))]
-        found.append((_points(rows, key, words, study, stress), f"Stress of the grains at points, against the {words[:-4]}.{shaded}"))
+        found.append((_points(rows, key, words, study, stress),
+                      f"Stress of the grains at points, against the {words[:-4]}.{shaded}"))
         found.append((_scatter(rows, key, words, study),
                       f"Scatter of s and t over the sample, relative to the mean, against the {words[:-4]}.{shaded}"))
     return [(picture, caption) for picture, caption in found if picture]

@@ -33,7 +33,8 @@ def _panel(increment, panel, profile, box, angle):
     middle, colour = (edges[1:] + edges[:-1]) / 2, PANEL_COLOURS[panel]
     figure, (axes,) = frame("strips", (4.5, 3.3), [[0.14, 0.15, 0.84, 0.76]])
     axes.grid(False)
-    axes.stairs(np.nan_to_num(mean), edges, fill=True, color=colour, alpha=0.35, linewidth=0, label="mean of each strip")
+    axes.stairs(np.nan_to_num(mean), edges, fill=True, color=colour, alpha=0.35, linewidth=0,
+                label="mean of each strip")
     across = np.tile([box[2], box[3], np.nan], len(edges))
     axes.plot(np.repeat(edges, 3), across, color="white", linewidth=0.8)  # strips apart
     axes.errorbar(middle, mean, deviation, fmt="none", ecolor=colour, elinewidth=1, capsize=2,
@@ -63,11 +64,13 @@ def _turn(band, angle):
 
 
 def _draw_fit(axes, band, box, background):
-    """u = a + b x + (jump/2) tanh((x - offset)/delta); background: a and b of the strips, or None; 10-90 % width shaded."""
+    """u = a + b x + (jump/2) tanh((x - offset)/delta); background: a and b of the strips, or None; 10-90 % width
+    shaded."""
     jump, offset, delta, width = (plain(band[name]) for name in ("jump", "offset_d", "half_width_d", "width_10_90_d"))
     ends = interval(band["width_10_90_d"]) or (None, None)
     label = f"10–90 % width {width:.1f} d" + signed(ends_text(*ends, "{:.1f}".format))
     if None not in background:
         x = np.linspace(box[0], box[1], 150)
-        axes.plot(x, background[0] + background[1] * x + jump / 2 * np.tanh((x - offset) / delta), color=INK, label="fit")
+        axes.plot(x, background[0] + background[1] * x + jump / 2 * np.tanh((x - offset) / delta), color=INK,
+                  label="fit")
     axes.axvspan(offset - width / 2, offset + width / 2, color=INK, alpha=0.08, linewidth=0, label=label)

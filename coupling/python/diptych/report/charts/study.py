@@ -23,8 +23,8 @@ def _mark(study, family):
 
 
 def error_against_cost(study, place, reference):
-    """|error| of a quantity over CPU seconds for all points of a reference, with front, limit and scatter of the samples. None without
-    points."""
+    """|error| of a quantity over CPU seconds for all points of a reference, with front, limit and scatter of the
+    samples. None without points."""
     figure = Figure(figsize=(4.7, 3.5))
     axes = figure.add_axes([0.16, 0.14, 0.815, 0.83])
     place_labels(axes, 0.035, 0.055)
@@ -41,7 +41,8 @@ def draw_error_against_cost(axes, study, place, reference):
     shown = []
     for k, cost in study.cost.items():
         error = study.points[k]["quantities"][place]["error"]
-        if study.points[k]["reference"] == reference != k and error["value"] is not None and abs(error["value"]) > LEAST_ERROR and cost["cpu_s"] > 0:
+        is_known = error["value"] is not None and abs(error["value"]) > LEAST_ERROR and cost["cpu_s"] > 0
+        if is_known and study.points[k]["reference"] == reference != k:
             shown.append((k, cost, error))
     if not shown:
         return False
@@ -52,20 +53,23 @@ def draw_error_against_cost(axes, study, place, reference):
         value, ends = abs(error["value"]), (error["low"], error["high"])
         if None not in ends:
             low = 0 if ends[0] <= 0 <= ends[1] else min(map(abs, ends))
-            axes.plot([cost["cpu_s"]] * 2, [factor * max(low, 0.1 * value), factor * max(map(abs, ends))], color=colour, linewidth=0.7,
-                      alpha=0.5)
+            axes.plot([cost["cpu_s"]] * 2, [factor * max(low, 0.1 * value), factor * max(map(abs, ends))], color=colour,
+                      linewidth=0.7, alpha=0.5)
         judged = study.points[k]["class"]
         axes.plot(cost["cpu_s"], factor * value, mark, color=colour, markersize=5,
                   markerfacecolor=colour if judged in ("right", "struggled", "unjudged") else "white")
-    front = sorted((cost["cpu_s"], abs(error["value"])) for _, cost, error in shown if quantity["name"] in cost["front_of"])
+    front = sorted((cost["cpu_s"], abs(error["value"])) for _, cost, error in shown
+                   if quantity["name"] in cost["front_of"])
     if front:
         across, down = zip(*front)
-        axes.step(across, factor * np.array(down), where="post", color=INK, linewidth=0.9, linestyle=(0, (4, 2)), label="front")
+        axes.step(across, factor * np.array(down), where="post", color=INK, linewidth=0.9, linestyle=(0, (4, 2)),
+                  label="front")
     if quantity["limit"]:
         axes.axhline(factor * quantity["limit"], color="#00573d", linewidth=1, label="limit")
     if scatter:
         n = max(1, len(study.record["seeds"]))
-        axes.axhspan(1e-12, factor * scatter / np.sqrt(n), color=FAINT, alpha=0.18, linewidth=0, label=f"scatter of {n} samples’ mean")
+        axes.axhspan(1e-12, factor * scatter / np.sqrt(n), color=FAINT, alpha=0.18, linewidth=0,
+                     label=f"scatter of {n} samples’ mean")
     for family in study.record["families"]:
         if any(study.points[k]["family"] == family["name"] for k, _, _ in shown):
             colour, mark = _mark(study, family["name"])
@@ -100,7 +104,8 @@ def _position(axis, value):
 
 
 def parts_of(study, family):
-    """Maps of a family: [(title, axes (across, down or None), {labels: point})], one for every value of the axes beyond two."""
+    """Maps of a family: [(title, axes (across, down or None), {labels: point})], one for every value of the axes beyond
+    two."""
     axes = family["axes"]
     if not axes or not family["grid"]:
         return []
@@ -126,8 +131,10 @@ def _class_map(study, family, pair, points):
     bottom = 0.55 + (0.055 * longest if longest > 8 else 0)
     figure = Figure(figsize=(left + 0.1 + 0.62 * n, bottom + 0.1 + 0.5 * m))
     width, height = figure.get_size_inches()
-    draw_classes(figure.add_axes([left / width, bottom / height, 0.62 * n / width, 0.5 * m / height]), study, family, pair, points)
-    return svg(figure, "Classes of the points: " + "; ".join(f"{', '.join(labels)}: {point['class']}" for labels, point in
+    draw_classes(figure.add_axes([left / width, bottom / height, 0.62 * n / width, 0.5 * m / height]), study, family,
+                 pair, points)
+    return svg(figure,
+               "Classes of the points: " + "; ".join(f"{', '.join(labels)}: {point['class']}" for labels, point in
                                                              points.items()) + ".")
 
 
@@ -141,17 +148,18 @@ def draw_classes(axes, study, family, pair, points):
         colour, ink, letter = CLASSES[point["class"]]
         axes.add_patch(Rectangle((i - 0.5, j - 0.5), 1, 1, facecolor=colour, edgecolor="white", linewidth=1.5))
         worst = worst_error(study, point)
-        axes.text(i, j + (0.17 if worst else 0), letter + ("" if point["certain"] else "?"), ha="center", va="center", color=ink,
-                  fontsize=9, fontweight="bold")
+        axes.text(i, j + (0.17 if worst else 0), letter + ("" if point["certain"] else "?"), ha="center", va="center",
+                  color=ink, fontsize=9, fontweight="bold")
         if worst:
             axes.text(i, j - 0.22, worst, ha="center", va="center", color=ink, fontsize=6.5)
     for border in study.record["borders"]:
         if down and border["family"] == family["name"] and {border["x"], border["y"]} == {across["name"], down["name"]}:
             _draw_border(axes, border, across, down)
     turned = max(len(p["label"]) for p in across["points"]) > 8
-    axes.set(xlim=(-0.5, n - 0.5), ylim=(-0.5, m - 0.5), xticks=range(n), yticks=range(m) if down else [], xlabel=across["name"],
-             ylabel=down["name"] if down else "")
-    axes.set_xticklabels([p["label"] for p in across["points"]], rotation=45 if turned else 0, ha="right" if turned else "center")
+    axes.set(xlim=(-0.5, n - 0.5), ylim=(-0.5, m - 0.5), xticks=range(n), yticks=range(m) if down else [],
+             xlabel=across["name"], ylabel=down["name"] if down else "")
+    axes.set_xticklabels([p["label"] for p in across["points"]], rotation=45 if turned else 0,
+                         ha="right" if turned else "center")
     if down:
         axes.set_yticklabels([p["label"] for p in down["points"]])
     axes.tick_params(length=0)
@@ -159,7 +167,8 @@ def draw_classes(axes, study, family, pair, points):
 
 def worst_error(study, point):
     """The largest error relative to its limit, as "+3.4 %"; empty: unknown."""
-    found = [(abs(q["error"]["value"]) / of["limit"], q["error"]["value"], of) for q, of in zip(point["quantities"], study.quantities)
+    found = [(abs(q["error"]["value"]) / of["limit"], q["error"]["value"], of)
+             for q, of in zip(point["quantities"], study.quantities)
              if of["limit"] and q["error"]["value"] is not None]
     if not found or point["class"] in ("refused", "stopped", "not run"):
         return ""

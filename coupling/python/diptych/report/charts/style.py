@@ -81,8 +81,8 @@ _frames = {}
 
 
 def frame(name, size, boxes):
-    """(figure, axes) without data, one ruled axes per box. They are kept under `name` for the next chart, because creating axes takes
-    longer than drawing."""
+    """(figure, axes) without data, one ruled axes per box. They are kept under `name` for the next chart, because
+    creating axes takes longer than drawing."""
     if name not in _frames:
         figure = Figure(figsize=size)
         _frames[name] = figure, [ruled(figure.add_axes(box)) for box in boxes]
@@ -95,7 +95,8 @@ def frame(name, size, boxes):
 
 
 def place_labels(axes, x, y):
-    """Puts the y label at x and the x label at y, in fractions of the figure. Fixed places save a search among the tick labels."""
+    """Puts the y label at x and the x label at y, in fractions of the figure. Fixed places save a search among the tick
+    labels."""
     axes.xaxis.set_label_coords(0.5, y, transform=blended_transform_factory(axes.transAxes, axes.figure.transFigure))
     axes.yaxis.set_label_coords(x, 0.5, transform=blended_transform_factory(axes.figure.transFigure, axes.transAxes))
 

@@ -25,15 +25,16 @@ def _points(axes, result, numbers):
     for k, panel in enumerate(PANEL_NAMES):
         # The panels are half a line width apart, so that equal values stay visible.
         x = [result.loading_variable.factor * s.end * (1 + 0.004 * (2 * k - 1)) for s in result.stages]
-        drawn |= with_intervals(axes, x, [numbers(s, panel) for s in result.stages], fmt=PANEL_MARKS[panel], markersize=4.5,
-                                color=PANEL_COLOURS[panel], label=PANEL_NAMES[panel])
+        drawn |= with_intervals(axes, x, [numbers(s, panel) for s in result.stages], fmt=PANEL_MARKS[panel],
+                                markersize=4.5, color=PANEL_COLOURS[panel], label=PANEL_NAMES[panel])
     axes.set_xlim(0, 1.04 * result.loading_variable.factor * max((s.end for s in result.stages), default=1.0))
     return drawn
 
 
 def _inclination(result):
-    caption = ("Angle between the first band and the minor principal stress in it, and theory lines for the parameters of the continuum "
-               f"(φ friction, ψ dilatancy): {', '.join(THEORY.values())}. Bars: 95 % intervals, if known.")
+    caption = ("Angle between the first band and the minor principal stress in it, and theory lines for the "
+               f"parameters of the continuum (φ friction, ψ dilatancy): {', '.join(THEORY.values())}. Bars: 95 % "
+               "intervals, if known.")
     figure, axes = chart(result, "band to minor stress (degrees)")
     if not _points(axes, result, lambda stage, panel: strongest_band(stage, panel).get("to_minor_stress_deg")):
         return None, caption
@@ -58,10 +59,11 @@ def _width(result):
 
 
 def _dissipation(result):
-    caption = ("Share of the dissipation of a stage inside the 10–90 % width of the band of the grains. Dashed: share of the area of this "
-               "band. Grains: friction and impacts; continuum: plastic work.")
+    caption = ("Share of the dissipation of a stage inside the 10–90 % width of the band of the grains. Dashed: "
+               "share of the area of this band. Grains: friction and impacts; continuum: plastic work.")
     figure, axes = chart(result, "dissipated inside the band (%)")
-    of = lambda stage, panel: scaled((stage.panel(panel).get("dissipation") or {}).get("share_inside"), 100)  # noqa: E731
+    # noqa: E731
+    of = lambda stage, panel: scaled((stage.panel(panel).get("dissipation") or {}).get("share_inside"), 100)
     if not _points(axes, result, of):
         return None, caption
     shares = [(s.end, plain((s.panel("discrete").get("dissipation") or {}).get("area_share"))) for s in result.stages]
@@ -74,8 +76,9 @@ def _dissipation(result):
 
 
 def _stress_difference(result):
-    caption = ("Relative difference of the stress of both panels (L2 over cells with both), for three sizes of cell. Dashed: scatter of the "
-               "grains about a quadratic surface, an upper estimate of the difference from sampling only, because it includes narrow bands.")
+    caption = ("Relative difference of the stress of both panels (L2 over cells with both), for three sizes of cell. "
+               "Dashed: scatter of the grains about a quadratic surface, an upper estimate of the difference from "
+               "sampling only, because it includes narrow bands.")
     rows = {}
     for stage in result.stages:
         for row in (stage.record.get("difference") or {}).get("stress") or []:

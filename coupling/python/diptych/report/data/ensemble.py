@@ -20,10 +20,12 @@ NUMBER = re.compile(r"-?[0-9.]+(?:e[+-]?[0-9]+)?")
 
 @dataclass(kw_only=True)
 class Ensemble:
-    """quantities: by name. numbers: those of a member's comparison. averaging: width of the running means; None: not stored.
+    """quantities: by name. numbers: those of a member's comparison. averaging: width of the running means; None: not
+    stored.
 
-    curves: {"discrete/stress_ratio": {"members": (m, n), "mean": (n), "low": (n), "high": (n)}} over progress (n); {} if absent.
-    profiles: {window number: {panel: {"distance": (k), name: (k, 3) mean, low, high}}} of windows in which both panels have profiles.
+    curves: {"discrete/stress_ratio": {"members": (m, n), "mean": (n), "low": (n), "high": (n)}} over progress (n); {}
+    if absent. profiles: {window number: {panel: {"distance": (k), name: (k, 3) mean, low, high}}} of windows in which
+    both panels have profiles.
     """
 
     folder: str
@@ -61,8 +63,9 @@ def load(folder):
                                                     member.get("pressure", 1) * member.get("mean_diameter", 1))
     return Ensemble(folder=folder, record=record, quantities={q["name"]: q for q in record["quantities"]},
                     numbers=Descriptions(member.get("numbers")),
-                    loading_variable=loading_variable_of(record.get("walk", member.get("walk"))), progress=progress, curves=curves,
-                    averaging=averaging, profiles=profiles, scene_text=read_text(os.path.join(folder, "ensemble.prm")),
+                    loading_variable=loading_variable_of(record.get("walk", member.get("walk"))), progress=progress,
+                    curves=curves, averaging=averaging, profiles=profiles,
+                    scene_text=read_text(os.path.join(folder, "ensemble.prm")),
                     provenance=read_provenance(provenance) if os.path.isfile(provenance) else {})
 
 
@@ -79,13 +82,15 @@ def _curves(path, couple_unit):
         curves = {f"{panel}/{name}": {key: item[()] for key, item in group.items()}
                   for panel in PANEL_NAMES for name, group in file.get(panel, {}).items()}
         averaging = file.attrs.get("averaging_width")
-        return file["progress"][()], curves, _profiles(file, couple_unit), None if averaging is None else float(averaging)
+        averaging = None if averaging is None else float(averaging)
+        return file["progress"][()], curves, _profiles(file, couple_unit), averaging
 
 
 def _profiles(file, couple_unit):
     found = {}
     for window in (name for name in file if name.startswith("window_")):
-        panels = {panel: {name: item[()] if name == "distance" else np.column_stack([item[key][()] for key in ("mean", "low", "high")])
+        panels = {panel: {name: item[()] if name == "distance"
+                          else np.column_stack([item[key][()] for key in ("mean", "low", "high")])
                           for name, item in group.items()} for panel, group in file[window + "/profile"].items()}
         if len(panels) == len(PANEL_NAMES):
             for panel in panels.values():

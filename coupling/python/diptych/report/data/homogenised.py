@@ -14,7 +14,8 @@ from .loading_variable import LoadingVariable, loading_variable_of
 
 @dataclass(kw_only=True)
 class Homogenised:
-    """record: homogenised.json. polygons (k, 4, 2) [d] and maps of the last frame; polygons have the origin of the files."""
+    """record: homogenised.json. polygons (k, 4, 2) [d] and maps of the last frame; polygons have the origin of the
+    files."""
 
     record: dict
     provenance: dict
@@ -31,7 +32,7 @@ class Homogenised:
 
     @property
     def increments(self):
-        """Those between successive frames; the one from the first to the last frame is `whole`."""
+        """Between successive frames; `whole` is the one from the first to the last frame."""
         return self.record["increments"][:len(self.frames) - 1]
 
     @property
@@ -45,7 +46,8 @@ class Homogenised:
         if not study:
             return {}
         mean = self.frames[study["frame"]]["s"]
-        kernel = [{**row, "points": [{**point, "s": point["s"] / mean} for point in row["points"]]} for row in study["kernel"]]
+        kernel = [{**row, "points": [{**point, "s": point["s"] / mean} for point in row["points"]]}
+                  for row in study["kernel"]]
         return {**study, "kernel": kernel}
 
 
@@ -58,5 +60,5 @@ def load(folder):
     require([fields])
     mesh = meshio.vtu.read(fields)
     polygons = mesh.points[mesh.cells_dict["quad"], :2] / record["mean_diameter"]
-    return Homogenised(record=record, provenance=read_provenance(os.path.join(folder, "provenance.json")), polygons=polygons,
-                       maps={name: values[0] for name, values in mesh.cell_data.items()})
+    return Homogenised(record=record, provenance=read_provenance(os.path.join(folder, "provenance.json")),
+                       polygons=polygons, maps={name: values[0] for name, values in mesh.cell_data.items()})

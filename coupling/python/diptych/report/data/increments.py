@@ -19,10 +19,10 @@ SAME = 1e-6  # tolerance of progress
 class Increment:
     """Change between two instants of the loading, in both panels.
 
-    arrays: datasets by path in the group, as "cells/discrete_stress" (C, 2, 2) [P]; "cells/corners" (C, 4, 2) [d] is the mesh.
-    state: arrays of the stage that ends at the same progress (a stage's own): stresses and forces at that instant.
-    record: {"discrete": PANEL, "continuum": PANEL, ...} of comparison.json. end_record: of the stage that ends at the same
-    progress, {} without one. centre: of the sample (2) [d], from which the bands' offsets count.
+    arrays: datasets by path in the group, as "cells/discrete_stress" (C, 2, 2) [P]; "cells/corners" (C, 4, 2) [d] is
+    the mesh. state: arrays of the stage that ends at the same progress (a stage's own): stresses and forces at that
+    instant. record: {"discrete": PANEL, "continuum": PANEL, ...} of comparison.json. end_record: of the stage that ends
+    at the same progress, {} without one. centre: of the sample (2) [d], from which the bands' offsets count.
     displacement_unit, velocity_unit: the upper platen's [d], [d/time]; None if unknown or zero.
     """
 
@@ -54,7 +54,8 @@ class Increment:
 
     @property
     def label(self):
-        return (self.loading_variable.number(self.start) + "–" if self.kind == "window" else "") + self.loading_variable.text(self.end)
+        start = self.loading_variable.number(self.start) + "–" if self.kind == "window" else ""
+        return start + self.loading_variable.text(self.end)
 
     @property
     def title(self):
@@ -66,14 +67,14 @@ class Increment:
 def read(comparison, file, units):
     """(increments, {path: Description}): windows first, then stages, in the order of comparison.json.
 
-    comparison: converted to `units`. Raises KeyError if a stage or window has no progress, InputError if comparison.h5 does not have
-    the stage or window.
+    comparison: converted to `units`. Raises KeyError if a stage or window has no progress, InputError if comparison.h5
+    does not have the stage or window.
     """
     loading_variable = loading_variable_of(comparison.get("walk"))
     increments, groups = [], {}
     for k, window in enumerate(comparison["windows"]):
-        increments.append(Increment(key=f"window-{k}", kind="window", start=window["from"], end=window["to"], record=window,
-                                    loading_variable=loading_variable))
+        increments.append(Increment(key=f"window-{k}", kind="window", start=window["from"], end=window["to"],
+                                    record=window, loading_variable=loading_variable))
         groups[f"window-{k}"] = f"window_{k}"
     start = 0.0
     for k, stage in enumerate(comparison["stages"]):
@@ -92,7 +93,8 @@ def read(comparison, file, units):
 
 
 def read_arrays(group, units, described):
-    """{path: array} of a group, converted to d and P by the attribute `unit`. Adds the descriptions of the datasets to `described`."""
+    """{path: array} of a group, converted to d and P by the attribute `unit`. Adds the descriptions of the datasets to
+    `described`."""
     arrays = {}
 
     def take(path, item):

@@ -24,7 +24,8 @@ class LoadingVariable:
         return self.number(progress) + self.unit
 
 
-LOADING_VARIABLES = {"axial_strain": LoadingVariable("axial strain"), "shear_strain": LoadingVariable("shear strain"), "time": LoadingVariable("time", "", 1.0)}
+LOADING_VARIABLES = {"axial_strain": LoadingVariable("axial strain"), "shear_strain": LoadingVariable("shear strain"),
+                     "time": LoadingVariable("time", "", 1.0)}
 
 
 def loading_variable_of(name):

@@ -52,7 +52,8 @@ class Units:
         result = 1.0
         for word in words.split():
             name, _, power = word.partition("^")
-            result *= {"length": self.diameter, "pressure": self.pressure}.get(name, 1.0) ** (int(power) if power else 1)
+            base = {"length": self.diameter, "pressure": self.pressure}.get(name, 1.0)
+            result *= base ** (int(power) if power else 1)
         return result
 
 

@@ -20,7 +20,8 @@ FORMAT = 2
 class Result:
     """comparison: the record in d and P, without its list `numbers`. arrays: {path in a group: Description}.
 
-    histories: "discrete", "continuum": column -> array in the units of the files; running means of comparison.h5 in d and P.
+    histories: "discrete", "continuum": column -> array in the units of the files; running means of comparison.h5 in d
+    and P.
     """
 
     comparison: dict
@@ -40,7 +41,8 @@ class Result:
     @property
     def averaging(self):
         """The range of the running means as text."""
-        return f"the last {self.loading_variable.text(self.comparison['averaging_width'])} of {self.loading_variable.word}"
+        across = self.loading_variable
+        return f"the last {across.text(self.comparison['averaging_width'])} of {across.word}"
 
     def part(self, key):
         """A group of the comparison, or {}."""
@@ -64,8 +66,8 @@ class Result:
 
 
 def load(folder, next_folder):
-    """The result of a folder. Files in next_folder take the place of older ones. Raises InputError if a required file is missing,
-    broken or has another format."""
+    """The result of a folder. Files in next_folder take the place of older ones. Raises InputError if a required file
+    is missing, broken or has another format."""
     def path_of(name):
         newer = os.path.join(next_folder, name)
         return newer if os.path.isfile(newer) else os.path.join(folder, name)
@@ -82,5 +84,6 @@ def load(folder, next_folder):
             columns.update(read_arrays(file[f"histories/{panel}"], units, arrays))
     imported = os.path.join(folder, "import.json")
     return Result(comparison=comparison, provenance=read_provenance(path_of("provenance.json")), histories=histories,
-                  increments=increments, units=units, numbers=numbers, arrays=arrays, scene_text=read_text(path_of("scene.prm")),
+                  increments=increments, units=units, numbers=numbers, arrays=arrays,
+                  scene_text=read_text(path_of("scene.prm")),
                   imported=read_json(imported) if os.path.exists(imported) else {})

@@ -5,7 +5,8 @@ import re
 
 
 def scene_section(text, section):
-    """[(key, value, meaning)] of one section. The meaning is the comment above the key; nested sections give keys with slashes."""
+    """[(key, value, meaning)] of one section. The meaning is the comment above the key; nested sections give keys with
+    slashes."""
     rows, path, comment = [], [], ""
     for line in text.splitlines():
         line = line.strip()

@@ -10,14 +10,16 @@ FORMAT = 1
 PANELS = ("discrete", "continuum", "material_point")
 CURVES = ("stress_ratio", "volumetric_strain")
 # class: (colour, text colour, letter) in maps and tables
-CLASSES = {"right": ("#b7e1cd", "#222222", "R"), "struggled": ("#e3f0b5", "#222222", "S"), "wrong, warned": ("#f6c99b", "#222222", "W"),
-           "silently wrong": ("#d55e00", "white", "X"), "stopped": ("#8d8d8d", "white", "!"), "refused": ("#cfcfcf", "#222222", "–"),
+CLASSES = {"right": ("#b7e1cd", "#222222", "R"), "struggled": ("#e3f0b5", "#222222", "S"),
+           "wrong, warned": ("#f6c99b", "#222222", "W"), "silently wrong": ("#d55e00", "white", "X"),
+           "stopped": ("#8d8d8d", "white", "!"), "refused": ("#cfcfcf", "#222222", "–"),
            "unjudged": ("#e8eef7", "#222222", "·"), "not run": ("white", "#222222", "?")}
 
 
 @dataclass(kw_only=True)
 class Study:
-    """cost: of the finished points, by index in record["points"]. curves: {panel: (progress, {name: rows of points})}."""
+    """cost: of the finished points, by index in record["points"]. curves: {panel: (progress, {name: rows of
+    points})}."""
 
     folder: str
     record: dict
@@ -38,7 +40,8 @@ class Study:
 
     def of_family(self, name):
         """[(index, point)] of a family, without references."""
-        return [(k, point) for k, point in enumerate(self.points) if point["family"] == name and not self.is_reference(k)]
+        return [(k, point) for k, point in enumerate(self.points) if point["family"] == name
+                and not self.is_reference(k)]
 
     @property
     def has_reference(self):
@@ -75,4 +78,5 @@ def _curves(path):
         return {}
     with open_arrays(path) as file:
         panels = [panel for panel in PANELS if panel in file]
-        return {panel: (file[panel]["progress"][()], {name: file[panel][name][()] for name in CURVES}) for panel in panels}
+        return {panel: (file[panel]["progress"][()], {name: file[panel][name][()] for name in CURVES})
+                for panel in panels}

@@ -14,9 +14,11 @@ def draw(folder):
 def page(calibration):
     paths = []
     for path in calibration.paths:
-        shown = [figures.curve(path, kind, calibration.model) for kind in figures.CURVES if any(o["kind"] == kind for o in path["observables"])]
-        paths.append((path, shown + [figures.residuals(path)] + ([figures.discrepancy(path)] if path["use"] == "fit" else [])))
+        shown = [figures.curve(path, kind, calibration.model) for kind in figures.CURVES
+                 if any(o["kind"] == kind for o in path["observables"])]
+        paths.append((path, shown + [figures.residuals(path)]
+                      + ([figures.discrepancy(path)] if path["use"] == "fit" else [])))
     return template("calibration.html").render(
-        record=calibration.record, data=calibration.data, paths=paths, parameters=tables.parameters(calibration), predictions=tables.predictions(calibration),
-        misfits=tables.misfits(calibration), minima=tables.minima(calibration), cost=tables.cost(calibration),
-        corner=figures.corner(calibration))
+        record=calibration.record, data=calibration.data, paths=paths, parameters=tables.parameters(calibration),
+        predictions=tables.predictions(calibration), misfits=tables.misfits(calibration),
+        minima=tables.minima(calibration), cost=tables.cost(calibration), corner=figures.corner(calibration))

@@ -15,9 +15,9 @@ def page(study, curves, curve_names):
              for family in study.record["families"] if family["axes"]]
     n_samples = len(study.record["seeds"]) or 1
     return template("effects.html").render(
-        record=study.record, n_samples=n_samples, changes=tables.changes(study), families=parts, disturbed=study_tables.disturbed(study),
-        points=study_tables.points(study), n_ticked=MOST_CURVES, curves=curves, curve_names=curve_names,
-        provenance=study_tables.provenance(study))
+        record=study.record, n_samples=n_samples, changes=tables.changes(study), families=parts,
+        disturbed=study_tables.disturbed(study), points=study_tables.points(study), n_ticked=MOST_CURVES, curves=curves,
+        curve_names=curve_names, provenance=study_tables.provenance(study))
 
 
 def _by_name(study):
@@ -35,5 +35,7 @@ def _part(study, family, name, places):
     panels = {panel: k for panel, k in places.items() if panel != "difference"}
     charts = [figures.over_parameter(study, family, panels, label)]
     if "difference" in places:
-        charts.append(figures.over_parameter(study, family, {"difference": places["difference"]}, "continuum − grains" + tables.unit_of(quantity)))
-    return {"title": tables.typeset(name), "charts": [chart for chart in charts if chart], "means": tables.means(study, family, places)}
+        charts.append(figures.over_parameter(study, family, {"difference": places["difference"]},
+                                             "continuum − grains" + tables.unit_of(quantity)))
+    return {"title": tables.typeset(name), "charts": [chart for chart in charts if chart],
+            "means": tables.means(study, family, places)}

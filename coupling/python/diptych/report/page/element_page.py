@@ -10,4 +10,5 @@ from ..tables import element as tables
 def draw(folder):
     element = load(folder)
     write(folder, template("element.html").render(record=element.record, charts=figures.figures(element),
-                                                  numbers=tables.numbers(element.record), rms=tables.rms(element.record)))
+                                                  numbers=tables.numbers(element.record),
+                                                  rms=tables.rms(element.record)))

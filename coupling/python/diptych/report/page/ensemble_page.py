@@ -19,7 +19,8 @@ def page(results):
     dots = [(figures.dots(verdict, tables.panel_quantities(results, verdict), label, scale), caption)
             for verdict, label, scale, caption in tables.captions(results)]
     lines = tables.curve_caption(results)
-    curves = [(figures.curves(results, "stress_ratio", "stress ratio t/s"), "Stress ratio of the whole sample." + lines),
+    curves = [(figures.curves(results, "stress_ratio", "stress ratio t/s"),
+               "Stress ratio of the whole sample." + lines),
               (figures.curves(results, "volumetric_strain", "volumetric strain (%)", 100),
                "Volumetric strain 1 − V/V₀; dilation is negative." + lines)]
     last = max(results.profiles, default=None)

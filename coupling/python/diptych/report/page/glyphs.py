@@ -111,5 +111,6 @@ def probes(increment):
                        **{key: short(plain(p[key])) for key in ("s1", "s2", "direction_deg", "t_over_s")}}
                       for p in record.get("probes") or [] if p["polygon"]]
         circle = record.get("circular_probe")
-        found[panel] = {"rectangles": rectangles, "circle": short([*circle["centre"], circle["radius"]]) if circle else None}
+        found[panel] = {"rectangles": rectangles,
+                        "circle": short([*circle["centre"], circle["radius"]]) if circle else None}
     return found

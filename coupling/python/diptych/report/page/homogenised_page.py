@@ -15,4 +15,5 @@ def draw(folder):
     write(folder, template("homogenised.html").render(
         record=result.record, name=os.path.basename(os.path.abspath(folder)), command=result.provenance["command"],
         walk=result.loading_variable, frames=tables.frames(result), increments=tables.increments(result),
-        maps=figures.maps(result), curves=figures.curves(result), scan=resolution.figures(result.resolution_study, "s / mean of the sample")))
+        maps=figures.maps(result), curves=figures.curves(result),
+        scan=resolution.figures(result.resolution_study, "s / mean of the sample")))

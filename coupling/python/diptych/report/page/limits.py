@@ -13,7 +13,8 @@ def box(increments):
     """(x0, x1, y0, y1) [d] around all grains and cells of all increments, so that stepping does not move the axes."""
     low, high = [], []
     for arrays in (i.arrays for i in increments):
-        position, radius, corners = arrays["discrete/position"], arrays["discrete/radius"][:, None], arrays["cells/corners"]
+        position, radius = arrays["discrete/position"], arrays["discrete/radius"][:, None]
+        corners = arrays["cells/corners"]
         low += [(position - radius).min(axis=0), corners.min(axis=(0, 1))]
         high += [(position + radius).max(axis=0), corners.max(axis=(0, 1))]
     (x0, y0), (x1, y1) = np.min(low, axis=0) - MARGIN, np.max(high, axis=0) + MARGIN
@@ -23,9 +24,10 @@ def box(increments):
 def limits(quantity, place, increments, result):
     """Function increment -> (low, high), the same rule for both panels and all instants; None: nothing is stored.
 
-    Limits are medians over the increments of the 2nd and 98th percentiles, so that no single instant sets the scale, and means over
-    the panels. A strain increment is scaled by its range of progress, and the lower percentile of the two panels counts. A band of
-    one element then saturates, which the arrow of the bar shows, and does not hide the wider band of the grains.
+    Limits are medians over the increments of the 2nd and 98th percentiles, so that no single instant sets the scale,
+    and means over the panels. A strain increment is scaled by its range of progress, and the lower percentile of the
+    two panels counts. A band of one element then saturates, which the arrow of the bar shows, and does not hide the
+    wider band of the grains.
     """
     if not _offered(quantity, place, increments, result):
         return None

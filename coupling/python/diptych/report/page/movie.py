@@ -37,7 +37,8 @@ def draw(folder):
 
 
 def _frame(result, stage, limits_of_axes, scale):
-    """Grains as discs on the left, cells of the continuum on the right; both coloured by the shear strain that the stage adds."""
+    """Grains as discs on the left, cells of the continuum on the right; both coloured by the shear strain that the
+    stage adds."""
     x0, x1, y0, y1 = limits_of_axes
     width = 4.0
     height = width * (y1 - y0) / (x1 - x0)
@@ -49,11 +50,13 @@ def _frame(result, stage, limits_of_axes, scale):
         axes.axis("off")
         axes.set_title(name, fontweight="bold")
         values = SHEAR.values(stage, result, SHEAR.home, panel)
-        axes.add_collection(_shapes(axes, stage, panel, norm=scale, cmap=SHEAR.colour_map)).set_array(np.ma.masked_invalid(values))
+        shapes = axes.add_collection(_shapes(axes, stage, panel, norm=scale, cmap=SHEAR.colour_map))
+        shapes.set_array(np.ma.masked_invalid(values))
     bar = figure.add_axes([2 * width / of[0], 0.15, 0.18 / of[0], 0.6])
     figure.colorbar(ScalarMappable(scale, SHEAR.colour_map), cax=bar, extend="max", label=SHEAR.label(result))
-    variable = stage.loading_variable
-    figure.suptitle(f"{variable.word} {variable.text(stage.end)}; shear strain added since {variable.text(stage.start)}", fontsize=12)
+    across = stage.loading_variable
+    figure.suptitle(f"{across.word} {across.text(stage.end)}; shear strain added since {across.text(stage.start)}",
+                    fontsize=12)
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
     return Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB").quantize(128)

@@ -1,6 +1,7 @@
 # diptych: the quantities that the maps can show
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A new quantity is one entry of QUANTITIES with its datasets and colours. Titles, units and meanings come from the datasets."""
+"""A new quantity is one entry of QUANTITIES with its datasets and colours. Titles, units and meanings come from the
+datasets."""
 
 from dataclasses import dataclass
 
@@ -9,18 +10,20 @@ import numpy as np
 from ..data.panels import PANEL_NAMES
 from ..tables.wording import suffix, typeset
 
-PLACES = ("discs", "cells", "grid")  # the grains are shown as discs, or as means on the cells of the mesh or of a regular grid
+# the grains are shown as discs, or as means on the cells of the mesh or of a regular grid
+PLACES = ("discs", "cells", "grid")
 BOTH = "{panel}_"                    # prefix of a dataset on cells that both panels may have
 DEGREES = 180 / np.pi
 
 
 @dataclass(frozen=True, kw_only=True)
 class Quantity:
-    """name: dataset of the grains, and with `prefix` that of the cells. continuum: dataset of the continuum, if it differs.
+    """name: dataset of the grains, and with `prefix` that of the cells. continuum: dataset of the continuum, if it
+    differs.
 
-    component: (row, column) of a tensor. home: the place shown first. Limits: from_zero, or signed (symmetric about 0), or percentiles
-    at both ends. per_progress: an increment, whose limits grow with its range of progress. of_state: only stages store it; a window
-    shows the stage that ends with it. per_cent: shown times 100.
+    component: (row, column) of a tensor. home: the place shown first. Limits: from_zero, or signed (symmetric about 0),
+    or percentiles at both ends. per_progress: an increment, whose limits grow with its range of progress. of_state:
+    only stages store it; a window shows the stage that ends with it. per_cent: shown times 100.
     """
 
     key: str
@@ -72,7 +75,8 @@ class Quantity:
     def label(self, result):
         """Title and unit for a colour bar."""
         found = self.described(result)
-        unit = "%" if self.per_cent else "degrees" if found and found.unit == "rad" else suffix(found.unit if found else "").strip()
+        unit = suffix(found.unit if found else "").strip()
+        unit = "%" if self.per_cent else "degrees" if unit == "rad" else unit
         return self.full_title(result) + (f" ({unit})" if unit else "")
 
     def meaning(self, result, place):
@@ -97,12 +101,12 @@ TURN = {"group": "Motion", "colour_map": "RdBu_r", "signed": True, "per_progress
 STRESS = {"group": "Stress", "colour_map": "cividis", "of_state": True}
 GRAINS_ONLY = {"group": "Grains only", "of_state": True, "grains_only": True}
 QUANTITIES = (
-    Quantity(key="shear", name="shear_strain_increment", title="shear strain increment ε₁ − ε₂", home="discs", from_zero=True,
-             per_progress=True, per_cent=True, **MOTION),
+    Quantity(key="shear", name="shear_strain_increment", title="shear strain increment ε₁ − ε₂", home="discs",
+             from_zero=True, per_progress=True, per_cent=True, **MOTION),
     Quantity(key="displacement", name="displacement_over_platen", home="discs", from_zero=True, **MOTION),
     # The continuum is quasi-static: relative to the platen, its velocity equals its displacement increment.
-    Quantity(key="velocity", name="speed_over_platen", continuum="displacement_over_platen", home="discs", from_zero=True,
-             of_state=True, **MOTION),
+    Quantity(key="velocity", name="speed_over_platen", continuum="displacement_over_platen", home="discs",
+             from_zero=True, of_state=True, **MOTION),
     Quantity(key="rotation", name="rotation_increment", **TURN),
     Quantity(key="spin", name="spin_increment", **TURN),
     Quantity(key="turn", name="relative_rotation", **TURN),
@@ -110,8 +114,10 @@ QUANTITIES = (
     Quantity(key="t_over_s", name="stress_ratio", from_zero=True, **STRESS),
     Quantity(key="xx", name="stress", component=(0, 0), title="stress σ_xx", **STRESS),
     Quantity(key="yy", name="stress", component=(1, 1), title="stress σ_yy", **STRESS),
-    Quantity(key="xy", name="stress", component=(0, 1), title="stress σ_xy", signed=True, **{**STRESS, "colour_map": "RdBu_r"}),
-    Quantity(key="yx", name="stress", component=(1, 0), title="stress σ_yx", signed=True, **{**STRESS, "colour_map": "RdBu_r"}),
+    Quantity(key="xy", name="stress", component=(0, 1), title="stress σ_xy", signed=True,
+             **{**STRESS, "colour_map": "RdBu_r"}),
+    Quantity(key="yx", name="stress", component=(1, 0), title="stress σ_yx", signed=True,
+             **{**STRESS, "colour_map": "RdBu_r"}),
     Quantity(key="couple", name="couple_stress_size", from_zero=True, **STRESS),
     Quantity(key="dissipation", name="dissipation", from_zero=True, **{**STRESS, "colour_map": "viridis"}),
     Quantity(key="solid_fraction", name="solid_fraction", prefix="", **GRAINS_ONLY),

@@ -23,8 +23,8 @@ def opens_at(increments, end):
 class Part:
     """A part of the page with one pane per increment.
 
-    maps: name of a pair of maps that draw.js draws, or "". content(increment): charts, tables and notes below the maps, by name;
-    the template shows them. end: all parts open at the increment that ends there.
+    maps: name of a pair of maps that draw.js draws, or "". content(increment): charts, tables and notes below the maps,
+    by name; the template shows them. end: all parts open at the increment that ends there.
     """
 
     def __init__(self, name, title, increments, end, content, maps=""):
@@ -45,7 +45,8 @@ def parts(result):
             "notes": paragraph((i.record.get("difference") or {}).get("stress_verdict"))}, "difference"),
         Part("arrows", "Displacements and velocities", every, end, lambda i: {}, "arrows"),
         Part("strips", "Sixteen strips parallel to the band", every, end, lambda i: {"pair": strips.pair(i)}),
-        Part("profiles", "Profiles across the band", [i for i in every if i.kind == "window"] or stages, end, lambda i: {"pair": profiles.pair(i)}),
+        Part("profiles", "Profiles across the band", [i for i in every if i.kind == "window"] or stages, end,
+             lambda i: {"pair": profiles.pair(i)}),
         Part("probes", "Probes: mean stress and contact normals", stages, end, lambda i: {
             "roses": probes.roses(i), "notes": [], "tables": [
                 stage.probes(result, i), stage.differences(result, i), stage.grain_pressures(result, i)]}, "probes"),
@@ -82,5 +83,5 @@ def page(result):
         scene_text=result.scene_text, number=wording.number,
         fitted=result.part("continuum_summary").get("parameters_from"), absent=wording.ABSENT,
         thickness_note=bands.thickness_note(result),
-        thickness_reason=wording.MESH_SET_REASON if bands.internal_length(result) is None else wording.LENGTH_SET_REASON,
-        loading_variable=result.loading_variable, averaging=result.averaging)
+        thickness_reason=wording.MESH_SET_REASON if bands.internal_length(result) is None
+        else wording.LENGTH_SET_REASON, loading_variable=result.loading_variable, averaging=result.averaging)

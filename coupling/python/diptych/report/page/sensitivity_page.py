@@ -14,9 +14,11 @@ ENOUGH = 0.9  # Q² below this: the indices say little
 def page(study):
     record = study.record["sensitivity"]
     names = labels(record)
-    parts = [{"title": typeset(one["quantity"]) + (f" ({suffix(one['unit']).strip()})" if suffix(one["unit"]).strip() else ""),
+    parts = [{"title": typeset(one["quantity"])
+              + (f" ({suffix(one['unit']).strip()})" if suffix(one["unit"]).strip() else ""),
               "basis": tables.basis(one, record), "doubtful": one["q2"] is not None and one["q2"] < ENOUGH,
-              "chart": figures.indices(one, names) if one["parameters"] else None, "table": tables.indices(one, names), "panel": one["panel"]}
+              "chart": figures.indices(one, names) if one["parameters"] else None, "table": tables.indices(one, names),
+              "panel": one["panel"]}
              for one in record["indices"]]
     failed = [point for point in study_tables.points(study) if point["messages"]]
     return template("sensitivity.html").render(

@@ -9,9 +9,11 @@ LARGEST = 65534  # code of the largest value; 65535 is NaN
 
 
 class Store:
-    """Arrays as {"low", "high", "data"}: value = low + code (high - low)/65534, codes of 16 bits, low byte first, in base64.
+    """Arrays as {"low", "high", "data"}: value = low + code (high - low)/65534, codes of 16 bits, low byte first, in
+    base64.
 
-    Equal arrays share one entry, such as the positions of grains at the end of a window and of the stage that ends there.
+    Equal arrays share one entry, such as the positions of grains at the end of a window and of the stage that ends
+    there.
     """
 
     def __init__(self):

@@ -23,12 +23,15 @@ def draw(folder):
 
 
 def page(study, curve_names):
-    charts = [(figures.error_against_cost(study, k, reference), ", ".join([q["name"], *study.points[reference]["labels"]]))
+    charts = [(figures.error_against_cost(study, k, reference),
+               ", ".join([q["name"], *study.points[reference]["labels"]]))
               for reference in study.references for k, q in enumerate(study.quantities)]
     judged = any(q["limit"] for q in study.quantities)  # else no point is right or wrong
-    maps = [(family["name"], figures.class_maps(study, family)) for family in study.record["families"]] if judged else []
+    maps = [(family["name"], figures.class_maps(study, family))
+            for family in study.record["families"]] if judged else []
     return template("study.html").render(
-        record=study.record, judged=judged, n_points=len(study.points) - len(study.references), counts=tables.counts(study), cheapest=tables.cheapest(study), disturbed=tables.disturbed(study),
+        record=study.record, judged=judged, n_points=len(study.points) - len(study.references),
+        counts=tables.counts(study), cheapest=tables.cheapest(study), disturbed=tables.disturbed(study),
         charts=[chart for chart in charts if chart[0]], missing=[name for picture, name in charts if not picture],
         maps=[one for one in maps if one[1]], classes=CLASSES, orders=tables.orders(study), points=tables.points(study),
         curves=curves(study), curve_names=curve_names, provenance=tables.provenance(study))
@@ -38,5 +41,6 @@ def curves(study):
     """Progress and rows of every curve for the script of the page, with five digits; None: no value."""
     def row(values):
         return [None if not np.isfinite(v) else float(f"{v:.5g}") for v in values]
-    return [{"title": f"{PANEL_WORDS[panel]}, {CURVE_NAMES[name]}", "progress": row(progress), "rows": [row(r) for r in rows[name]]}
+    return [{"title": f"{PANEL_WORDS[panel]}, {CURVE_NAMES[name]}", "progress": row(progress),
+             "rows": [row(r) for r in rows[name]]}
             for panel, (progress, rows) in study.curves.items() for name in CURVE_NAMES]

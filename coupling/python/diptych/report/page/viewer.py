@@ -1,6 +1,7 @@
 # diptych: the data of the maps as one JSON object
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The browser draws the maps (draw.js). So a map of 4000 grains takes 8 kB per quantity and is sharp on screens and on paper."""
+"""The browser draws the maps (draw.js). So a map of 4000 grains takes 8 kB per quantity and is sharp on screens and on
+paper."""
 
 import matplotlib
 import matplotlib.colors
@@ -33,8 +34,9 @@ def data(result):
 
 
 def _quantity(quantity, places, result):
-    return {"key": quantity.key, "group": quantity.group, "title": quantity.full_title(result), "label": quantity.label(result),
-            "map": quantity.colour_map, "home": quantity.home if quantity.home in places else places[0], "places": places,
+    return {"key": quantity.key, "group": quantity.group, "title": quantity.full_title(result),
+            "label": quantity.label(result), "map": quantity.colour_map,
+            "home": quantity.home if quantity.home in places else places[0], "places": places,
             "meaning": {place: quantity.meaning(result, place) for place in places}}
 
 
@@ -52,7 +54,8 @@ def _frame(increment, store):
             "cells": store.add(corners(increment, "cells")), "grid": store.add(corners(increment, "grid")),
             "centre": short(increment.centre),
             "outline": [short(state[side]) for side in ("outline/left", "outline/right") if len(state.get(side, ()))],
-            "bands": {panel: [[short(plain(band.get(key))) for key in ("angle_deg", "offset_d", "width_10_90_d", "jump")]
+            "bands": {panel: [[short(plain(band.get(key)))
+                               for key in ("angle_deg", "offset_d", "width_10_90_d", "jump")]
                               for band in increment.bands(panel)] for panel in PANEL_NAMES}}
 
 

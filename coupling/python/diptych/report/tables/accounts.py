@@ -28,5 +28,6 @@ def provenance(result):
 
 def law_parameters(result):
     """Name, value and meaning of every key in the section continuum of the scene."""
-    rows = [[name.replace("_", " "), value, meaning] for name, value, meaning in scene_section(result.scene_text, "continuum")]
+    rows = [[name.replace("_", " "), value, meaning]
+            for name, value, meaning in scene_section(result.scene_text, "continuum")]
     return {"head": ["parameter", "value", "meaning [unit]; range"], "rows": rows}

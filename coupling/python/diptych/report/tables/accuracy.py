@@ -32,7 +32,8 @@ def _grains(result):
                      f"{number(summary.get('snapshots_accurate'))} of {number(summary['snapshots_sampled'])}",
                      "means over a stage need less accuracy than single snapshots"])
     spin, acceleration = (number(_largest(result, key), "", 2) for key in ("dynamic_share", "acceleration_share"))
-    return rows + [_row(result, part, "expected_strength_error", 2), _row(result, part, "impact_share", 2), _row(result, part, "energy_residual"), _row(result, part, "momentum_residual"),
+    return rows + [_row(result, part, "expected_strength_error", 2), _row(result, part, "impact_share", 2),
+                   _row(result, part, "energy_residual"), _row(result, part, "momentum_residual"),
                    ["grains: dynamic terms over the mean stress, largest of the stages: spin; acceleration in one step",
                     f"{spin}; {acceleration}", "Moreau (1997): below 10⁻³"],
                    _row(result, part, "max_penetration_d"), _row(result, part, "step_length"),
@@ -49,8 +50,9 @@ def _grain_stress_error(result, summary):
     label = "grains: " + result.numbers.meaning("discrete_summary/grain_stress_error")
     if plain(summary.get("grain_stress_error")) is not None:
         factor = number(summary.get("residual_factor"), "", 2)
-        return [label, number(summary["grain_stress_error"], "%", 2), f"{factor} × residual, measured on the first snapshot"]
-    change, reached = plain(summary.get("residual_factor_error")), plain(summary.get("residual_factor_reference_residual"))
+        return [label, number(summary["grain_stress_error"], "%", 2),
+                f"{factor} × residual, measured on the first snapshot"]
+    change, reached = (plain(summary.get("residual_factor_" + key)) for key in ("error", "reference_residual"))
     if change is None:
         return [label, ABSENT, ""]
     return [label, "unknown", f"the first snapshot, solved further to a residual of {number(reached)}, changed by "

@@ -1,12 +1,14 @@
 # diptych: tables of bands and of stages
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A table is {"head": [...], "rows": [[...]]}. The first entry of a row is its name. A head may be (text, small print)."""
+"""A table is {"head": [...], "rows": [[...]]}. The first entry of a row is its name. A head may be (text, small
+print)."""
 
 from ..data.numbers import interval, plain
 from ..data.panels import DIFFUSE, PANEL_NAMES, THEORY
 from .wording import MESH_SET, number, rounded, shown
 
-BAND_KEYS = ("angle_deg", "width_10_90_d", "half_width_d", "offset_d", "jump", "dilation_deg", "r_squared", "r_squared_strips")
+BAND_KEYS = ("angle_deg", "width_10_90_d", "half_width_d", "offset_d", "jump", "dilation_deg", "r_squared",
+             "r_squared_strips")
 
 
 def bands(result, increment):
@@ -17,7 +19,8 @@ def bands(result, increment):
         for k, band in enumerate(found or [DIFFUSE]):
             columns.append((f"{heading}, band {k + 1}" if len(found) > 1 else heading, band))
     place = increment.place("discrete/bands")
-    rows = [[result.numbers.meaning(f"{place}/{key}")] + [_band_cell(result, band, f"{place}/{key}") for _, band in columns]
+    rows = [[result.numbers.meaning(f"{place}/{key}")]
+            + [_band_cell(result, band, f"{place}/{key}") for _, band in columns]
             for key in BAND_KEYS]
     head = [("", "")] + [(heading, "") for heading, _ in columns]
     difference = {k: v for k, v in (increment.record.get("difference") or {}).items() if plain(v) is not None}
@@ -36,7 +39,8 @@ def _band_cell(result, band, place):
 
 
 def notes(result, increment):
-    """Sentences below the bands: width, theory lines and measured angles, verdict of the detector, bootstrap samples."""
+    """Sentences below the bands: width, theory lines and measured angles, verdict of the detector, bootstrap
+    samples."""
     verdicts = [(name.lower(), increment.panel(panel).get("band_verdict")) for panel, name in PANEL_NAMES.items()]
     verdicts = [f"{name}: {verdict}" for name, verdict in verdicts if verdict]
     found = [f"Detector – {'; '.join(verdicts)}."] if verdicts else []
@@ -44,11 +48,13 @@ def notes(result, increment):
     samples = {band["resamples"] for band in every if band.get("resamples")}
     if any(interval(band.get("angle_deg")) for band in every):
         found.append("In brackets: 95 % intervals by block bootstrap" + (
-            f" with {'/'.join(map(str, sorted(samples)))} samples" if samples else "") + ". Difference: continuum − grains; for "
+            f" with {'/'.join(map(str, sorted(samples)))} samples" if samples else "")
+            + ". Difference: continuum − grains; for "
             "inclinations the rotation from the band of the grains to that of the continuum, positive anticlockwise.")
     lost = round(100 * max((plain(band.get("lost_share")) or 0.0 for band in every), default=0.0))
     if lost > 0:
-        found.append(f"In {lost} % of the bootstrap samples no band was found; the interval is based on the other {100 - lost} %.")
+        found.append(f"In {lost} % of the bootstrap samples no band was found; the interval is based on the other "
+                     f"{100 - lost} %.")
     return _thickness(result, increment) + _theory(result, increment) + found
 
 
@@ -75,7 +81,8 @@ def _theory(result, increment):
         if known:
             angles.append(f"{name.lower()} " + "; ".join(rounded(angle, "°") for angle in known))
     theory = result.part("theory")
-    lines = [f"{label} = {rounded(theory[key], '°')}" for key, label in THEORY.items() if plain(theory.get(key)) is not None]
+    lines = [f"{label} = {rounded(theory[key], '°')}" for key, label in THEORY.items()
+             if plain(theory.get(key)) is not None]
     if not angles:
         return []
     return [f"Angle to the minor principal stress in the band: {', '.join(angles)}." + (
@@ -95,17 +102,20 @@ def thickness_note(result):
 
 
 def stages(result):
-    """The comparison as two tables of readable width: stress and volume; bands. The program computed the differences."""
-    stress = {"head": [result.loading_variable.word, "t/s, grains", "t/s, continuum", "difference", "volumetric strain, grains",
-                       "volumetric strain, continuum", "difference"], "rows": []}
-    inclined = {"head": [result.loading_variable.word, "inclination, grains", "inclination, continuum", "difference", "10–90 % width, grains",
-                         ("10–90 % width, continuum", thickness_note(result)), "difference", "R², grains", "R², continuum"],
+    """The comparison as two tables of readable width: stress and volume; bands. The program computed the
+    differences."""
+    stress = {"head": [result.loading_variable.word, "t/s, grains", "t/s, continuum", "difference",
+                       "volumetric strain, grains", "volumetric strain, continuum", "difference"], "rows": []}
+    inclined = {"head": [result.loading_variable.word, "inclination, grains", "inclination, continuum", "difference",
+                         "10–90 % width, grains", ("10–90 % width, continuum", thickness_note(result)), "difference",
+                         "R², grains", "R², continuum"],
                 "rows": []}
     for stage in result.stages:
         panels, difference = (stage.panel("discrete"), stage.panel("continuum")), stage.record.get("difference") or {}
         row = [result.loading_variable.text(stage.end)]
         for key in ("stress_ratio", "volumetric_strain"):
-            row += [shown(result.numbers, f"stages/discrete/{key}", source.get(key)) for source in (*panels, difference)]
+            row += [shown(result.numbers, f"stages/discrete/{key}", source.get(key))
+                    for source in (*panels, difference)]
         stress["rows"].append(row)
         row = [result.loading_variable.text(stage.end)]
         for key in ("angle_deg", "width_10_90_d"):

@@ -3,14 +3,15 @@
 
 from .wording import number, suffix, typeset
 
-PANEL_WORDS = {"discrete": "grains", "continuum": "continuum", "difference": "continuum − grains", "material_point": "material point",
-               "comparison": ""}
+PANEL_WORDS = {"discrete": "grains", "continuum": "continuum", "difference": "continuum − grains",
+               "material_point": "material point", "comparison": ""}
 
 
 def changes(study):
     """One row per quantity, panel and parameter: verdict, change, smallest and largest mean."""
     several = len({(row["family"], row["parameter"]) for row in study.record["changes"]}) > 1
-    head = ["quantity", "panel", *(["parameter"] if several else []), "verdict", "change [95 %]", "smallest mean", "largest mean", "samples"]
+    head = ["quantity", "panel", *(["parameter"] if several else []), "verdict", "change [95 %]", "smallest mean",
+            "largest mean", "samples"]
     rows = []
     for row in study.record["changes"]:
         where = [": ".join(filter(None, (row["family"], row["parameter"])))] if several else []
@@ -22,7 +23,8 @@ def changes(study):
 def _verdict(row):
     if row["verdict"] != "not resolved":
         return row["verdict"]
-    return "not resolved: needs " + (f"about {row['samples_needed']}" if row["samples_needed"] else "more than 1000") + " samples"
+    needed = f"about {row['samples_needed']}" if row["samples_needed"] else "more than 1000"
+    return f"not resolved: needs {needed} samples"
 
 
 def _ends(study, row):
@@ -32,15 +34,18 @@ def _ends(study, row):
         return "0", number(row["smallest"], unit), number(row["smallest"], unit)
     if row["samples"] < min(2, len(study.record["seeds"]) or 1):
         return "–", "–", "–"
-    return number(row["change"], unit, 3), *(f"{number(row[end], unit)} at {row[end + '_at']}" for end in ("smallest", "largest"))
+    means = (f"{number(row[end], unit)} at {row[end + '_at']}" for end in ("smallest", "largest"))
+    return number(row["change"], unit, 3), *means
 
 
 def means(study, family, places):
     """One row per point: mean of each panel with its interval. places: {panel: index of the quantity}."""
     rows = []
     for k, point in study.of_family(family["name"]):
-        rows.append([", ".join(point["labels"]) or study.name(k), *(_mean(point["quantities"][q], study.quantities[q]) for q in places.values())])
-    return {"head": [", ".join(axis["name"] for axis in family["axes"]), *(PANEL_WORDS[panel] or "mean" for panel in places)], "rows": rows}
+        rows.append([", ".join(point["labels"]) or study.name(k),
+                     *(_mean(point["quantities"][q], study.quantities[q]) for q in places.values())])
+    return {"head": [", ".join(axis["name"] for axis in family["axes"]),
+                     *(PANEL_WORDS[panel] or "mean" for panel in places)], "rows": rows}
 
 
 def _mean(found, quantity):

@@ -23,12 +23,15 @@ def _text(one, key):
 
 def numbers(record):
     """One row per quantity: grains and difference with their 95 % intervals."""
-    rows = [[_name(one["quantity"]), *(_text(one, key) for key in ("grains", "law", "difference"))] for one in record["quantities"]]
+    rows = [[_name(one["quantity"]), *(_text(one, key) for key in ("grains", "law", "difference"))]
+            for one in record["quantities"]]
     return {"head": ["quantity", ("grains", "[95 %]"), "law", ("law − grains", "[95 %]")], "rows": rows}
 
 
 def rms(record):
     """One row per quantity: rms of law − grains, its standard error, and the standard error of the grains."""
-    rows = [[_name(one["quantity"]), *(_text(one, key) for key in ("value", "error", "noise"))] for one in record["rms"]]
-    return {"head": ["quantity", ("law − grains", "rms"), ("its standard error", "jackknife"), ("standard error of the grains", "rms")],
+    rows = [[_name(one["quantity"]), *(_text(one, key) for key in ("value", "error", "noise"))]
+            for one in record["rms"]]
+    return {"head": ["quantity", ("law − grains", "rms"), ("its standard error", "jackknife"),
+                     ("standard error of the grains", "rms")],
             "rows": rows}

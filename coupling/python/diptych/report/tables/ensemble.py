@@ -47,7 +47,8 @@ def with_interval(record, unit):
     """"16.9 [14.7, 19.1] d", with the unit once so that columns stay narrow."""
     if record is None or record["mean"] is None:
         return "–"
-    return fixed(record["mean"], unit) + ends_text(record["low"], record["high"], lambda end: fixed(end, unit)) + ending(unit)
+    ends = ends_text(record["low"], record["high"], lambda end: fixed(end, unit))
+    return fixed(record["mean"], unit) + ends + ending(unit)
 
 
 def verdict_rows(results):
@@ -82,9 +83,9 @@ def validation_table(results):
         cells.append(_digits(one["u_val"], factor, 2, "≥ " if missing else ""))
         cells.append(_digits(one["ratio"], 1, 2, "≤ " if missing else ""))
         rows.append([label, *cells, one["verdict"] + (f" (without {', '.join(missing)})" if missing else "")])
-    return {"head": ["", ("S", "continuum"), ("D", "grains"), ("E", "S − D"), ("u_num", "grains’ step"), ("u_num", "mesh"),
-                     ("u_num", "load step"), ("u_input", "parameters"), ("u_D", "samples"), ("u_val", "together"),
-                     "|E| / u_val", "verdict"], "rows": rows}
+    return {"head": ["", ("S", "continuum"), ("D", "grains"), ("E", "S − D"), ("u_num", "grains’ step"),
+                     ("u_num", "mesh"), ("u_num", "load step"), ("u_input", "parameters"), ("u_D", "samples"),
+                     ("u_val", "together"), "|E| / u_val", "verdict"], "rows": rows}
 
 
 def _digits(value, factor, digits, before=""):
@@ -114,7 +115,8 @@ def captions(results):
         text, unit = own_text(results, verdict)
         caption = text_of(results, verdict)
         if place:
-            caption += ". Bands found, grains: " + "; continuum: ".join(found.get(f"{place} {p}", "–") for p in PANEL_NAMES)
+            texts = [found.get(f"{place} {panel}", "–") for panel in PANEL_NAMES]
+            caption += ". Bands found, grains: " + "; continuum: ".join(texts)
         rows.append((verdict, text + AXIS_UNITS.get(unit, ""), 100 if unit == "%" else 1, caption + "."))
     return rows
 
@@ -122,7 +124,8 @@ def captions(results):
 def curve_caption(results):
     """Explains the lines in the charts of histories."""
     more = "" if len(results.record["done"]) <= MOST_CURVES else f" Curves of the first {MOST_CURVES} seeds."
-    width = "" if results.averaging is None else f", mean over the last {results.span(results.averaging)} of {results.loading_variable.word}"
+    across, width = results.loading_variable, results.averaging
+    width = "" if width is None else f", mean over the last {results.span(width)} of {across.word}"
     return (f" Thin: every seed{width}. Thick: mean of the seeds. Shaded: 95 % interval of this mean (Student)." + more)
 
 
@@ -130,7 +133,8 @@ def band_table(results):
     """Number of bands in every stage and window."""
     texts = {band["name"]: band["text"] for band in results.record["bands"]}
     places = [name.removesuffix(" discrete") for name in texts if name.endswith(" discrete")]
-    rows = [[" ".join(results.place(place))] + [texts.get(f"{place} {p}", "–") for p in PANEL_NAMES] for place in places]
+    rows = [[" ".join(results.place(place))] + [texts.get(f"{place} {p}", "–") for p in PANEL_NAMES]
+            for place in places]
     return {"head": ["", "grains", "continuum"], "rows": rows}
 
 
@@ -157,8 +161,9 @@ def members(results):
 
 
 def quantity_table(results):
-    rows = [[q["name"], q["unit"], str(q["n"])] + ["–" if q[key] is None else number(q[key]) for key in
-                                                   ("mean", "deviation", "low", "high")] for q in results.record["quantities"]]
+    rows = [[q["name"], q["unit"], str(q["n"])]
+            + ["–" if q[key] is None else number(q[key]) for key in ("mean", "deviation", "low", "high")]
+            for q in results.record["quantities"]]
     return {"head": ["quantity", "unit", "n", "mean", "deviation", "95 % from", "to"], "rows": rows}
 
 
@@ -167,6 +172,7 @@ def provenance(results):
     rows = [[words, str(source[key])] for key, words in (("program", "program"), ("version", "version"),
                                                           ("git_revision", "revision"), ("command", "command"),
                                                           ("date", "run on")) if source.get(key) is not None]
-    rows += [[f"time of the {phase['name']}", f"{number(phase.get('wall_s'), ' s', 3)}, CPU {number(phase.get('cpu_s'), ' s', 3)}"]
+    rows += [[f"time of the {phase['name']}",
+              f"{number(phase.get('wall_s'), ' s', 3)}, CPU {number(phase.get('cpu_s'), ' s', 3)}"]
              for phase in source.get("phases") or []]
     return {"head": ["", ""], "rows": rows}

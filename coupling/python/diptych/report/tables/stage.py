@@ -58,20 +58,25 @@ def grain_pressures(result, increment):
 
 
 def stress_difference(result, increment):
-    """Difference of the stress on cells, 3 d and 6 d, and the difference expected from sampling only. The verdict is a note."""
-    place, keys = increment.place("difference/stress"), ("resolution_d", "relative_l2", "sampling_alone", "direction_deg")
+    """Difference of the stress on cells, 3 d and 6 d, and the difference expected from sampling only. The verdict is a
+    note."""
+    place = increment.place("difference/stress")
+    keys = ("resolution_d", "relative_l2", "sampling_alone", "direction_deg")
     rows = [[row.get("label", ""), *[_cell(result, place, row, key) for key in keys]]
             for row in (increment.record.get("difference") or {}).get("stress") or []]
-    return {"head": ["averaged over"] + [result.numbers.meaning(f"{place}/{key}") for key in keys], "rows": rows} if rows else None
+    return {"head": ["averaged over"] + [result.numbers.meaning(f"{place}/{key}") for key in keys],
+            "rows": rows} if rows else None
 
 
 def mapping(result):
     """Errors of the mapping at each stage."""
-    rows = [[result.loading_variable.text(stage.end), str(kept.get("method", "")), number(kept.get("total_relative_error"), "", 2),
+    rows = [[result.loading_variable.text(stage.end), str(kept.get("method", "")),
+             number(kept.get("total_relative_error"), "", 2),
              *[number(kept.get(key), "", 2) for key in ("nodal_residual", "couple_residual")],
              rounded(kept.get("outside_share"), "%", 2)]
             for stage in result.stages for kept in [stage.record.get("mapping") or {}] if kept]
-    words = [result.numbers.meaning(f"stages/mapping/{key}") for key in ("total_relative_error", "nodal_residual", "couple_residual", "outside_share")]
+    words = [result.numbers.meaning(f"stages/mapping/{key}")
+             for key in ("total_relative_error", "nodal_residual", "couple_residual", "outside_share")]
     return {"head": [result.loading_variable.word, "method", *words], "rows": rows} if rows else None
 
 
@@ -98,7 +103,8 @@ def chains(result, increment):
             rows.append([f"{name} the band", number(part.get("grains")), rounded(part.get("mean"), ""),
                          rounded(part.get("share_above_mean"), "%", 1)])
     if rows and found.get("largest_distance") is not None:
-        rows.append([result.numbers.meaning(f"{place}/largest_distance"), "", rounded(found["largest_distance"], ""), ""])
+        distance = rounded(found["largest_distance"], "")
+        rows.append([result.numbers.meaning(f"{place}/largest_distance"), "", distance, ""])
     return {"head": ["major principal stress of a grain", "grains", "mean, relative", "share above the mean"],
             "rows": rows} if rows else None
 

@@ -38,13 +38,16 @@ def cheapest(study):
     for row in study.bill["cheapest"]:
         known = row["point"] >= 0
         errors = study.points[row["point"]]["quantities"] if known else []
-        text = "; ".join(f"{of['name']} {with_ends(q['error'], of['relative'])}" for q, of in zip(errors, study.quantities)
+        text = "; ".join(f"{of['name']} {with_ends(q['error'], of['relative'])}"
+                         for q, of in zip(errors, study.quantities)
                          if of["limit"] and row["quantity"] in ("", of["name"]))
         sure = "–" if not known else "yes" if row["certain"] else "no, within the scatter of the samples"
         reference = ", ".join(study.points[row["reference"]]["labels"])
-        rows.append([(row["quantity"] or "all with a limit") + (f" ({reference})" if reference else ""), accuracy_of(study, row), study.name(row["point"]) if known else "none of these",
+        rows.append([(row["quantity"] or "all with a limit") + (f" ({reference})" if reference else ""),
+                     accuracy_of(study, row), study.name(row["point"]) if known else "none of these",
                      seconds(row["cpu_s"]), text or "–", sure])
-    return {"head": ["quantity", "error at most", "cheapest point", "CPU per sample", "error [95 %]", "sure"], "rows": rows}
+    return {"head": ["quantity", "error at most", "cheapest point", "CPU per sample", "error [95 %]", "sure"],
+            "rows": rows}
 
 
 def points(study):
@@ -59,21 +62,23 @@ def points(study):
             messages.append(f"{point['halved_steps']} steps halved")
         if point["cut_backs"]:
             messages.append(f"{point['cut_backs']:g} load steps halved")
-        judged = {"kind": point["class"], "sure": point["certain"],
-                  "colour": CLASSES[point["class"]][0], "ink": CLASSES[point["class"]][1],
-                  "errors": [with_ends(q["error"], of["relative"]) for q, of in zip(point["quantities"], study.quantities)]} \
-            if study.has_reference else {}
-        rows.append({"place": k, "name": study.name(k), **judged,
-                     "cost": seconds(cost["cpu_s"] if cost else None), "messages": "; ".join(messages),
-                     "log": point["folders"][0] + ".log" if os.path.isfile(os.path.join(study.folder, point["folders"][0] + ".log"))
-                     else ""})
+        log = point["folders"][0] + ".log"
+        rows.append({"place": k, "name": study.name(k), "messages": "; ".join(messages),
+                     "cost": seconds(cost["cpu_s"] if cost else None),
+                     "log": log if os.path.isfile(os.path.join(study.folder, log)) else ""})
+        if study.has_reference:
+            colour, ink, _ = CLASSES[point["class"]]
+            rows[-1].update(kind=point["class"], sure=point["certain"], colour=colour, ink=ink,
+                            errors=[with_ends(q["error"], of["relative"])
+                                    for q, of in zip(point["quantities"], study.quantities)])
     return rows
 
 
 def orders(study):
     rows = []
     for row in study.record["orders"]:
-        others = ", ".join(f"{axis['name']} {label}" for axis, label in zip(study.family(row["family"])["axes"], row["labels"]) if label)
+        others = ", ".join(f"{axis['name']} {label}"
+                           for axis, label in zip(study.family(row["family"])["axes"], row["labels"]) if label)
         rows.append([row["quantity"], f"{row['family']}: {row['axis']}".lstrip(": "), others or "–", row["points"],
                      _interval(row["order"], "{:.2g}".format), _interval(row["limit"], "{:.4g}".format)])
     return {"head": ["quantity", "along", "at", "points", "order [95 %]", "limit [95 %]"], "rows": rows}
@@ -102,11 +107,11 @@ def disturbed(study):
 
 
 def provenance(study):
-    record, bill = study.record, study.bill
+    record, bill, seeds = study.record, study.bill, study.record["seeds"]
     return {"head": ["", ""], "rows": [
         ["scene", record["scene"]], ["command", "diptych " + record["command"]],
         ["settings of all points", "; ".join(record["settings"]) or "those of the scene"],
-        *([["reference", "; ".join(study.points[0]["settings"]) or "the unchanged scene"]] if study.has_reference else []),
-        ["samples", f"{len(record['seeds'])}: seeds {', '.join(map(str, record['seeds']))}" if record["seeds"] else "the sample of the scene"],
+        *([["reference", "; ".join(study.points[0]["settings"]) or "the unchanged scene"]] * study.has_reference),
+        ["samples", f"{len(seeds)}: seeds {', '.join(map(str, seeds))}" if seeds else "the sample of the scene"],
         ["program", record["revision"]], ["phases counted", ", ".join(bill["phases"])],
         ["all runs", f"{bill['runs']} runs, {number(bill['total_cpu_s'])} CPU seconds"]]}

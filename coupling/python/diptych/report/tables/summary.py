@@ -21,7 +21,8 @@ def table(result, part):
     values = result.part(part)
     for key in sorted(values, key=lambda name: (ORDER.index(name) if name in ORDER else len(ORDER), name)):
         value = values[key]
-        if key in LEFT_OUT or value == "" or isinstance(value, list) or (isinstance(value, dict) and "value" not in value):
+        is_group = isinstance(value, list) or (isinstance(value, dict) and "value" not in value)
+        if key in LEFT_OUT or value == "" or is_group:
             continue
         place = f"{part}/{key}"
         rows.append([result.numbers.meaning(place), _text(result, place, key, value), EXPECTED.get(key, "")])

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A number may carry an interval: {"value", "low", "high"}. Unit "%" multiplies by 100, others are appended.
 
-Meanings and units come from the list of numbers of the comparison. This file adds expected values and the form of numbers.
+Meanings and units come from the list of numbers of the comparison. This file adds expected values and the form of
+numbers.
 """
 
 import math
@@ -16,24 +17,26 @@ MESH_SET_REASON = "It is not a material property, unless it is the same on two m
 LENGTH_SET_REASON = "It depends on this length, the size of the sample and the softening; all are chosen or fitted."
 
 # Keys of pure numbers that are shown in per cent.
-PER_CENT = {"volumetric_strain", "final_volumetric_strain", "reached_axial_strain", "reached_shear_strain", "share_inside",
-            "area_share", "share_above_mean", "lost_share", "relative_l2", "stress_l2_relative", "sampling_alone",
-            "lowest_scatter", "outside_share", "viscous_share", "unstable_share", "share_zz_not_intermediate", "solver_share_of_cpu",
-            "platen_difference_share_below_1_percent", "platen_difference_mean", "platen_difference_largest",
-            "expected_strength_error", "impact_share", "grain_stress_error", "residual_factor_error", "residual_factor_estimate"}
+PER_CENT = {"volumetric_strain", "final_volumetric_strain", "reached_axial_strain", "reached_shear_strain",
+            "share_inside", "area_share", "share_above_mean", "lost_share", "relative_l2", "stress_l2_relative",
+            "sampling_alone", "lowest_scatter", "outside_share", "viscous_share", "unstable_share",
+            "share_zz_not_intermediate", "solver_share_of_cpu", "platen_difference_share_below_1_percent",
+            "platen_difference_mean", "platen_difference_largest", "expected_strength_error", "impact_share",
+            "grain_stress_error", "residual_factor_error", "residual_factor_estimate"}
 
 # Order of a summary; other keys follow in alphabetical order.
 ORDER = ("grains", "cells", "unknowns", "element_size_d", "preparation_solid_fraction", "preparation_friction",
          "preparation_steps", "preparation_residual", "preparation_unbalanced_force", "initial_height", "platen_speed",
          "mean_inertial_number", "finished", "reached_progress", "reached_axial_strain", "reached_shear_strain",
-         "peak_stress_ratio", "strain_at_peak", "early_strength", "strength", "platen_force_pd", "final_volumetric_strain", "max_equivalent_plastic_strain", "internal_length_d",
-         "localisation_strain", "localisation_angle_deg", "unstable_share", "viscous_share", "platen_unbalance", "share_zz_not_intermediate",
-         "processes", "steps", "step_length", "step", "step_bound", "halved_steps", "cut_backs", "newton_iterations", "sweeps",
-         "residual", "solver_noise", "grain_stress_error", "max_penetration_d", "impact_share", "energy_residual", "momentum_residual",
-         "spin_term_share", "kinetic_energy_ratio_median", "kinetic_energy_ratio_largest", "kinetic_energy_bursts",
-         "platen_difference_share_below_1_percent", "platen_difference_mean", "platen_difference_largest", "contacts",
-         "coordination_number", "rattlers", "preparation_cpu_s", "discrete_cpu_s", "continuum_cpu_s", "comparison_cpu_s",
-         "peak_memory_mb")
+         "peak_stress_ratio", "strain_at_peak", "early_strength", "strength", "platen_force_pd",
+         "final_volumetric_strain", "max_equivalent_plastic_strain", "internal_length_d", "localisation_strain",
+         "localisation_angle_deg", "unstable_share", "viscous_share", "platen_unbalance", "share_zz_not_intermediate",
+         "processes", "steps", "step_length", "step", "step_bound", "halved_steps", "cut_backs", "newton_iterations",
+         "sweeps", "residual", "solver_noise", "grain_stress_error", "max_penetration_d", "impact_share",
+         "energy_residual", "momentum_residual", "spin_term_share", "kinetic_energy_ratio_median",
+         "kinetic_energy_ratio_largest", "kinetic_energy_bursts", "platen_difference_share_below_1_percent",
+         "platen_difference_mean", "platen_difference_largest", "contacts", "coordination_number", "rattlers",
+         "preparation_cpu_s", "discrete_cpu_s", "continuum_cpu_s", "comparison_cpu_s", "peak_memory_mb")
 
 # key -> expected value
 EXPECTED = {

@@ -131,8 +131,8 @@ function drawOutline(view, increment) {
   }
 }
 
-// Centre line of each band, and dashed lines at plus and minus half its 10-90 % width. On colours the lines are white with a
-// dark rim. Bands with less than half of the largest jump are fainter.
+// Centre line of each band, and dashed lines at plus and minus half its 10-90 % width. On colours the lines are white
+// with a dark rim. Bands with less than half of the largest jump are fainter.
 function drawBands(view, increment, panel, onColour) {
   const c = view.c, far = 4 * (data.box[1] - data.box[0] + data.box[3] - data.box[2]);
   const bands = increment.bands[panel], strongest = Math.max(0, ...bands.map((band) => Math.abs(band[3] || 0)));
@@ -175,7 +175,10 @@ function drawBar(canvas, width, pixels, quantity, limits, beyond) {
   const inset = Math.max(24, 0.12 * width), c = cleared(canvas, width, 32 + 14 * lines.length, pixels);
   const long = width - 2 * inset, table = data.maps[quantity.map];
   // Each colour is painted to the end and the next one over it, so there are no seams.
-  table.forEach((colour, k) => { c.fillStyle = colour; c.fillRect(inset + long * k / 256, 2, long * (1 - k / 256), 10); });
+  table.forEach((colour, k) => {
+    c.fillStyle = colour;
+    c.fillRect(inset + long * k / 256, 2, long * (1 - k / 256), 10);
+  });
   [[0, -1], [1, 1]].forEach(([end, sense]) => {
     if (!beyond[end]) return;
     const x = inset + end * long;

@@ -75,8 +75,8 @@ function drawCrosses(view, increment, panel) {
   return x.length;
 }
 
-// Grains: forces as segments of one diameter, centred at the contacts; the thickness is the force. Continuum: principal stresses
-// as crosses of one size; the thickness is the force sigma d across one diameter.
+// Grains: forces as segments of one diameter, centred at the contacts; the thickness is the force. Continuum: principal
+// stresses as crosses of one size; the thickness is the force sigma d across one diameter.
 function drawForces(view, increment, panel) {
   const c = view.c, unit = view.scale * data.force_unit;
   const stored = panel === "discrete" ? increment.forces : increment.crosses.continuum;
@@ -100,8 +100,10 @@ function drawForces(view, increment, panel) {
 
 // Half length of the line of 1 P [d]. The largest stress of both panels fits into the smallest probe.
 function stressArm(increment, rectangles) {
-  const extents = rectangles.flatMap((p) => [0, 1].map((n) => p.polygon.map((q) => q[n])).map((u) => Math.max(...u) - Math.min(...u)));
-  const stresses = Object.keys(data.panels).flatMap((panel) => increment.probes[panel].rectangles.map((p) => p.s1 || 0));
+  const extents = rectangles.flatMap((p) =>
+    [0, 1].map((n) => p.polygon.map((q) => q[n])).map((u) => Math.max(...u) - Math.min(...u)));
+  const stresses = Object.keys(data.panels).flatMap((panel) =>
+    increment.probes[panel].rectangles.map((p) => p.s1 || 0));
   return 0.46 * Math.min(...extents) / Math.max(1e-9, ...stresses);
 }
 

@@ -1,4 +1,5 @@
-// diptych: shows the values under the pointer in both panels, and draws the maps of a print. SPDX-License-Identifier: LGPL-2.1-or-later
+// diptych: shows the values under the pointer in both panels, and draws the maps of a print.
+// SPDX-License-Identifier: LGPL-2.1-or-later
 "use strict";
 const hover = { part: null };
 
@@ -41,10 +42,12 @@ document.addEventListener("pointermove", (event) => {
   const canvas = event.target.closest ? event.target.closest('.pair[data-draw="quantity"] canvas.map') : null;
   if (!canvas) return hover.part && (hover.part = null, hideReadout());
   hover.part = canvas.closest("section.part");
-  const increment = increments.get(canvas.dataset.key), frame = canvas.getBoundingClientRect(), [x0, x1, , y1] = data.box;
+  const increment = increments.get(canvas.dataset.key), frame = canvas.getBoundingClientRect();
+  const [x0, x1, , y1] = data.box;
   const scale = Math.max(0.1, (frame.width - 44) / (x1 - x0));
   const x = x0 + (event.clientX - frame.left - 38) / scale, y = y1 - (event.clientY - frame.top - 6) / scale;
-  hover.part.querySelector("output.readout").textContent = "x " + numeral(x, 1) + " d, y " + numeral(y, 1) + " d: grains " +
+  hover.part.querySelector("output.readout").textContent =
+    "x " + numeral(x, 1) + " d, y " + numeral(y, 1) + " d: grains " +
     valueAt(increment, "discrete", x, y) + ", continuum " + valueAt(increment, "continuum", x, y);
   for (const hair of all(".hair", hover.part)) {
     hair.hidden = false;
@@ -94,7 +97,10 @@ window.addEventListener("afterprint", () => {
   refreshAll();
 });
 let waiting = 0;
-window.addEventListener("resize", () => { cancelAnimationFrame(waiting); waiting = requestAnimationFrame(refreshAll); });
+window.addEventListener("resize", () => {
+  cancelAnimationFrame(waiting);
+  waiting = requestAnimationFrame(refreshAll);
+});
 offerPlaces();
 refreshAll();
 document.documentElement.dataset.ready = "yes";

@@ -46,7 +46,8 @@ function drawCurves() {
     element("line", {x1: box.left, x2: box.right, y1: up(y), y2: up(y), stroke: "#e4e4e4"});
     element("text", {x: box.left - 6, y: up(y) + 4, "text-anchor": "end"}, shown(y));
   });
-  element("text", {x: (box.left + box.right) / 2, y: box.bottom + 36, "text-anchor": "middle"}, "progress of the loading");
+  element("text", {x: (box.left + box.right) / 2, y: box.bottom + 36, "text-anchor": "middle"},
+          "progress of the loading");
   chosen.forEach((k, n) => {
     let path = "", pen = false;
     curve.rows[k].forEach((v, i) => {
@@ -54,9 +55,11 @@ function drawCurves() {
       pen = v !== null;
     });
     const colour = palette[n % palette.length], dash = ["", "6 3", "2 2"][Math.floor(n / palette.length) % 3];
-    element("path", {d: path, fill: "none", stroke: colour, "stroke-width": 1.6, "stroke-dasharray": dash, "data-curve": k});
+    element("path", {d: path, fill: "none", stroke: colour, "stroke-width": 1.6,
+                     "stroke-dasharray": dash, "data-curve": k});
     const row = boxes.find((b) => Number(b.dataset.point) === k).closest("tr").querySelector("th").textContent;
-    element("text", {x: box.right - 6, y: box.bottom - 8 - 15 * (chosen.length - 1 - n), "text-anchor": "end", style: `fill:${colour}`}, row);
+    element("text", {x: box.right - 6, y: box.bottom - 8 - 15 * (chosen.length - 1 - n), "text-anchor": "end",
+                     style: `fill:${colour}`}, row);
   });
 }
 

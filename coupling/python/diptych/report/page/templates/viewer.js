@@ -16,7 +16,9 @@ function shown(increment, panel, quantity, place) {
 
 function bandText(increment, panel) {
   const bands = increment.bands[panel];
-  return bands.length ? bands.map((band) => "band at " + numeral(band[0], 0) + " degrees").join("; ") : "no band detected";
+  return bands.length
+    ? bands.map((band) => "band at " + numeral(band[0], 0) + " degrees").join("; ")
+    : "no band detected";
 }
 
 function drawQuantity(view, increment, panel, canvas) {
@@ -84,7 +86,8 @@ function drawMap(canvas, drawing, increment) {
   canvas.dataset.drawn = words ? "yes" : "no";
   const reason = increment.kind === "window" ? "only stages store this; choose a stage"
                : panel === "continuum" ? "not defined for the continuum" : "not stored";
-  canvas.setAttribute("aria-label", (data.panels[panel] || canvas.dataset.title) + ", " + increment.title + ": " + (words || reason));
+  canvas.setAttribute("aria-label",
+                      (data.panels[panel] || canvas.dataset.title) + ", " + increment.title + ": " + (words || reason));
   frame.classList.toggle("empty", !words);
   all(".none", frame).forEach((none) => { none.textContent = reason; });
 }
@@ -165,13 +168,15 @@ function chooseQuantity(key) {
   chosen.quantity = data.quantities.find((quantity) => quantity.key === key);
   chosen.place = chosen.quantity.home;
   offerPlaces();
-  all('section.part').filter((part) => part.querySelector('[data-draw="quantity"], [data-draw="difference"]')).forEach(refresh);
+  all('section.part').filter((part) => part.querySelector('[data-draw="quantity"], [data-draw="difference"]'))
+    .forEach(refresh);
 }
 
 function offerPlaces() {
   const names = { discs: "grains as discs", cells: "both on the cells of the mesh", grid: "both on a regular grid" };
   const place = document.getElementById("place");
-  place.replaceChildren(...chosen.quantity.places.map((key) => new Option(names[key], key, false, key === chosen.place)));
+  place.replaceChildren(
+    ...chosen.quantity.places.map((key) => new Option(names[key], key, false, key === chosen.place)));
   showMeaning();
 }
 
