@@ -17,6 +17,7 @@
 #include "coupling/program/commands.h"
 #include "coupling/program/resource_estimate.h"
 #include "coupling/scene/identity.h"
+#include "coupling/statistics/history_table.h"
 #include "coupling/scene/scene_error.h"
 #include "coupling/store/file_names.h"
 #include "coupling/store/provenance.h"
