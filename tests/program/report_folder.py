@@ -86,7 +86,7 @@ def _common(found):
                               "variation_shear": 0.2, "normal_error": [None, 0.1]}}
 
 
-def store(group, path, values, unit="-", title="", meaning=""):
+def store(group, path, values, unit="-", title="", *, meaning=""):
     group[path] = values
     group[path].attrs.update(unit=np.bytes_(unit), title=np.bytes_(title), meaning=np.bytes_(meaning))
 

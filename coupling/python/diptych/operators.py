@@ -66,7 +66,7 @@ def grid(lower: Any, upper: Any, size: float) -> Mesh:
     return Mesh(**_diptych.grid(lower, upper, size))
 
 
-def contacts(grains: Any, i: Any, j: Any, force: Any, ids: Any = None,
+def contacts(grains: Any, i: Any, j: Any, force: Any, *, ids: Any = None,
              walls: Mapping[int, tuple[Any, Any]] | None = None) -> Record:
     """Completes contacts of discs with the contact points, which many codes do not write: on the line of centres, or the foot on a
     wall.
