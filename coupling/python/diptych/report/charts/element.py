@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from .style import CONTINUUM, GRAINS, INK, PANEL_LINES, ROUND_OFF, THIRD, chart, svg
+from .style import CONTINUUM, GRAINS, PANEL_LINES, THIRD, chart, limit_below, svg
 
 # quantity -> factor, label, caption
 CHARTS = {
@@ -36,12 +36,7 @@ def _chart(element, name, factor, label, caption):
     law = element.curves.get(f"law_{name}")
     if law is not None:
         axes.plot(across, factor * law, color=CONTINUUM, linestyle=PANEL_LINES["continuum"], label="law")
-    if name == "volumetric_strain":
-        axes.axhline(0, color=INK, linewidth=0.6)
-        if np.ptp(axes.get_ylim()) < ROUND_OFF:
-            axes.set_ylim(-ROUND_OFF, ROUND_OFF)
-    else:
-        axes.set_ylim(0, 1.05 * axes.get_ylim()[1])
+    limit_below(axes, name == "volumetric_strain")
     axes.set_xlim(left=0)
     axes.legend(loc="best")
     return svg(figure, f"{label} along the path, grains and law."), caption

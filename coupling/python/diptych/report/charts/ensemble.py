@@ -55,7 +55,7 @@ def _limits(rows):
 def dots(verdict, quantities, label, scale=1.0):
     """Every seed in both panels, pairs joined by lines, with mean and 95 % interval. None without values."""
     panels = list(PANEL_NAMES)
-    values = {panel: np.array([np.nan if x is None else x for x in verdict[panel]], dtype=float) for panel in panels}
+    values = {panel: np.array(verdict[panel], dtype=float) for panel in panels}
     if not any(np.isfinite(v).any() for v in values.values()):
         return None
     figure = Figure(figsize=(3.4, 2.9))

@@ -5,7 +5,7 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
-from .style import GRAINS, INK, NO_VALUE, ROUND_OFF, chart, signed, svg, with_intervals
+from .style import GRAINS, INK, NO_VALUE, chart, limit_below, signed, svg, with_intervals
 from ..data.numbers import plain, scaled
 
 WIDTH, TALLEST = 3.6, 4.6  # of a map, inches
@@ -102,12 +102,7 @@ def curves(result):
         at = [across * frame["progress"] for frame in known]
         axes.plot(at, [plain(number) for number in numbers], color=GRAINS, linewidth=1)
         with_intervals(axes, at, numbers, fmt="o", markersize=4, color=GRAINS)
-        if key == "volumetric_strain":
-            axes.axhline(0, color=INK, linewidth=0.6)
-            if np.ptp(axes.get_ylim()) < ROUND_OFF:
-                axes.set_ylim(-ROUND_OFF, ROUND_OFF)
-        else:
-            axes.set_ylim(0, 1.05 * axes.get_ylim()[1])
+        limit_below(axes, key == "volumetric_strain")
         found.append((svg(figure, f"{label} over {result.loading_variable.word}."), caption))
     return found + [_bands(result, *look) for look in (("angle_deg", "inclination of the bands (degrees)"),
                                                        ("width_10_90_d", "10–90 % width of the bands (d)"))

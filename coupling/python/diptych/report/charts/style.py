@@ -131,6 +131,16 @@ def with_intervals(axes, x, numbers, **look):
     return True
 
 
+def limit_below(axes, is_strain):
+    """Starts the axis at zero; that of a volumetric strain shows zero as a line and at least the range of round-off."""
+    if not is_strain:
+        axes.set_ylim(0, 1.05 * axes.get_ylim()[1])
+        return
+    axes.axhline(0, color=INK, linewidth=0.6)
+    if np.ptp(axes.get_ylim()) < ROUND_OFF:
+        axes.set_ylim(-ROUND_OFF, ROUND_OFF)
+
+
 def thin(x, y, points=POINTS):
     """Keeps the lowest and highest point of each of points/2 bins, so that a long history keeps its spikes."""
     if len(x) <= points:

@@ -2,27 +2,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 import os
-from dataclasses import dataclass
+from types import SimpleNamespace
 
 from ...files import read_json
-from .files import read_csv, require
-from .loading_variable import LoadingVariable, loading_variable_of
-
-
-@dataclass
-class Element:
-    """record: element.json. curves: columns of element.csv by name."""
-
-    record: dict
-    curves: dict
-
-    @property
-    def loading_variable(self) -> LoadingVariable:
-        return loading_variable_of(self.record["walk"])
+from .files import read_csv
+from .loading_variable import loading_variable_of
 
 
 def load(folder):
-    """Raises InputError if a file is missing, broken or has another format."""
-    paths = [os.path.join(folder, name) for name in ("element.json", "element.csv")]
-    require(paths)
-    return Element(read_json(paths[0], 1), read_csv(paths[1]))
+    """record: element.json. curves: columns of element.csv by name."""
+    record = read_json(os.path.join(folder, "element.json"), 1)
+    return SimpleNamespace(record=record, curves=read_csv(os.path.join(folder, "element.csv")),
+                           loading_variable=loading_variable_of(record["walk"]))

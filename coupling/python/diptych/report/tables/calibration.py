@@ -66,11 +66,10 @@ def _rms(values):
 
 
 def minima(calibration):
-    names = calibration.names()
     rows = [[f"start {k + 1}" + (" (best)" if m["is_best"] else ""), text(m["chi2"], 3), text(m.get("total"), 3),
              str(m["runs"]), *[text(n, 3) for n in m["numbers"]]]
             for k, m in enumerate(calibration.record["minima"])]
-    return {"head": ["", "χ² of the data", "with prior", "runs", *names], "rows": rows}
+    return {"head": ["", "χ² of the data", "with prior", "runs", *map(label, calibration.parameters)], "rows": rows}
 
 
 def cost(calibration):
