@@ -8,7 +8,6 @@ limit), then the maps of classes, row by row. A study with ranges: Sobol indices
 functions of the report (PYTHONPATH with diptych)."""
 import argparse
 import math
-import os
 import textwrap
 
 from diptych.report.charts import sensitivity

@@ -39,6 +39,7 @@ def open_arrays(path):
 
 def read_csv(path):
     """{column: array of numbers}; NaN: no number."""
+    require([path])
     with open(path, encoding="utf-8", newline="") as stream:
         rows = list(csv.reader(stream))
     # A killed run may leave an incomplete last line.

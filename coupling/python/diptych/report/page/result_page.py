@@ -1,7 +1,7 @@
 # diptych: report.html of a result folder
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
-from ..charts import chains, circular, histories, ledgers, probes, profiles, resolution, strips, style, trends
+from ..charts import chains, circular, histories, ledgers, probes, profiles, resolution, strips, trends
 from ..charts.style import Pair
 from ..data.result import load
 from . import viewer
