@@ -166,10 +166,6 @@ namespace diptych::coupling
         compare->add_option("DIR", line.target, "result folder")->required();
         add_set(compare);
         add_quiet(compare);
-        CLI::App *report = add(Command::report, "draw report.html again, of any folder of results");
-        report->add_option("DIR", line.target, "result folder")->required();
-        report->add_flag("--movie", line.draws_movie, "also draw both panels step by step: movie.gif");
-        add_quiet(report);
       }
 
       void add_others()

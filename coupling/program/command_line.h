@@ -24,7 +24,6 @@ namespace diptych::coupling
     check_law,
     solve,
     compare,
-    report,
     new_scene,
     explain,
     completion
@@ -49,10 +48,9 @@ namespace diptych::coupling
   struct CommandLine : RunOptions, SceneOptions
   {
     Command      command = Command::explain;
-    std::string  target;              // scene or problem file, result folder, section or shell
-    std::string  output;              // --output
-    std::string  word;                // explain results WORD
-    bool         draws_movie = false; // report: --movie
+    std::string  target; // scene or problem file, result folder, section or shell
+    std::string  output; // --output
+    std::string  word;   // explain results WORD
     SolveOptions solve;
     bool         prints_warnings = true; // true on the first of several processes
     std::string  path;                   // material-point: --path; empty: that of the scene

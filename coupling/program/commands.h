@@ -15,7 +15,6 @@ namespace diptych::coupling
   int run_material_point(const CommandLine &line, const Scene &scene); // material-point SCENE: writes material_point.csv
 
   int compare_again(const CommandLine &line); // compare DIR: a result folder or an ensemble
-  int report_again(const CommandLine &line);  // report DIR: comparison, ensemble, study or calibration
 
   int print_template(const CommandLine &line); // new [TEMPLATE]
   int print_completion();                      // completion bash

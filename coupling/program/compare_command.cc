@@ -13,7 +13,7 @@
 #include "coupling/processes/progress.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/program/commands.h"
-#include "coupling/program/report_command.h"
+#include "coupling/program/report_page.h"
 #include "coupling/scene/scene_file.h"
 #include "coupling/store/file_names.h"
 #include "coupling/store/provenance.h"
@@ -136,7 +136,7 @@ namespace diptych::coupling
           {
             Progress progress(line.quiet);
             progress.update("drawing the report", 0);
-            draw("page", directory, next);
+            draw_page(directory, next);
             progress.finish();
             record_phases(next, origin_of(line, scene), {timer.stop()});
           }

@@ -21,7 +21,6 @@
 #include "coupling/program/explain_command.h"
 #include "coupling/program/python_commands.h"
 #include "coupling/program/python_package.h"
-#include "coupling/program/report_command.h"
 #include "coupling/scene/scene_error.h"
 #include "coupling/store/result_folder.h"
 #include "discrete/files/out_of_memory.h"
@@ -150,8 +149,6 @@ namespace
         return solve_stored_problem(line);
       case Command::compare:
         return compare(line);
-      case Command::report:
-        return report_again(line);
       case Command::new_scene:
         return print_template(line);
       case Command::completion:

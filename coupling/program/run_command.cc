@@ -13,7 +13,7 @@
 #include "coupling/program/compare_command.h"
 #include "coupling/program/continuum_command.h"
 #include "coupling/program/discrete_command.h"
-#include "coupling/program/report_command.h"
+#include "coupling/program/report_page.h"
 #include "coupling/program/resource_estimate.h"
 #include "coupling/scene/identity.h"
 #include "coupling/store/provenance.h"

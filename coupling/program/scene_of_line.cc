@@ -32,7 +32,6 @@ namespace diptych::coupling
                                                           {Command::check_law, "check-law"},
                                                           {Command::solve, "solve"},
                                                           {Command::compare, "compare"},
-                                                          {Command::report, "report"},
                                                           {Command::new_scene, "new"},
                                                           {Command::explain, "explain"},
                                                           {Command::completion, "completion"}};

@@ -91,16 +91,6 @@ namespace diptych::coupling
     return fs::exists(directory + "/calibration_input.json");
   }
 
-  bool is_homogenised_folder(const std::string &directory)
-  {
-    return fs::exists(directory + "/homogenised.json");
-  }
-
-  bool is_element_folder(const std::string &directory)
-  {
-    return fs::exists(directory + "/element.json");
-  }
-
   bool is_result_folder(const std::string &directory)
   {
     for (const char *name : {"provenance.json", "ensemble.prm", "study_input.json", "calibration_input.json", "plan_input.prm",

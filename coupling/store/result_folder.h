@@ -38,8 +38,6 @@ namespace diptych::coupling
   bool is_ensemble_folder(const std::string &directory);
   bool is_study_folder(const std::string &directory);
   bool is_calibration_folder(const std::string &directory);
-  bool is_homogenised_folder(const std::string &directory);
-  bool is_element_folder(const std::string &directory);
 
   // Results of any command: a run, an import, an ensemble, a study, a plan, a calibration or an element.
   bool is_result_folder(const std::string &directory);

@@ -147,3 +147,9 @@ def add_export(parser: Parser) -> None:
     parser.add_argument("--stage", metavar="N", type=number(0, 1000000, True), default=0,
                         help="number of the snapshot (default: 0, the prepared sample); not for dump")
     add_quiet(parser)
+
+
+def add_report(parser: Parser) -> None:
+    parser.add_argument("target", metavar="DIR", help="result folder")
+    parser.add_argument("--movie", action="store_true", help="also draw both panels step by step: movie.gif")
+    add_quiet(parser)

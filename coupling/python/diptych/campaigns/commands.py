@@ -20,7 +20,8 @@ COMMANDS = {"run": (arguments.add_run, "ensembles.ensemble", "run_ensemble"),
             "element": (arguments.add_element, "element.element", "run_element"),
             "homogenise": (arguments.add_homogenise, "element.homogenise", "run_homogenise"),
             "import": (arguments.add_import, "exchange.imports", "run_import"),
-            "export": (arguments.add_export, "exchange.exports", "run_export")}
+            "export": (arguments.add_export, "exchange.exports", "run_export"),
+            "report": (arguments.add_report, "exchange.reports", "run_report")}
 
 
 def with_joined_per_cent(words: Sequence[str]) -> list[str]:

@@ -66,7 +66,7 @@ def run_calibration(line: argparse.Namespace, options: Options) -> None:
         write_calibration(directory, record, runs.cpu_s, posterior)
         if not ended:
             tell(summary(record, runs.cpu_s["discrete" if calibration.of_grains else "continuum"]))
-            draw(options, "calibration", directory)
+            draw(options, directory, "calibration")
             say(options, f"{directory}/calibrated.prm, calibration.json, calibration.csv")
     if ended:
         raise type(ended)(f"{ended}; what was found is kept in {directory}; to go on: {options.again}")

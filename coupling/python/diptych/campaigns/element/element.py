@@ -107,7 +107,7 @@ def run_element(line: argparse.Namespace, options: Options) -> None:
                   "quantities": key_numbers(curves), "rms": rms_differences(curves),
                   "command": shlex.join(["diptych", *options.words])}
         _write(directory, record, curves)
-        draw(options, "element", directory)
+        draw(options, directory, "element")
         say(options, _text(record["quantities"]))
     ends = [f"{name} ended before the end of the path: {text}" for name, text in
             [*((f"seed {one['seed']}", one["message"]) for one in record["failed"]), ("the law", failure)] if text]

@@ -95,4 +95,4 @@ def run_homogenise(line: argparse.Namespace, options: Options) -> None:
         cost = ("homogenise", time.perf_counter() - began[0], time.process_time() - began[1], 0.0)
         _diptych.record_phase(folder, ("", [], shlex.join(["diptych", *options.words])), cost)
         _print(found, options)
-        draw(options, "homogenised", folder)
+        draw(options, folder, "homogenised")

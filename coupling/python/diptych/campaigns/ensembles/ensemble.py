@@ -294,7 +294,7 @@ def run_ensemble(line: argparse.Namespace, options: Options) -> None:
             _add_limits(scene, record, (scene_file, settings), levels, options)
         _write(scene, record, options, ("ensemble", begin))
         if scene.dict()["output"]["report"] and not record["interrupted"]:
-            draw(options, "ensemble", directory)
+            draw(options, directory, "ensemble")
         kept = f"{len(record['done'])} of {len(seeds)} seeds are done, kept in {directory}"
     lost = f"failed: seed {', '.join(str(one['seed']) for one in failed)}; " if failed else ""
     if record["interrupted"]:
@@ -322,4 +322,4 @@ def compare_again(line: argparse.Namespace, options: Options) -> None:
             add_summary(record, earlier["levels"])
         _write(scene, record, options, ("statistics", begin))
         if scene.dict()["output"]["report"]:
-            draw(options, "ensemble", directory)
+            draw(options, directory, "ensemble")

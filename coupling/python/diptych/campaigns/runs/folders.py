@@ -88,12 +88,13 @@ def write_arrays(path: str, arrays: Mapping[str, tuple[Any, str, str, str]],
             file.require_group(group).attrs.update(numbers)
 
 
-def draw(options: Options, page: str, directory: str) -> None:
-    """Draws report.html of a folder; page: "study", "ensemble", "calibration". Raises ValueError, OSError or ImportError."""
+def draw(options: Options, directory: str, *pages: str) -> None:
+    """Draws report.html of a folder, and more: DRAWINGS of diptych.report. Raises ValueError, OSError or ImportError."""
     from ... import report  # matplotlib loads only now
 
     try:
-        report.draw(page, directory)
+        for page in pages:
+            report.draw(page, directory)
     except (ValueError, OSError, ImportError) as error:
         raise type(error)(f"{directory}: the report could not be drawn: {error}") from error
     say(options, f"report: {os.path.abspath(directory)}/report.html")

@@ -170,7 +170,7 @@ def run_study(line: argparse.Namespace, options: Options) -> None:
         _write(directory, study, points, results, record)
         write_json(os.path.join(directory, "study_cost.json"), cost_of(study, points, results, record["points"], pairs))
         if not left:
-            draw(options, "study", directory)
+            draw(options, directory, "study")
         say(options, f"{_conclude(study, points, record, options)}; tables: {directory}/study.json, study.csv"
             + (", sensitivity.csv" if study.ranges else ", effects.csv" if study.reference is None else ""))
         lost = sum(not all(run.known for run in of_point) for of_point in results)

@@ -1,0 +1,36 @@
+# diptych: the command `report`
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Draws the page of any folder of results again."""
+
+from __future__ import annotations
+
+import argparse
+import os
+
+from ... import _diptych
+from ...errors import SceneError
+from ..runs.engine import Options
+from ..runs.folders import Folder, draw
+
+# page -> (the file that a folder of the kind has, parts of its record whose checksums are checked)
+_PAGES: dict[str, tuple[str, tuple[str, ...]]] = {
+    "study": ("study_input.json", ()), "calibration": ("calibration_input.json", ()),
+    "ensemble": ("ensemble.prm", ("ensemble",)), "homogenised": ("homogenised.json", ()),
+    "element": ("element.json", ()), "page": ("comparison.json", ("", "comparison"))}
+
+
+def run_report(line: argparse.Namespace, options: Options) -> None:
+    """The command `diptych report`."""
+    folder = line.target
+    if not os.path.isdir(folder):
+        raise SceneError(f"{folder} is not a result folder; diptych run SCENE makes one")
+    page = next((page for page, (name, _) in _PAGES.items() if os.path.exists(os.path.join(folder, name))), None)
+    if page is None:
+        raise SceneError(f"{folder} is not a result folder (no comparison.json), nor the folder of an ensemble, a study, "
+                         "a calibration, an element or homogenised grains")
+    if line.movie and page != "page":
+        raise SceneError(f"report {folder} --movie: only a result folder with both panels has a movie")
+    for part in _PAGES[page][1]:
+        _diptych.check_part(folder, part)
+    with Folder(folder):
+        draw(options, folder, page, *(["movie"] if line.movie else []))
