@@ -16,9 +16,11 @@ PACKAGE = os.path.join(SOURCE, "coupling", "python", "diptych")
 FOLDERS = ("discrete", "continuum", "coupling", "tests", "benchmarks")
 
 # The rooms of the package from the ground up: a folder or a module. A room imports itself and those before it.
-ROOMS = ("errors", "scenes", "plotting", "arrays", "operators", "laws", "panels", "problems", "results", "sheets",
-         "averaging_width", "homogenisation", "shipped", "importers", "report", "campaigns/runs", "campaigns/studies",
-         "campaigns/ensembles", "campaigns/calibration", "campaigns/plans", "campaigns/element", "campaigns", "")
+ROOMS = ("errors", "words", "files", "compiled", "scenes", "plotting", "arrays", "operators", "laws", "panels", "problems",
+         "results", "sheets", "averaging_width", "homogenisation", "shipped", "importers", "report/data",
+         "report/charts", "report/tables", "report/page", "report", "campaigns/runs", "campaigns/studies",
+         "campaigns/ensembles", "campaigns/calibration", "campaigns/plans", "campaigns/exchange", "campaigns/element",
+         "campaigns", "")
 
 
 def text_of(path):
@@ -45,9 +47,9 @@ def functions(text):
 
 
 def room_of(module):
-    """campaigns/runs of campaigns/runs/engine.py, arrays of arrays.py, "" of __init__.py."""
+    """campaigns/runs of campaigns/runs/engine.py, arrays of arrays.py, "" of __init__.py and __main__.py."""
     folder, name = os.path.split(module)
-    return folder or name.removesuffix(".py").replace("__init__", "")
+    return folder or ("" if name.startswith("__") else name.removesuffix(".py"))
 
 
 def imports(root, path):

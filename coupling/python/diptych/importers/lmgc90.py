@@ -56,7 +56,7 @@ def _contacts(path: str, frame: Frame, bodies: Bodies) -> None:
         values.append([field(path, k + row + 1, lines[k + row], name) for row, name in fields])
     numbers, values = np.array(numbers, dtype=int).reshape(-1, 4), np.array(values).reshape(-1, 7)
     frame.contact_file = path
-    frame.contacts = contacts_with(path, numbers[:, :2], values, numbers[:, 2], bodies, numbers[:, 3])
+    frame.contacts = contacts_with(path, numbers[:, :2], values, numbers[:, 2], bodies, lines=numbers[:, 3])
 
 
 def _columns(file: object, path: str, quantity: str, n: int) -> slice:

@@ -105,7 +105,7 @@ def place_bodies(frame: Frame, bodies: Bodies, x: np.ndarray, v: np.ndarray) -> 
 
 
 def contacts_with(path: str, numbers: np.ndarray, values: np.ndarray, slides: np.ndarray, bodies: Bodies,
-                  lines: np.ndarray | None = None) -> dict[str, np.ndarray]:
+                  *, lines: np.ndarray | None = None) -> dict[str, np.ndarray]:
     """Contacts from candidate and antagonist (m, 2) and rlt, rln, gap, n1, n2, coo1, coo2 (m, 7).
 
     The force on the candidate is rln n + rlt t with t = (n2, -n1). Rows without a force are close pairs.

@@ -121,7 +121,7 @@ class CalibrationRuns:
         if target.name not in self.outlines:
             self.outlines[target.name] = self._outline(target, scene, observables, snapshots)
         outline = self.outlines[target.name]
-        add_bands(o, scene, observables, snapshots, outline, True)
+        add_bands(o, scene, observables, snapshots, outline, of_grains=True)
         outline.bands = outline.bands or o.bands
         return o
 
@@ -172,7 +172,7 @@ class CalibrationRuns:
             return observe_history(path.scene, observables, panel_table(folder, "material_point"))
         o = observe_history(path.scene, observables, panel_table(folder, "continuum"))
         return add_bands(o, path.scene, observables, _diptych.read_nodes(folder).snapshots,
-                         self.outlines[path.target.name], False)
+                         self.outlines[path.target.name], of_grains=False)
 
     def evaluate(self, paths: Sequence[Path], points: Sequence[Sequence[Sequence[Setting]]], fine: bool,
                   load_step: float) -> list[list[Observation]]:

@@ -112,7 +112,8 @@ def predictions(path: Path, runs: Sequence[Observation], deviations: Array) -> l
     of_stress = [k for k, one in enumerate(path.data.observables) if one.kind == "stress_ratio"]
     found = []
 
-    def add(quantity: str, values: Sequence[float], margin: str, kind: str, k: int | None, given: float = np.nan) -> None:
+    def add(quantity: str, values: Sequence[float], margin: str, kind: str, k: int | None, *,
+            given: float = np.nan) -> None:
         """values: before, after, and those of the samples. k: the observable whose deviation counts. given: of the data."""
         earlier, now, *grains = values
         mean, deviation = (line_statistics if kind == "line" else statistics)(grains).mean, np.nan
@@ -127,12 +128,12 @@ def predictions(path: Path, runs: Sequence[Observation], deviations: Array) -> l
     if np.isfinite([s.peak_stress_ratio for s in path.samples]).any():
         add("peak_stress_ratio", [s.peak_stress_ratio for s in everything], "margin_peak_stress_ratio", "relative",
             max(of_stress, key=lambda k: after.values[k], default=None),
-            max([(path.data.mean[k], path.data.given[k]) for k in of_stress if np.isfinite(path.data.mean[k])],
-                default=(np.nan, np.nan))[1])
+            given=max([(path.data.mean[k], path.data.given[k]) for k in of_stress if np.isfinite(path.data.mean[k])],
+                      default=(np.nan, np.nan))[1])
     if "volumetric_strain" in places:
         k = places["volumetric_strain"]
         add("volumetric_strain", [s.values[k] for s in everything], "margin_volumetric_strain", "absolute", k,
-            path.data.given[k])
+            given=path.data.given[k])
     if "ln_width" in places:  # in the fit only, half the height replaces a missing band
         k = places["ln_width"]
         widths = [float(np.exp(s.values[k])) for s in everything]

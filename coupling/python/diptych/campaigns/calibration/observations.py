@@ -89,7 +89,7 @@ def observe_history(scene: _diptych.Scene, observables: Sequence[Observable], ta
 
 
 def add_bands(o: Observation, scene: _diptych.Scene, observables: Sequence[Observable], snapshots: Sequence[Any],
-              outline: Outline, of_grains: bool) -> Observation:
+              outline: Outline, *, of_grains: bool) -> Observation:
     """Adds ln(width / d) of the first band of every window, and the profiles across it. The continuum's bands are searched in
     the grains' frames, so that both panels are measured alike. A continuum without a band counts as half the sample's height wide,
     which cannot be told from a homogeneous deformation; its profile is taken across the band of the first sample."""

@@ -45,10 +45,9 @@ def over_parameter(study, family, places, label):
             values = [v for v in point["quantities"][k]["values"] if v is not None]
             axes.plot([positions[place]] * len(values), values, "o", color=colour, transform=beside, markersize=3,
                       alpha=0.6, markeredgewidth=0)
-        look = {"color": colour, "transform": at,
+        look = {"color": colour, "transform": at, "label": ", ".join(text for text in (word, name) if text),
                 "markerfacecolor": "white" if panel == "continuum" and len(names) > 1 else colour}
-        _line([(positions[place], point["quantities"][k]) for place, point in points], axes, mark, dashes, look,
-              ", ".join(text for text in (word, name) if text))
+        _line([(positions[place], point["quantities"][k]) for place, point in points], axes, mark, dashes, look)
     if list(places) == ["difference"]:
         axes.axhline(0, color=FAINT, linewidth=0.9)
     axes.set(xlabel=across["name"])
@@ -74,11 +73,11 @@ def _set_limits(axes, positions, found):
         axes.set_xlim(*(ends + np.array([-0.12, 0.12]) * (np.ptp(ends) or 1)))
 
 
-def _line(found, axes, mark, dashes, look, label):
+def _line(found, axes, mark, dashes, look):
     """Means and their intervals. found: [(position, quantity of a point)]."""
     known = [(x, one) for x, one in found if one["mean"] is not None]
     x, means = [x for x, _ in known], [one["mean"] for _, one in known]
-    axes.plot(x, means, mark, linestyle=dashes, linewidth=1.2, markersize=5, label=label, **look)
+    axes.plot(x, means, mark, linestyle=dashes, linewidth=1.2, markersize=5, **look)
     colour, shift = look["color"], look["transform"]
     for at, one in known:
         if one["low"] is not None:

@@ -32,7 +32,7 @@ def maps(result):
         for one in filter(None, increment):
             when = f"from {across.number(one['from'])} to {across.text(one['to'])}"
             shown.append(_map(result, 100 * result.maps[name], "viridis", "shear strain ε₁ − ε₂ (%)",
-                              f"Shear strain {when}: {_bands_text(one)}.", one))
+                              f"Shear strain {when}: {_bands_text(one)}.", increment=one))
     return shown
 
 
@@ -41,7 +41,7 @@ def _bands_text(increment):
     return f"{n} band{'s' if n > 1 else ''} (solid: middle, dashed: 10–90 % width)" if n else increment["band_verdict"]
 
 
-def _map(result, values, colours, label, caption, increment=None):
+def _map(result, values, colours, label, caption, *, increment=None):
     low, high = result.polygons.reshape(-1, 2).min(0), result.polygons.reshape(-1, 2).max(0)
     size = high - low
     scale = min((WIDTH - 0.2) / size[0], TALLEST / size[1])

@@ -27,7 +27,7 @@ class Part:
     by name; the template shows them. end: all parts open at the increment that ends there.
     """
 
-    def __init__(self, name, title, increments, end, content, maps=""):
+    def __init__(self, name, title, increments, end, content, *, maps=""):
         self.name, self.title, self.maps = name, title, maps
         first = opens_at(increments, end)
         self.items = [{"key": i.key, "label": i.label, "kind": i.kind, "title": i.title, "end": f"{i.end:.9g}",
@@ -39,21 +39,21 @@ def parts(result):
     every, stages, end = result.increments, result.stages, end_of(result.increments)
     return [
         Part("maps", "Grains and continuum at the same instant", every, end, lambda i: {
-            "tables": [bands.bands(result, i)], "notes": bands.notes(result, i)}, "quantity"),
+            "tables": [bands.bands(result, i)], "notes": bands.notes(result, i)}, maps="quantity"),
         Part("difference", "Difference on the same cells", every, end, lambda i: {
             "tables": [stage.stress_difference(result, i), stage.dissipation(result, i)],
-            "notes": paragraph((i.record.get("difference") or {}).get("stress_verdict"))}, "difference"),
-        Part("arrows", "Displacements and velocities", every, end, lambda i: {}, "arrows"),
+            "notes": paragraph((i.record.get("difference") or {}).get("stress_verdict"))}, maps="difference"),
+        Part("arrows", "Displacements and velocities", every, end, lambda i: {}, maps="arrows"),
         Part("strips", "Sixteen strips parallel to the band", every, end, lambda i: {"pair": strips.pair(i)}),
         Part("profiles", "Profiles across the band", [i for i in every if i.kind == "window"] or stages, end,
              lambda i: {"pair": profiles.pair(i)}),
         Part("probes", "Probes: mean stress and contact normals", stages, end, lambda i: {
             "roses": probes.roses(i), "notes": [], "tables": [
-                stage.probes(result, i), stage.differences(result, i), stage.grain_pressures(result, i)]}, "probes"),
+                stage.probes(result, i), stage.differences(result, i), stage.grain_pressures(result, i)]}, maps="probes"),
         Part("crosses", "Internal moments of single grains", stages, end, lambda i: {
             "pair": Pair(chains.distribution(i), chains.traction(i)),
-            "tables": [stage.chains(result, i)], "notes": paragraph(stage.chains_verdict(i))}, "crosses"),
-        Part("forces", "Contact forces", stages, end, lambda i: {}, "forces"),
+            "tables": [stage.chains(result, i)], "notes": paragraph(stage.chains_verdict(i))}, maps="crosses"),
+        Part("forces", "Contact forces", stages, end, lambda i: {}, maps="forces"),
         Part("circle", "Circular probe", stages, end, lambda i: {"pair": circular.pair(i)}),
     ]
 
