@@ -81,13 +81,13 @@ def wrong_arrows(root, rooms=ROOMS):
 
 
 def records_by_position(text):
-    """Data classes of more than three fields whose fields may be given by position."""
+    """Data classes of which more than three fields may be given by position."""
     for node in ast.walk(ast.parse(text)):
         if not isinstance(node, ast.ClassDef):
             continue
         marks = [ast.dump(mark) for mark in node.decorator_list if "dataclass" in ast.dump(mark)]
-        fields = [part for part in node.body if isinstance(part, ast.AnnAssign)]
-        if marks and len(fields) > 3 and "kw_only" not in marks[0]:
+        fields = [ast.unparse(part.annotation) for part in node.body if isinstance(part, ast.AnnAssign)]
+        if marks and len(fields) > 3 and "kw_only" not in marks[0] and "KW_ONLY" not in fields[:4]:
             yield node.name
 
 

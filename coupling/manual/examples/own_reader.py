@@ -26,4 +26,4 @@ def frame_of(path):
     grains = {"id": grain[:, 0].astype(int), "position": grain[:, 1:3], "radius": grain[:, 3]}
     contacts = importers.contacts_of(c[:, 0], c[:, 1], c[:, 2:4], c[:, 4])
     walls = [importers.Wall(side, side, place) for side, place in zip(sides, rows["walls"][0])]
-    return importers.Frame(path, grains, contacts, walls, grain_file=path)
+    return importers.Frame(path, grains, contacts, walls=walls, grain_file=path)

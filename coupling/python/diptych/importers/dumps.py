@@ -13,7 +13,7 @@ from .text import floats_of, int_of, read_lines
 PLACES = {"x": ("x", "xu", "xs", "xsu"), "y": ("y", "yu", "ys", "ysu")}  # as they are, unwrapped, scaled by the box
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Section:
     """One instant of a file."""
 
@@ -101,7 +101,8 @@ def _section(path: str, lines: list[str], k: int) -> tuple[Section, int]:
     head = lines[k + 6].split()
     if head[:2] not in (["ITEM:", "ATOMS"], ["ITEM:", "ENTRIES"]) or len(head) < 3:
         raise refused(path, "expected 'ITEM: ATOMS' or 'ITEM: ENTRIES' with the names of the columns", k + 7)
-    return Section(step, time, head[1], rows_below(path, lines, k + 7, count, head[2:]), box, periodic), k + 7 + count
+    table = rows_below(path, lines, k + 7, count, head[2:])
+    return Section(step=step, time=time, kind=head[1], table=table, box=box, periodic=periodic), k + 7 + count
 
 
 def add_section(sections: dict[int, Section], section: Section, options: Options) -> None:

@@ -3,7 +3,7 @@
 """Frames of grains, contacts and walls, in the units of the files. Forces and masses are those of the whole thickness."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import KW_ONLY, dataclass, field
 from typing import Any, Callable, Sequence
 
 import numpy as np
@@ -42,6 +42,7 @@ class Wall:
     name: str
     side: str | None = None
     place: float = math.nan
+    _: KW_ONLY
     travel: float = 0.0
     force: Any = (math.nan, math.nan)
 
@@ -66,6 +67,7 @@ class Frame:
     name: str
     grains: dict[str, np.ndarray]
     contacts: dict[str, np.ndarray] | None = None
+    _: KW_ONLY
     walls: list[Wall] = field(default_factory=list)
     gravity: tuple[float, float] | None = None
     time: float | None = None
@@ -86,6 +88,7 @@ class Options:
     """Words of the command line. A reader uses files, columns_of(), time_of() and note()."""
 
     files: list[str]
+    _: KW_ONLY
     columns: list[str] = field(default_factory=list)  # "contacts=index,id1,..."
     timestep: float | None = None
     thickness: float | None = None

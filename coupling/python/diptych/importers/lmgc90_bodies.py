@@ -13,7 +13,7 @@ from .frames import Frame, Options, Wall, acting, contacts_of, refuse_where, ref
 from .text import float_of, read_lines
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Bodies:
     """Arrays with one entry a body, in the order of the file; body k of a contact is entry k - 1."""
 
@@ -79,8 +79,8 @@ def read_bodies(path: str, densities: dict[str, float], options: Options) -> Bod
     is_wall, size = np.array([block["is_wall"] for block in blocks]), np.array([block["size"] for block in blocks])
     equivalent = np.array([block.get("avrd", 0.0) for block in blocks])
     density = np.array([block.get("density", math.nan) for block in blocks])
-    return Bodies(path, is_wall, size, np.array([block["place"] for block in blocks]),
-                  density * math.pi * np.where(equivalent != 0, equivalent, size)**2)
+    return Bodies(path=path, is_wall=is_wall, size=size, place=np.array([block["place"] for block in blocks]),
+                  mass=density * math.pi * np.where(equivalent != 0, equivalent, size)**2)
 
 
 def place_bodies(frame: Frame, bodies: Bodies, x: np.ndarray, v: np.ndarray) -> None:
@@ -101,7 +101,7 @@ def place_bodies(frame: Frame, bodies: Bodies, x: np.ndarray, v: np.ndarray) -> 
         before = bool(place[k, axis] < middle[axis])
         side = (("right", "left") if axis == 0 else ("upper", "lower"))[before]
         inner = place[k, axis] + (1 if before else -1) * bodies.size[k]
-        frame.walls.append(Wall(f"body {k + 1}", side, float(inner), float(x[k, 1 - axis])))
+        frame.walls.append(Wall(f"body {k + 1}", side, float(inner), travel=float(x[k, 1 - axis])))
 
 
 def contacts_with(path: str, numbers: np.ndarray, values: np.ndarray, slides: np.ndarray, bodies: Bodies,
