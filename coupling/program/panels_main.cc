@@ -54,6 +54,7 @@ int main(int argc, char **argv)
   if (parsed.exit_code)
     return *parsed.exit_code;
   block_stop_signals(); // MPI takes signals to itself, and its threads must not get these
+  argc = 1;             // the Kokkos of deal.II 9.6 would take --threads for its own
   // One thread: deal.II's pool would change nothing but the clock.
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   parsed.line.quiet           = parsed.line.quiet || !is_first_process();

@@ -257,7 +257,7 @@ class Machine(Folder):
     def test_little_memory_is_no_wrong_input(self):
         table = write(os.path.join(self.work, "grains.csv"), "x,y,r\n" + "".join(f"{k % 700},{k // 700},0.5\n" for k in range(490000)))
         for words in (self.discrete(*setting(sample_file=table)), ["import", "csv", table, "--output", self.folder, "--quiet"]):
-            self.expect(4, words, "not enough memory", table, preexec_fn=with_limit(resource.RLIMIT_AS, 120 << 20))
+            self.expect(4, words, "not enough memory", table, preexec_fn=with_limit(resource.RLIMIT_AS, 200 << 20))
             self.assertFalse(os.path.exists(self.folder))
 
     def test_a_mesh_that_is_too_large_for_the_memory(self):
