@@ -13,8 +13,10 @@ import os
 import queue
 import select
 import shlex
+import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -149,18 +151,23 @@ def environment() -> dict[str, str]:
                   (name.startswith("OMPI_ALLOW_RUN_AS_ROOT") or not name.startswith(_JOB_VARIABLES))}
 
 
-def run_program(words: Sequence[str]) -> int:
-    """Runs a program with the output of this process; returns its exit code. On a stop request kills it and raises Stopped."""
-    process = subprocess.Popen(words, env=environment(), stdin=subprocess.DEVNULL, process_group=0)
-    while True:
-        try:
-            code = process.wait(0.02)
-            if _diptych.stop_requested():
-                raise Stopped(f"{os.path.basename(words[0])}: stopped on request")
-            return code if code >= 0 else 128 - code
-        except subprocess.TimeoutExpired:
-            if _diptych.stop_requested():
-                process.kill()
+@contextmanager
+def stops_raised(text: str) -> Iterator[None]:
+    """Stop signals raise Stopped meanwhile, in Python code that does not ask for them; only in the main thread."""
+
+    def stop(*_: Any) -> None:
+        raise Stopped(text)
+
+    if _diptych.stop_requested():
+        stop()
+    here = threading.current_thread() is threading.main_thread()
+    before = {one: signal.signal(one, stop) for one in (signal.SIGINT, signal.SIGTERM) if here}
+    try:
+        yield
+    finally:
+        for one, handler in before.items():
+            signal.signal(one, handler)
+        _diptych.install_signals()
 
 
 class Worker:

@@ -19,7 +19,8 @@ from ... import _diptych
 from ...arrays import plain
 from ...errors import NotConverged, SceneError, Stopped
 from ...files import part_of, read_json
-from .engine import (KEPT_OPEN, WRONG_INPUT, Options, Outcome, Run, complain, execute, last_words, n_seats, say)
+from .engine import (KEPT_OPEN, WRONG_INPUT, Options, Outcome, Run, complain, execute, last_words, n_seats, say,
+                     stops_raised)
 
 LAST_CODE_OF_A_RESULT = 3  # higher codes: the system failed, or a signal came
 
@@ -89,12 +90,13 @@ def write_arrays(path: str, arrays: Mapping[str, tuple[Any, str, str, str]],
 
 
 def draw(options: Options, directory: str, *pages: str) -> None:
-    """Draws report.html of a folder, and more: DRAWINGS of diptych.report. Raises ValueError, OSError or ImportError."""
+    """Draws report.html of a folder, and more: DRAWINGS of diptych.report. Raises ValueError, OSError, ImportError, Stopped."""
     from ... import report  # matplotlib loads only now
 
     try:
-        for page in pages:
-            report.draw(page, directory)
+        with stops_raised(f"drawing the report: stopped on request; to draw it: diptych report {directory}"):
+            for page in pages:
+                report.draw(page, directory)
     except (ValueError, OSError, ImportError) as error:
         raise type(error)(f"{directory}: the report could not be drawn: {error}") from error
     say(options, f"report: {os.path.abspath(directory)}/report.html")
