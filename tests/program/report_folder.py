@@ -1,6 +1,7 @@
 # diptych: a tiny synthetic result folder for the tests of the report
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A sample of 5 x 8 d: a lattice of 40 grains, 2 x 3 cells, two stages and one window. The tests compare with the numbers here."""
+"""A sample of 5 x 8 d: a lattice of 40 grains, 2 x 3 cells, two stages and one window. The tests compare with the
+numbers here."""
 
 import json
 import os
@@ -12,8 +13,8 @@ import numpy as np
 
 STAGES, WINDOWS, PROBES = 2, 1, 3
 PLATEN = 0.5  # d per unit of progress, the reference of displacements
-BAND = {"angle_deg": -45.0, "half_width_d": 1.0, "width_10_90_d": 2.197, "offset_d": 0.0, "jump": 0.9, "dilation_deg": 3.0,
-        "r_squared": 0.98, "to_minor_stress_deg": 45.0}
+BAND = {"angle_deg": -45.0, "half_width_d": 1.0, "width_10_90_d": 2.197, "offset_d": 0.0, "jump": 0.9,
+        "dilation_deg": 3.0, "r_squared": 0.98, "to_minor_stress_deg": 45.0}
 STRIPS = {"angle_deg": -45.0, "edges_d": list(np.linspace(-4, 4, 17)), "mean": [None] + list(np.linspace(0, 1, 15)),
           "deviation": [None] + [0.1] * 15, "count": [0] + [2] * 15, "background": 0.5, "background_slope": 0.01}
 ANGLES = list(range(0, 180, 30))
@@ -21,12 +22,14 @@ CIRCLE = {"centre": [2.5, 4.0], "radius": 2.0, "angles_deg": ANGLES, "normal": [
           "predicted_normal": [1.9] * 6, "predicted_tangential": [None] + [0.1] * 5, "normal_error": [0.1] * 5 + [None],
           "independent_blocks": 0.1}
 # place below a panel of a stage or window -> unit
-PANEL_UNITS = {"bands/angle_deg": "degrees", "bands/half_width_d": "mean diameters", "bands/width_10_90_d": "mean diameters",
-               "bands/offset_d": "mean diameters", "bands/dilation_deg": "degrees", "bands/jump": "-", "probes/s1": "pressure",
-               "probes/s2": "pressure", "probes/direction_deg": "degrees", "probes/fabric_direction_deg": "degrees",
+PANEL_UNITS = {"bands/angle_deg": "degrees", "bands/half_width_d": "mean diameters",
+               "bands/width_10_90_d": "mean diameters", "bands/offset_d": "mean diameters",
+               "bands/dilation_deg": "degrees", "bands/jump": "-", "probes/s1": "pressure", "probes/s2": "pressure",
+               "probes/direction_deg": "degrees", "probes/fabric_direction_deg": "degrees",
                "probes/fabric_direction_error_deg": "degrees", "probes/fabric_to_stress_deg": "degrees",
                "probes/polygon": "length", "probes/grain_pressure/mean": "pressure", "circular_probe/centre": "length",
-               "circular_probe/radius": "length", "circular_probe/normal": "pressure", "band_traction/normal": "pressure"}
+               "circular_probe/radius": "length", "circular_probe/normal": "pressure",
+               "band_traction/normal": "pressure"}
 
 
 def within(value, low, high):
@@ -36,13 +39,16 @@ def within(value, low, high):
 def numbers():
     """The list of numbers, as far as these tests need it."""
     entries = {f"{kind}/{panel}/{key}": {"unit": unit, "meaning": key.split("/")[-1], "kind": "number"}
-               for kind in ("stages", "windows") for panel in ("discrete", "continuum") for key, unit in PANEL_UNITS.items()}
-    for place, unit, meaning in (("discrete_summary/grains", "-", "grains"), ("discrete_summary/solver_noise", "-", "noise"),
+               for kind in ("stages", "windows") for panel in ("discrete", "continuum")
+               for key, unit in PANEL_UNITS.items()}
+    for place, unit, meaning in (("discrete_summary/grains", "-", "grains"),
+                                 ("discrete_summary/solver_noise", "-", "noise"),
                                  ("discrete_summary/initial_height", "length", "initial height"),
                                  ("stages/discrete/bands/angle_deg", "degrees", "inclination"),
                                  ("stages/discrete/probes/fabric_to_stress_deg", "degrees", "fabric to stress"),
                                  ("continuum_summary/element_size_d", "mean diameters", "element size"),
-                                 ("continuum_summary/localisation_strain", "strain or time", "progress at the first loss")):
+                                 ("continuum_summary/localisation_strain", "strain or time",
+                                  "progress at the first loss")):
         entries[place] = {"unit": unit, "meaning": meaning, "kind": "number", "shape": "number"}
     return entries
 
@@ -67,8 +73,9 @@ def grains(bands):
         entry.update(s1=within(2.0, 1.8, 2.3), direction_deg=within(90.0, 85.0, None),
                      fabric_to_stress_deg=within(2.0, -3.0, 7.0),
                      grain_pressure={"mean": 1.5, "deviation": 0.7, "percentiles": {"5": 0.1, "50": 1.4, "95": 3.0}})
-    found["probe_differences"] = [{"of": "zone", "and": "upper", "t_over_s": within(0.0, -0.1, 0.1), "verdict": "do not differ",
-                                   "anisotropy": within(0.1, 0, 0.2), "direction_deg": within(1.0, -4, 6)}]
+    found["probe_differences"] = [{"of": "zone", "and": "upper", "t_over_s": within(0.0, -0.1, 0.1),
+                                   "verdict": "do not differ", "anisotropy": within(0.1, 0, 0.2),
+                                   "direction_deg": within(1.0, -4, 6)}]
     side = {"grains": 20, "mean": 1.0, "share_above_mean": 0.4, "values": [0.1, 0.8, 2.0]}
     found["force_chains"] = {"inside": side, "outside": side, "quantiles": [0.0, 0.5, 0.9],
                              "largest_distance": within(0.05, 0.01, 0.1), "verdict": "the pattern ignores the zone"}
@@ -81,7 +88,8 @@ def continuum(bands):
 
 def _common(found):
     return {**found, "circular_probe": {**CIRCLE, "relative_l2": within(0.05, 0.02, 0.09)},
-            "dissipation": {"inside": 3.0, "outside": 1.0, "share_inside": 0.75, "area_share": 0.5, "density_ratio": 3.0},
+            "dissipation": {"inside": 3.0, "outside": 1.0, "share_inside": 0.75, "area_share": 0.5,
+                            "density_ratio": 3.0},
             "band_traction": {"edges_d": [-2, 0, 2], "normal": [1.0, 1.2], "shear": [0.4, 0.5], "variation_normal": 0.1,
                               "variation_shear": 0.2, "normal_error": [None, 0.1]}}
 
@@ -123,7 +131,8 @@ def write_group(file, name, start, end, stress):
 
 
 def write_state(group):
-    """Data of stages only: stress, velocities, stresses of single grains, contact forces. The grid has the same cells as the mesh."""
+    """Data of stages only: stress, velocities, stresses of single grains, contact forces. The grid has the same cells
+    as the mesh."""
     tensor = np.tile(np.diag([1.0, 2.0]), (6, 1, 1))
     grains_to_continuum = np.array([0.5, np.nan, 1.0, 2.0, 1.0, 0.8])
     for place in ("cells", "grid"):
@@ -133,8 +142,10 @@ def write_state(group):
             store(group, f"{place}/{name}_stress_ratio", factor / factor / 3, "-", "stress ratio t/s")
         for name, factor in (("discrete", 1.0), ("continuum", 0.5)):
             for turn, ends in (("rotation_increment", 0.01), ("spin_increment", 0.008), ("relative_rotation", 0.002)):
-                store(group, f"{place}/{name}_{turn}", factor * np.linspace(-ends, ends, 6), "rad", turn.replace("_", " "))
-            store(group, f"{place}/{name}_couple_stress_size", factor * np.full(6, 0.1), "pressure length", "couple stress")
+                store(group, f"{place}/{name}_{turn}", factor * np.linspace(-ends, ends, 6), "rad",
+                      turn.replace("_", " "))
+            store(group, f"{place}/{name}_couple_stress_size", factor * np.full(6, 0.1), "pressure length",
+                  "couple stress")
             store(group, f"{place}/{name}_dissipation", factor * np.linspace(0, 0.001, 6), "pressure", "dissipation")
         store(group, place + "/discrete_displacement_over_platen", np.full(6, 0.3))
         store(group, place + "/discrete_speed_over_platen", np.full(6, 0.4))
@@ -165,7 +176,8 @@ def comparison_of_two_stages():
                         "stress": [{"resolution_d": 3.0, "label": "3 d", "relative_l2": 0.3, "sampling_alone": 0.2,
                                     "direction_deg": 9.0}]}}
         for end, bands in ((0.005, []), (0.01, [BAND]))]
-    first = dict(BAND, angle_deg=within(-45.0, -46.5, -43.5), jump=within(0.9, 0.8, 1.0), resamples=200, lost_share=0.02)
+    first = dict(BAND, angle_deg=within(-45.0, -46.5, -43.5), jump=within(0.9, 0.8, 1.0), resamples=200,
+                 lost_share=0.02)
     record["windows"] = [{"from": 0.0, "to": 0.01, "discrete": panel([first]),
                           "continuum": panel([BAND, dict(BAND, angle_deg=44.0)])}]
     record["continuum_coarse"] = {"element_size_d": 4.0, "windows": [{"from": 0.0, "to": 0.01, "bands": [BAND]}]}
@@ -174,7 +186,8 @@ def comparison_of_two_stages():
                                   "initial_height": 8.0, "kinetic_energy_ratio_median": 1.2}
     record["cost"] = {"discrete_cpu_s": 1.0}
     record["theory"] = {"coulomb_deg": 55.0, "roscoe_deg": 49.0, "arthur_deg": 52.0}
-    rows = [{"width_d": width, "points": [{"name": "zone", "s": 1.5, "t_over_s": 0.3}], "scatter_s": 0.4, "scatter_t": 0.5}
+    rows = [{"width_d": width, "points": [{"name": "zone", "s": 1.5, "t_over_s": 0.3}], "scatter_s": 0.4,
+             "scatter_t": 0.5}
             for width in (1, 2, 4)]
     record["resolution_study"] = {"kernel": rows, "cells": [{**row, "size_d": row["width_d"]} for row in rows],
                                   "verdict": "a plateau", "plateau_d": [1.0, 4.0]}
@@ -199,8 +212,8 @@ def write_folder(folder):
     write_arrays(folder)
     write_json(folder, "comparison.json", comparison_of_two_stages())
     write_json(folder, "provenance.json", {"program": "diptych", "phases": [{"name": "discrete", "cpu_s": 1.0}]})
-    columns = ("progress,stress_ratio,volumetric_strain,lower_fy,upper_fy,axial_strain,shear_strain,time,walk,sweeps,residual,"
-               "kinetic_energy_ratio,external_work,dissipation")
+    columns = ("progress,stress_ratio,volumetric_strain,lower_fy,upper_fy,axial_strain,shear_strain,time,walk,sweeps,"
+               "residual,kinetic_energy_ratio,external_work,dissipation")
     for name in ("discrete.csv", "continuum.csv"):
         with open(os.path.join(folder, name), "w", encoding="utf-8") as stream:
             stream.write(columns + "\n")
@@ -216,7 +229,8 @@ def write_json(folder, name, value):
 
 
 def run(folder, word="page"):
-    return subprocess.run([sys.executable, "-B", "-m", "diptych.report", word, folder], capture_output=True, text=True, check=False)
+    return subprocess.run([sys.executable, "-B", "-m", "diptych.report", word, folder], capture_output=True, text=True,
+                          check=False)
 
 
 def read(folder):
@@ -227,8 +241,9 @@ def read(folder):
 def number_of_figures():
     """(pictures, canvases) of the page of the complete folder, with JavaScript.
 
-    Pictures: 7 of histories, work, kinetic energy and solver; inclination, width, dissipation, stress difference: 4; pairs for
-    the strips of every increment and the profiles of every window, and for chains + traction and the circles of every stage; one rose per probe and stage; resolution: 4.
-    Canvases: 5 pairs of maps and the pair of the difference; 3 colour bars.
+    Pictures: 7 of histories, work, kinetic energy and solver; inclination, width, dissipation, stress difference: 4;
+    pairs for the strips of every increment and the profiles of every window, and for chains + traction and the circles
+    of every stage; one rose per probe and stage; resolution: 4. Canvases: 5 pairs of maps and the pair of the
+    difference; 3 colour bars.
     """
     return 7 + 4 + 2 * (STAGES + WINDOWS) + 2 * WINDOWS + 4 * STAGES + PROBES * STAGES + 4, 2 * 6 + 3

@@ -76,7 +76,8 @@ class CompleteFolder(unittest.TestCase):
         self.assertEqual((len(images), len(canvases)), report_folder.number_of_figures())
 
     def test_profiles_of_a_classical_continuum_are_those_that_it_has(self):
-        pictures = dict(re.findall(r'src="data:image/svg\+xml;base64,([^"]*)" alt="(Grains|Continuum): rotation minus spin', self.text))
+        pictures = dict(re.findall(
+            r'src="data:image/svg\+xml;base64,([^"]*)" alt="(Grains|Continuum): rotation minus spin', self.text))
         drawn = {panel: base64.b64decode(picture).decode() for picture, panel in pictures.items()}
         self.assertEqual(drawn["Continuum"].count("a classical continuum has none"), 2)  # rotation and couple stress
         self.assertIn("a continuum has no fluctuations", drawn["Continuum"])
@@ -84,8 +85,9 @@ class CompleteFolder(unittest.TestCase):
         self.assertIn("solid fraction", drawn["Continuum"])
 
     def test_both_panels_share_their_colour_limits(self):
-        # The 98th percentiles are 0.98 * 2 % (grains) and 0.98 * 8 % (continuum); the lower counts. Over axial strain this is 1.96/0.5
-        # in both stages and 1.96/1 in the window. The median 3.92 gives 1.96 % over 0.5 % and 3.92 % over 1 %, rounded to two digits.
+        # The 98th percentiles are 0.98 * 2 % (grains) and 0.98 * 8 % (continuum); the lower counts. Over axial strain
+        # this is 1.96/0.5 in both stages and 1.96/1 in the window. The median 3.92 gives 1.96 % over 0.5 % and 3.92 %
+        # over 1 %, rounded to two digits.
         self.assertEqual(self.increment("stage-1")["values"]["shear"]["discs"]["limits"], [0.0, 2.0])
         self.assertEqual(self.increment("window-0")["values"]["shear"]["discs"]["limits"], [0.0, 3.9])
         for increment in self.maps["increments"]:
@@ -113,8 +115,8 @@ class CompleteFolder(unittest.TestCase):
         np.testing.assert_allclose(np.abs(stored(self.maps, crosses["a"])), np.pi / 2, rtol=1e-12)
 
     def test_arrows_are_relative_to_the_motion_of_the_platen(self):
-        # A grain at y moves by (y, -y) per unit of progress and the platen by 0.5, so the ratio is 2 y. The velocities give
-        # 0.001 / (0.5 * 0.005 / 10) = 4.
+        # A grain at y moves by (y, -y) per unit of progress and the platen by 0.5, so the ratio is 2 y. The velocities
+        # give 0.001 / (0.5 * 0.005 / 10) = 4.
         arrows = self.increment("stage-1")["arrows"]["discrete"]
         y, u, v = (stored(self.maps, arrows["increment"][key]) for key in "yuv")
         np.testing.assert_allclose(u, 2 * y, rtol=1e-4)
@@ -127,7 +129,8 @@ class CompleteFolder(unittest.TestCase):
         for quantity, panel, expected in (("velocity", "discrete", np.full(40, 0.4)),
                                           ("velocity", "continuum", np.linspace(0.1, 0.6, 6)),
                                           ("displacement", "continuum", np.linspace(0.1, 0.6, 6))):
-            np.testing.assert_allclose(stored(self.maps, values[quantity]["discs"][panel]), expected, atol=0.6 * HALF_A_CODE)
+            np.testing.assert_allclose(stored(self.maps, values[quantity]["discs"][panel]), expected,
+                                       atol=0.6 * HALF_A_CODE)
 
     def test_colour_bars_have_the_titles_and_units_of_the_datasets(self):
         quantities = {quantity["key"]: quantity for quantity in self.maps["quantities"]}
@@ -150,8 +153,9 @@ class CompleteFolder(unittest.TestCase):
 
     def test_the_page_states_what_was_found(self):
         # The major stress is vertical, so the minor stress is horizontal, at 45 degrees to a band at -45 degrees.
-        for words in ("diffuse: no band", "a later key", "set by the mesh (local law)", "In 2 % of the bootstrap samples",
-                      "0.900 [0.800, 1.000]", "−45.0° [−46.5, −43.5]", "in the band: grains 45.0°", "Coulomb 45° + φ/2 = 55.0°"):
+        for words in ("diffuse: no band", "a later key", "set by the mesh (local law)",
+                      "In 2 % of the bootstrap samples", "0.900 [0.800, 1.000]", "−45.0° [−46.5, −43.5]",
+                      "in the band: grains 45.0°", "Coulomb 45° + φ/2 = 55.0°"):
             self.assertIn(words, self.words)
 
     def test_dissipation_is_shown_in_per_cent_and_its_density_as_a_ratio(self):
@@ -185,11 +189,13 @@ class OtherFolders(unittest.TestCase):
         self.assertNotIn("</script><b>", text)
 
     def test_axes_name_the_loading_variable(self):
-        for variable, label, averaging in (("shear_strain", "shear strain (%)", "mean over the last 0.5 % of shear strain"),
+        for variable, label, averaging in (("shear_strain", "shear strain (%)",
+                                            "mean over the last 0.5 % of shear strain"),
                                            ("time", ">time<", "mean over the last 0.005 of time")):
             text = page_of(self.folder, walk=variable)
             self.assertIn(averaging, text)
-            pictures = [base64.b64decode(data).decode() for data in re.findall(r"data:image/svg\+xml;base64,([^\"]+)", text)]
+            pictures = [base64.b64decode(data).decode()
+                        for data in re.findall(r"data:image/svg\+xml;base64,([^\"]+)", text)]
             self.assertTrue(any(label in picture for picture in pictures))
 
     def test_lengths_and_stresses_are_shown_in_d_and_P(self):
@@ -221,9 +227,10 @@ class OtherFolders(unittest.TestCase):
             with h5py.File(path("comparison.h5"), "w") as file:
                 file["mine"] = [1.0]
 
-        self.refused(lambda path: None, r"usage: python3 -m diptych\.report page\|movie\|ensemble\|study\|calibration\|element\|homogenised", "figure")
+        self.refused(lambda path: None, r"usage: python3 -m diptych\.report page\|movie\|ensemble\|study", "figure")
         self.refused(lambda path: os.remove(path("continuum.csv")), r"missing: .*continuum\.csv")
-        self.refused(lambda path: write_json(path(""), "comparison.json", {"format": 1}), r".*comparison\.json: format 1, .* 2;")
+        self.refused(lambda path: write_json(path(""), "comparison.json", {"format": 1}),
+                     r".*comparison\.json: format 1, .* 2;")
         self.refused(lambda path: write_json(path(""), "provenance.json", {"a": [1, 2]}), r".*provenance\.json")
         self.refused(lambda path: os.truncate(path("provenance.json"), 9), r".*provenance\.json")
         self.refused(lambda path: os.truncate(path("comparison.h5"), 999), r".*comparison\.h5")
@@ -243,11 +250,13 @@ class Formulas(unittest.TestCase):
     def test_a_unit_is_its_product_of_pressures_and_lengths(self):
         # d = 2 and P = 10: a force of 40 is 2 P d, a moment of 80 is 2 P d^2; times stay as they are
         expected = {"length": 2, "pressure": 10, "pressure length": 20, "pressure length^2": 40, "length/time": 2,
-                    "length^2/time^2": 4, "mean diameters": 1, "degrees": 1, "rad": 1, "-": 1, "strain or time": 1, "s": 1, "": 1}
+                    "length^2/time^2": 4, "mean diameters": 1, "degrees": 1, "rad": 1, "-": 1, "strain or time": 1,
+                    "s": 1, "": 1}
         self.assertEqual({unit: Units(2.0, 10.0).size(unit) for unit in expected}, expected)
 
     def test_a_standard_error_stands_where_there_is_no_interval(self):
-        increment = Increment(key="stage-0", kind="stage", start=0.0, end=0.01, record={"discrete": report_folder.panel([])},
+        increment = Increment(key="stage-0", kind="stage", start=0.0, end=0.01,
+                              record={"discrete": report_folder.panel([])},
                               loading_variable=LOADING_VARIABLES["axial_strain"])
         increment.record["discrete"]["probes"][0]["fabric_to_stress_deg"] = report_folder.within(2.0, -3.0, 7.0)
         table = tables.probes(types.SimpleNamespace(numbers=Descriptions(report_folder.numbers())), increment)
@@ -259,7 +268,8 @@ class Formulas(unittest.TestCase):
         self.assertAlmostEqual(_turn({"angle_deg": -89.0}, 89.0), 2.0)  # not 178
 
     def test_an_ensembles_places_keep_their_ends_apart(self):
-        others = ("folder", "record", "quantities", "numbers", "progress", "curves", "averaging", "profiles", "scene_text", "provenance")
+        others = ("folder", "record", "quantities", "numbers", "progress", "curves", "averaging", "profiles",
+                  "scene_text", "provenance")
         results = Ensemble(**dict.fromkeys(others), loading_variable=LOADING_VARIABLES["axial_strain"])
         self.assertEqual(results.place("window 1e-05-0.02"), ("window", "0.001–2\u00a0%"))
 

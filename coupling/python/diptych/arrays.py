@@ -22,7 +22,8 @@ Array = NDArray[Any]
 
 
 class History(dict[str, Array]):
-    """Columns over steps: name -> (n) array. `unit` and `meaning` describe the columns; frame() makes a pandas.DataFrame."""
+    """Columns over steps: name -> (n) array. `unit` and `meaning` describe the columns; frame() makes a
+    pandas.DataFrame."""
 
     def __init__(self, columns: Mapping[str, Any], described: Mapping[str, tuple[str, str]]) -> None:
         super().__init__((name, np.asarray(values)) for name, values in columns.items())
@@ -42,7 +43,8 @@ class History(dict[str, Array]):
         return plotting.draw_history(self, column, ax, look)
 
     def __repr__(self) -> str:
-        return f"<History: {len(next(iter(self.values()), ()))} rows, {len(self)} columns: {', '.join([*self][:5])}, ...>"
+        rows, names = len(next(iter(self.values()), ())), ", ".join([*self][:5])
+        return f"<History: {rows} rows, {len(self)} columns: {names}, ...>"
 
 
 class Interval(NamedTuple):
@@ -53,7 +55,8 @@ class Interval(NamedTuple):
     high: float
 
 
-def ends_text(low: float | None, high: float | None, form: Callable[[float], str] = "{:.4g}".format, between: str = ", ") -> str:
+def ends_text(low: float | None, high: float | None, form: Callable[[float], str] = "{:.4g}".format,
+              between: str = ", ") -> str:
     """The interval behind a value, such as " [1.2, 3.4]"; empty if an end is unknown (None or NaN)."""
     if low is None or high is None or not (np.isfinite(low) and np.isfinite(high)):
         return ""
@@ -107,8 +110,9 @@ class Mesh(NamedTuple):
 
 
 # quantity -> label of its colour bar
-_MAPS = {"t_over_s": "t/s", "s": "mean stress s [pressure]", "t": "shear stress t [pressure]", "solid_fraction": "solid fraction",
-         "sxx": "sxx [pressure]", "sxy": "sxy [pressure]", "syx": "syx [pressure]", "syy": "syy [pressure]"}
+_MAPS = {"t_over_s": "t/s", "s": "mean stress s [pressure]", "t": "shear stress t [pressure]",
+         "solid_fraction": "solid fraction", "sxx": "sxx [pressure]", "sxy": "sxy [pressure]", "syx": "syx [pressure]",
+         "syy": "syy [pressure]"}
 
 
 def _shear(stress: Array) -> Array:
@@ -155,8 +159,8 @@ class StressMap:
         return np.asarray(np.einsum("k,kab->ab", self.area, self.stress) / self.area.sum())
 
     def plot(self, quantity: str = "t_over_s", ax: Axes | None = None, **look: Any) -> Axes:
-        """Draws the cells coloured by t_over_s, s, t, solid_fraction, sxx, sxy, syx or syy. Cells that grains do not cover are
-        grey. look: options of matplotlib's PolyCollection, such as cmap and clim."""
+        """Draws the cells coloured by t_over_s, s, t, solid_fraction, sxx, sxy, syx or syy. Cells that grains do not
+        cover are grey. look: options of matplotlib's PolyCollection, such as cmap and clim."""
         if quantity not in _MAPS:
             raise ValueError(f"quantity = '{quantity}' is not allowed; there are {', '.join(_MAPS)}")
         component = ["sxx", "sxy", "syx", "syy"].index(quantity) if len(quantity) == 3 else None
@@ -198,8 +202,8 @@ class Band:
         return f"<Band: angle {self.angle_deg:.1f} degrees, 10-90 % width {self.width_10_90:.3g}, jump {self.jump:.3g}>"
 
     def line(self, length: float, at: float = 0.0) -> Array:
-        """(2, 2): ends of a line of this length along the middle of the band. `at` shifts the line across the band, in half widths
-        (1.0986: the edge of the 10-90 % width)."""
+        """(2, 2): ends of a line of this length along the middle of the band. `at` shifts the line across the band, in
+        half widths (1.0986: the edge of the 10-90 % width)."""
         angle = np.radians(self.angle_deg)
         along = 0.5 * length * np.array([np.cos(angle), np.sin(angle)])
         middle = self.centre + (self.offset + at * self.half_width) * self.normal

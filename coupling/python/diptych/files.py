@@ -38,5 +38,6 @@ def read_json(path: str, format: int | None = None) -> Any:
     if not isinstance(record, dict):
         raise InputError(f"{path}: an object is expected")
     if format and record.get("format") != format:
-        raise InputError(f"{path}: format {record.get('format')!r}, but this version reads format {format}; compute it again")
+        raise InputError(f"{path}: format {record.get('format')!r}, but this version reads format {format}; "
+                         "compute it again")
     return record

@@ -26,8 +26,8 @@ def run_report(line: argparse.Namespace, options: Options) -> None:
         raise SceneError(f"{folder} is not a result folder; diptych run SCENE makes one")
     page = next((page for page, (name, _) in _PAGES.items() if os.path.exists(os.path.join(folder, name))), None)
     if page is None:
-        raise SceneError(f"{folder} is not a result folder (no comparison.json), nor the folder of an ensemble, a study, "
-                         "a calibration, an element or homogenised grains")
+        raise SceneError(f"{folder} is not a result folder (no comparison.json), nor the folder of an ensemble, a "
+                         "study, a calibration, an element or homogenised grains")
     if line.movie and page != "page":
         raise SceneError(f"report {folder} --movie: only a result folder with both panels has a movie")
     for part in _PAGES[page][1]:
