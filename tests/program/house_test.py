@@ -64,9 +64,9 @@ def functions(path):
 def positional_records(source):
     """(name, number of fields) of the dataclasses of a Python source with more than three fields that calls may give by
     position."""
-    for record in ast.walk(ast.parse(source)):
-        made = [ast.unparse(one) for one in record.decorator_list] if isinstance(record, ast.ClassDef) else []
-        fields = sum(isinstance(line, ast.AnnAssign) for line in getattr(record, "body", []) if made)
+    for record in filter(lambda node: isinstance(node, ast.ClassDef), ast.walk(ast.parse(source))):
+        made = [ast.unparse(one) for one in record.decorator_list]
+        fields = sum(isinstance(line, ast.AnnAssign) for line in record.body)
         if fields > 3 and any(one.startswith("dataclass") and "kw_only=True" not in one for one in made):
             yield record.name, fields
 
