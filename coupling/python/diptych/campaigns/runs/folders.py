@@ -90,7 +90,8 @@ def write_arrays(path: str, arrays: Mapping[str, tuple[Any, str, str, str]],
 
 
 def draw(options: Options, directory: str, *pages: str) -> None:
-    """Draws report.html of a folder, and more: DRAWINGS of diptych.report. Raises ValueError, OSError, ImportError, Stopped."""
+    """Draws report.html of a folder, and more: DRAWINGS of diptych.report. Raises ValueError, OSError, ImportError or
+    Stopped."""
     from ... import report  # matplotlib loads only now
 
     try:
