@@ -16,11 +16,26 @@ from .walls import sorted_files
 LACKING = ["tangential forces (VTKRecorder keeps absolute components without direction)", "contacts with walls"]
 
 
+def _put_in_place(root: Any) -> None:
+    """Moves the appended arrays into their elements: meshio decodes appended text to its end, which Python 3.13 refuses."""
+    appended = root.find("AppendedData")
+    if appended is None:
+        return
+    arrays = sorted((array for array in root.iter("DataArray") if array.get("format") == "appended"),
+                    key=lambda array: int(array.get("offset")))
+    text = appended.text.strip()[1:]  # without the underscore
+    for array, later in zip(arrays, [*arrays[1:], None]):
+        array.set("format", "binary")
+        array.text = text[int(array.get("offset")):None if later is None else int(later.get("offset"))]
+    root.remove(appended)
+
+
 def _mesh(path: str) -> Any:
     """The points and lines of a file. meshio reads unstructured grids; lines of a .vtp are written as one."""
     try:
         tree = ElementTree.parse(path)
         root = tree.getroot()
+        _put_in_place(root)
         data = root.find("PolyData")
         if data is not None:
             root.set("type", "UnstructuredGrid")
