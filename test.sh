@@ -35,7 +35,7 @@ case "$preset" in
 esac
 # Only the tests need these packages. They open report.html, read the ParaView files, build a package and the manual, use the Python
 # package and its notebooks, and solve cone programs.
-packages+=(chromium python3-vtk9 dpkg-dev clang-format mkdocs mkdocs-material man-db)
+packages+=(chromium python3-vtk9 dpkg-dev file clang-format mkdocs mkdocs-material man-db)
 packages+=(python3-pytest python3-nbconvert python3-ipykernel python3-openturns python3-cvxopt)
 install_missing
 build "$preset" "${targets[@]}"

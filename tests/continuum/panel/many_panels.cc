@@ -55,14 +55,15 @@ namespace
       .write(reinterpret_cast<const char *>(values.data()), std::streamsize(values.size() * sizeof(double)));
   }
 
-  // Starts without this process's environment, which contains MPI's own variables. OpenBLAS must choose the same kernels.
+  // Starts without this process's environment, which contains MPI's own variables. OpenMPI 5 needs HOME, and OpenBLAS must choose
+  // the same kernels.
   std::vector<double> numbers_of_a_fresh_process(const int k)
   {
     const Folder      folder;
     const std::string file      = folder / "numbers";
     const char       *kernels   = std::getenv("OPENBLAS_CORETYPE");
     const std::string variables = (kernels ? "env -i OPENBLAS_CORETYPE='" + std::string(kernels) + "' " : "env -i ") +
-                                  "PATH=/usr/bin:/bin OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+                                  "HOME=/tmp PATH=/usr/bin:/bin OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
                                   "OMP_NUM_THREADS=1 DIPTYCH_TURN=" +
                                   std::to_string(k) + " DIPTYCH_NUMBERS='" + file + "' ";
     const std::string program = "'" + std::filesystem::read_symlink("/proc/self/exe").string() + "'";
