@@ -143,6 +143,8 @@ namespace diptych::python
       m.def("check_part", &check_files);
       m.def("record_files", &record_files);
       m.def("forget_files", &forget_files);
+      m.def("copy_record", &copy_record);
+      m.def("forget_fact", &forget_fact);
       m.def("recorded_scene", &recorded_scene);
       // (scene's name, seeds, command) and (phase, wall s, CPU s, peak memory MB)
       m.def("record_phase", [](const std::string &directory, const std::tuple<std::string, std::vector<int>, std::string> &origin,

@@ -21,7 +21,7 @@ import pandas as pd
 from ... import _diptych
 from ...errors import Stopped
 from ..runs.engine import Options, Run, execute
-from ..runs.folders import read_json, run_name, write_json, write_text
+from ..runs.folders import read_json, run_name, write_text
 from ..runs.histories import panel_table
 from ..runs.input_file import Setting
 from ..runs.key_numbers import FORCE, PEAK, STRENGTH, VOLUME, key_values
@@ -190,9 +190,9 @@ def _copy_grains(source: str, folder: str) -> None:
     os.makedirs(part)
     for name in ("discrete.h5", "discrete.csv", "scene.prm"):
         os.link(os.path.join(source, name), os.path.join(part, name))
-    record = read_json(os.path.join(source, "provenance.json"))
-    write_json(os.path.join(part, "provenance.json"),
-               {key: value for key, value in record.items() if not key.startswith(("continuum", "comparison"))})
+    _diptych.copy_record(source, part)
+    for name in ("continuum", "continuum_coarse", "comparison"):
+        _diptych.forget_fact(part, name)
     os.rename(part, folder)
 
 
