@@ -23,6 +23,9 @@ namespace diptych::coupling
     Peak                   peak;
   };
 
+  // The mapping of a stage may miss the grains' total by this much; beyond it a comparison ends with exit code 1.
+  constexpr double largest_error_of_the_total = 1e-12;
+
   // All results that the report shows, without the snapshots behind them. Lengths are in the scene's unit.
   struct Comparison
   {

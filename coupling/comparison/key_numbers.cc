@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <sstream>
 
+#include <unistd.h>
+
 #include "coupling/comparison/band_difference.h"
 
 namespace diptych::coupling
@@ -22,31 +24,22 @@ namespace diptych::coupling
       return difference.low > 0 || difference.high < 0 ? "different" : "cannot tell";
     }
 
-    KeyNumber key_number(const std::string &quantity,
-                         const std::string &unit,
-                         const Interval    &grains,
-                         const Interval    &continuum,
-                         const Interval    &difference)
+    KeyNumber key_number(const KeyQuantity &q, const Interval &grains, const Interval &continuum, const Interval &difference)
     {
-      return {quantity, unit, grains, continuum, difference, verdict_of(difference)};
+      return {q.key, q.name, q.unit, grains, continuum, difference, verdict_of(difference)};
     }
 
-    KeyNumber of_values(const std::string &quantity, const double grains, const double continuum, const char *unit = "-")
+    KeyNumber of_band(const KeyQuantity &q, const Increment &window)
     {
-      return key_number(quantity, unit, Interval{grains}, Interval{continuum}, Interval{continuum - grains});
-    }
-
-    void add_band(const Increment &window, std::vector<KeyNumber> &numbers)
-    {
-      const double unit               = 1 / window.frame.mean_diameter;
-      const auto [grains, continuum]  = compared_bands(window);
-      const BandDifference difference = band_difference(window);
-      char                 where[64];
-      std::snprintf(where, sizeof where, " of the band (%.4g to %.4g)", window.from, window.to);
-      numbers.push_back(
-        key_number(std::string("inclination") + where, "degrees", grains.angle_deg, continuum.angle_deg, difference.angle_deg));
-      numbers.push_back(key_number(std::string("10-90 % width") + where, "mean diameters", times(unit, grains.width_10_90),
-                                   times(unit, continuum.width_10_90), times(unit, difference.width_10_90)));
+      const auto take = [&](const auto &band) {
+        return q.margin.of == Difference::line ? band.angle_deg : times(1 / window.frame.mean_diameter, band.width_10_90);
+      };
+      const ComparedBands bands  = compared_bands(window);
+      KeyNumber           number = key_number(q, take(bands.grains), take(bands.continuum), take(band_difference(window)));
+      char                where[64];
+      std::snprintf(where, sizeof where, " (%.4g to %.4g)", window.from, window.to);
+      number.quantity += where;
+      return number;
     }
 
     std::string number(const double value, const char *absent = "")
@@ -66,13 +59,14 @@ namespace diptych::coupling
 
   std::vector<KeyNumber> key_numbers(const Comparison &c)
   {
-    std::vector<KeyNumber> numbers = {
-      of_values("peak t/s", c.discrete.peak.value, c.continuum.peak.value),
-      of_values("strength T/S from 0.3 % strain", c.discrete.strength.later, c.continuum.strength.later),
-      of_values("platen force from 0.3 % strain", c.discrete.platen_force, c.continuum.platen_force, "P d"),
-      of_values("volumetric strain at the end", c.discrete.final_volumetric_strain, c.continuum.final_volumetric_strain)};
-    if (!c.windows.empty())
-      add_band(c.windows.back(), numbers);
+    const std::map<std::string, double> grains = by_key(c.discrete.numbers), continuum = by_key(c.continuum.numbers);
+    std::vector<KeyNumber>              numbers;
+    for (const KeyQuantity &q : key_quantities)
+      if (!q.is_of_band)
+        numbers.push_back(key_number(q, Interval{grains.at(q.key)}, Interval{continuum.at(q.key)},
+                                     Interval{continuum.at(q.key) - grains.at(q.key)}));
+      else if (!c.windows.empty())
+        numbers.push_back(of_band(q, c.windows.back()));
     return numbers;
   }
 
@@ -116,5 +110,14 @@ namespace diptych::coupling
     if (std::any_of(numbers.begin(), numbers.end(), of_one))
       text += "\none sample: run the scene with --seeds 1-8 for intervals and verdicts";
     return text;
+  }
+
+  std::string origin_of_law(const Scene &scene)
+  {
+    if (const std::string &from = scene.comparison.parameters_from; !from.empty())
+      return "parameters of the continuum: " + from;
+    const std::string text = "The parameters of the continuum were not fitted to these grains. To fit them: diptych calibrate "
+                             "SCENE --seeds 1-4";
+    return isatty(STDOUT_FILENO) != 0 ? "\033[1m" + text + "\033[0m" : text;
   }
 } // namespace diptych::coupling

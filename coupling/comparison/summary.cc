@@ -32,9 +32,6 @@ namespace diptych::coupling
       return {values.begin() + (column(history, "progress").front() == 0 ? 1 : 0), values.end()};
     }
 
-    constexpr double early_strain = 0.003;
-
-    // Mean of both platens, in pressure x mean diameter, over the range of the later strength.
     double platen_force(const Scene &scene, const HistoryTable &h)
     {
       const double end = column(h, "progress").back();
@@ -73,6 +70,24 @@ namespace diptych::coupling
     }
   } // namespace
 
+  PanelNumbers panel_numbers(const Scene &scene, const HistoryTable &h)
+  {
+    PanelNumbers numbers;
+    numbers.peak                    = peak_of_running_mean(h, "stress_ratio", averaging_width(scene));
+    numbers.strength                = strength_of(scene.loading.mode, h);
+    numbers.platen_force            = platen_force(scene, h);
+    numbers.final_volumetric_strain = column(h, "volumetric_strain").back();
+    return numbers;
+  }
+
+  std::map<std::string, double> by_key(const PanelNumbers &n)
+  {
+    return {{"peak_stress_ratio", n.peak.value},
+            {"strength", n.strength.later},
+            {"platen_force_pd", n.platen_force},
+            {"final_volumetric_strain", n.final_volumetric_strain}};
+  }
+
   DiscreteSummary summary_of(const Scene              &scene,
                              const DiscreteResults    &results,
                              const discrete::Snapshot &last,
@@ -89,10 +104,7 @@ namespace diptych::coupling
     s.impact_share                 = impact_share(scene.loading.mode, h);
     s.momentum_residual            = largest(column(h, "momentum_residual"));
     s.residual                     = largest(column(h, "residual"));
-    s.peak                         = peak_of_running_mean(h, "stress_ratio", averaging_width(scene));
-    s.strength                     = strength_of(scene.loading.mode, h);
-    s.platen_force                 = platen_force(scene, h);
-    s.final_volumetric_strain      = column(h, "volumetric_strain").back();
+    s.numbers                      = panel_numbers(scene, h);
     s.spin_term_share              = largest(column(h, "spin_term_share"));
     s.kinetic_energy_ratio_median  = median(column(h, "kinetic_energy_ratio"));
     s.kinetic_energy_ratio_largest = largest(column(h, "kinetic_energy_ratio"));
@@ -115,10 +127,7 @@ namespace diptych::coupling
     s.element_size                  = scene.continuum.element_size;
     s.newton_iterations             = column(h, "newton_iterations").back();
     s.cut_backs                     = column(h, "cut_backs").back();
-    s.peak                          = peak_of_running_mean(h, "stress_ratio", averaging_width(scene));
-    s.strength                      = strength_of(scene.loading.mode, h);
-    s.platen_force                  = platen_force(scene, h);
-    s.final_volumetric_strain       = column(h, "volumetric_strain").back();
+    s.numbers                       = panel_numbers(scene, h);
     s.share_zz_not_intermediate     = largest(loaded(h, "share_zz_not_intermediate"));
     s.unstable_share                = largest(column(h, "unstable_share"));
     s.viscous_share                 = largest(column(h, "viscous_share"));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,12 +14,26 @@
 
 namespace diptych::coupling
 {
-  // T/S of a loading along strain. Early: up to 0.3 % strain, which depends on the start and on the solver's accuracy. Later:
+  // T/S of a loading along strain. Early: up to this strain, which depends on the start and on the solver's accuracy. Later:
   // the rest. NaN if the history ends before, or along time.
+  constexpr double early_strain = 0.003;
   struct Strength
   {
     double early = NAN, later = NAN;
   };
+
+  // Numbers of a panel's history that are compared.
+  struct PanelNumbers
+  {
+    Peak     peak; // of the running mean of t/s
+    Strength strength;
+    double   platen_force            = NAN; // [P d], vertical, mean of both platens over the range of the later strength
+    double   final_volumetric_strain = NAN;
+  };
+  PanelNumbers panel_numbers(const Scene &scene, const HistoryTable &history);
+
+  // Compared values by the keys of key_quantities.
+  std::map<std::string, double> by_key(const PanelNumbers &numbers);
 
   struct DiscreteSummary
   {
@@ -30,10 +45,8 @@ namespace diptych::coupling
     double        energy_residual = NAN, momentum_residual = NAN, residual = NAN;
     double        solver_noise       = NAN; // residual x step [d sqrt(rho/P)] / mean inertial number
     double        grain_stress_error = NAN; // error / residual x residual; NaN if it was not measured
-    Peak          peak;                     // of the running mean of t/s
-    Strength      strength;
-    double        platen_force            = NAN; // [P d], vertical, mean from 0.3 % strain on
-    double        final_volumetric_strain = NAN, spin_term_share = NAN;
+    PanelNumbers  numbers;
+    double        spin_term_share             = NAN;
     double        kinetic_energy_ratio_median = NAN, kinetic_energy_ratio_largest = NAN;
     double        contacts = NAN, coordination_number = NAN, rattlers = NAN; // at the end
     PlatenBalance balance;
@@ -42,15 +55,13 @@ namespace diptych::coupling
 
   struct ContinuumSummary
   {
-    double      element_size      = NAN; // [mean diameters]
-    double      newton_iterations = NAN, cut_backs = NAN;
-    Peak        peak;
-    Strength    strength;
-    double      platen_force            = NAN;
-    double      final_volumetric_strain = NAN, share_zz_not_intermediate = NAN, viscous_share = NAN, unstable_share = NAN;
-    double      max_equivalent_plastic_strain = NAN;
-    double      platen_unbalance              = NAN; // sum of the vertical forces at the end, relative to their mean size
-    std::string law;
+    double                element_size      = NAN; // [mean diameters]
+    double                newton_iterations = NAN, cut_backs = NAN;
+    PanelNumbers          numbers;
+    double                share_zz_not_intermediate = NAN, viscous_share = NAN, unstable_share = NAN;
+    double                max_equivalent_plastic_strain = NAN;
+    double                platen_unbalance = NAN; // sum of the vertical forces at the end, relative to their mean size
+    std::string           law;
     std::optional<double> internal_length; // [mean diameters]; empty: the law has none, and the mesh sets the width of its band
     std::string           parameters_from;
     ContinuumFacts        facts;

@@ -6,8 +6,6 @@
 #include <filesystem>
 #include <iostream>
 
-#include <unistd.h>
-
 #include "coupling/comparison/comparison_output.h"
 #include "coupling/comparison/key_numbers.h"
 #include "coupling/processes/progress.h"
@@ -46,16 +44,6 @@ namespace diptych::coupling
       return {scene.name, {scene.sample.seed}, line.text};
     }
 
-    // Bold on a terminal if nobody fitted the law.
-    std::string origin_of_law(const Scene &scene)
-    {
-      if (const std::string &from = scene.comparison.parameters_from; !from.empty())
-        return "parameters of the continuum: " + from;
-      const std::string text = "The parameters of the continuum were not fitted to these grains. To fit them: diptych calibrate "
-                               "SCENE --seeds 1-4";
-      return isatty(STDOUT_FILENO) != 0 ? "\033[1m" + text + "\033[0m" : text;
-    }
-
     // Writes the comparison to the folder `next`.
     // `text`: the numbers that a user asks for first.
     int comparison_of(const CommandLine &line,
@@ -80,7 +68,7 @@ namespace diptych::coupling
       text = text_of(key_numbers(c)) + "\n" + origin_of_law(scene);
       progress.finish();
       for (const StageRecord &stage : c.stages)
-        if (!(stage.mapping.total_relative_error < 1e-12))
+        if (!(stage.mapping.total_relative_error < largest_error_of_the_total))
           {
             std::cerr << "the mapping at " << text_of(discrete::loading_variable_of(scene.loading.mode), stage.progress)
                       << " misses the grains' total by " << stage.mapping.total_relative_error << std::endl;

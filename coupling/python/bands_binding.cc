@@ -119,18 +119,23 @@ namespace diptych::python
       return dict;
     }
 
-    py::array shear_strain(const py::dict &arrays, const Numbers &at, const double radius)
+    // A quantity of the affine fits around places.
+    template <class T>
+    py::array around(std::vector<T> (*of)(const coupling::DisplacementField &, const std::vector<Eigen::Vector2d> &, double),
+                     const py::dict &arrays,
+                     const Numbers  &at,
+                     const double    radius)
     {
       const coupling::DisplacementField  field  = field_of(arrays);
       const std::vector<Eigen::Vector2d> places = vectors_of(at, "at");
       if (!(radius > 0))
         throw std::invalid_argument("radius must be positive");
-      std::vector<double> shear;
+      std::vector<T> found;
       {
         const py::gil_scoped_release release;
-        shear = coupling::shear_strain_increment(field, places, radius);
+        found = of(field, places, radius);
       }
-      return own(std::move(shear));
+      return own(std::move(found));
     }
   } // namespace
 
@@ -142,7 +147,12 @@ namespace diptych::python
     });
     m.def("find_bands", &find_bands);
     m.def("strips", &strips);
-    m.def("shear_strain", &shear_strain);
+    m.def("shear_strain", [](const py::dict &arrays, const Numbers &at, const double radius) {
+      return around(&coupling::shear_strain_increment, arrays, at, radius);
+    });
+    m.def("displacement_gradient", [](const py::dict &arrays, const Numbers &at, const double radius) {
+      return around(&coupling::displacement_gradient, arrays, at, radius);
+    });
     m.def("theory_lines", [](const double friction, const double dilatancy) {
       const coupling::TheoryLines lines = coupling::theory_lines(friction, dilatancy);
       return py::make_tuple(lines.coulomb_deg, lines.roscoe_deg, lines.arthur_deg);

@@ -9,6 +9,7 @@ namespace diptych::python
   // diptych._diptych: scenes, grains, operators, results.
   void bind_campaigns(pybind11::module_ &m);
   void bind_scene(pybind11::module_ &m);
+  void bind_histories(pybind11::module_ &m);
   void bind_snapshots(pybind11::module_ &m);
   void bind_grains(pybind11::module_ &m);
   void bind_averaging(pybind11::module_ &m);

@@ -12,6 +12,7 @@ PYBIND11_MODULE(_diptych, m)
   translate_errors();
   bind_scene(m);
   bind_campaigns(m);
+  bind_histories(m);
   bind_snapshots(m);
   bind_results(m);
   bind_grains(m);

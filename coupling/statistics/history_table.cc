@@ -78,28 +78,12 @@ namespace diptych::coupling
     return mean;
   }
 
-  std::vector<double> resampled(const std::vector<double> &x, const std::vector<double> &y, const std::vector<double> &grid)
-  {
-    std::vector<double> values;
-    for (const double at : grid)
-      {
-        const std::size_t k = std::size_t(std::lower_bound(x.begin(), x.end(), at) - x.begin());
-        if (k < x.size() && x[k] == at)
-          values.push_back(y[k]);
-        else if (k == 0 || k == x.size())
-          values.push_back(std::numeric_limits<double>::quiet_NaN());
-        else
-          values.push_back(y[k - 1] + (y[k] - y[k - 1]) * (at - x[k - 1]) / (x[k] - x[k - 1]));
-      }
-    return values;
-  }
-
   Peak peak_of_running_mean(const HistoryTable &table, const std::string &name, const double width)
   {
     const std::vector<double> mean = running_mean(table, name, width), &progress = column(table, "progress");
-    Peak                      peak{-std::numeric_limits<double>::infinity(), 0};
+    Peak                      peak;
     for (std::size_t k = 0; k < mean.size(); ++k)
-      if (mean[k] > peak.value)
+      if (!std::isnan(mean[k]) && !(mean[k] <= peak.value))
         peak = {mean[k], progress[k]};
     return peak;
   }

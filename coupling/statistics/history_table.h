@@ -45,13 +45,10 @@ namespace diptych::coupling
   // For each row, the mean over the preceding `width` of progress; NaN before the first full width. Needs O(rows) operations.
   std::vector<double> running_mean(const HistoryTable &table, const std::string &name, double width);
 
-  // The broken line through (x, y), x ascending, evaluated at the points of a grid; NaN beyond its ends.
-  std::vector<double> resampled(const std::vector<double> &x, const std::vector<double> &y, const std::vector<double> &grid);
-
-  // Largest running mean, and the progress at the end of its range.
+  // Largest running mean, and the progress at the end of its range; NaN before the first full width.
   struct Peak
   {
-    double value = 0, progress = 0;
+    double value = NAN, progress = 0;
   };
   Peak peak_of_running_mean(const HistoryTable &table, const std::string &name, double width);
 

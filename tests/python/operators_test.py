@@ -102,12 +102,15 @@ def test_bands_of_snapshots_are_those_of_the_comparison(panels, small):
 def test_an_affine_field_is_diffuse_with_the_right_shear_strain():
     """u = G x with G = [[0.01, 0.004], [0.002, -0.02]]: eps_1 - eps_2 = sqrt(0.03^2 + 0.006^2)."""
     points, _, _ = band_of(50, 12)
-    displacement = points @ np.array([[0.01, 0.004], [0.002, -0.02]]).T
+    given = np.array([[0.01, 0.004], [0.002, -0.02]])
+    displacement = points @ given.T
     assert diptych.find_bands(points, displacement, 1.0).bands == []
     shear = diptych.shear_strain(points, displacement, radius=2.5)
     lonely = np.isnan(shear)  # fewer than four neighbours
     assert lonely.mean() < 0.01
     np.testing.assert_allclose(shear[~lonely], np.hypot(0.03, 0.006), rtol=1e-9)
+    gradient = diptych.displacement_gradient(points, displacement, radius=2.5)
+    np.testing.assert_allclose(gradient[~lonely] - given, 0, atol=1e-12)
 
 
 def test_probes_of_grains_and_of_their_stress_map_agree_with_the_walls():

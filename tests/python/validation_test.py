@@ -40,7 +40,7 @@ def test_intervals_hold_the_true_error_in_92_to_96_of_100_ensembles(kind, n):
         continuum = 1.05 + random.normal(0, 0.01) + random.normal(0, 0.015) + random.normal(0, 0.002, n)
         parts = {"grains_step": validation.SAFETY / 2 * 0.02, "mesh": 0.01, "load_step": math.nan,
                  "parameters": random.normal(0, 0.015, 12).std(ddof=1)}
-        found, _row = validation.validated("peak_stress_ratio", kind, (grains, continuum), parts, 12)
+        found, _row = validation.validated(kind, (grains, continuum), parts, 12)
         hits += found.difference.low < 0.05 < found.difference.high
     assert 0.91 < hits / runs < 0.97
 

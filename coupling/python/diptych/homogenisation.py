@@ -10,12 +10,11 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from scipy.spatial import cKDTree
 
 from .arrays import Array, Band, Interval, Mesh
 from .averaging_width import width_scan
 from .laws import principal
-from .operators import find_bands, increment, map_stress, probe
+from .operators import displacement_gradient, find_bands, increment, map_stress, probe
 from .results import load
 from .sheets import Sheet, outline_of
 
@@ -69,28 +68,6 @@ def has_forces(snapshot: Any) -> bool:
     return bool(np.any(snapshot.contacts.force)) or len(snapshot.window) > 0
 
 
-def displacement_gradient(points: Array, displacement: Array, weight: Array, at: Array, radius: float) -> Array:
-    """(m, 2, 2): d u_k / d x_l at the places `at`, an affine least-squares fit to the points within `radius`; NaN for fewer than 4 points
-    or nearly collinear ones. As coupling/fields/strain_increment.cc."""
-    centre = points.mean(0)
-    x, u, w = (values[weight > 0] for values in (points - centre, displacement - displacement.mean(0), weight))
-    near = cKDTree(at - centre).sparse_distance_matrix(cKDTree(x), radius, output_type="coo_matrix").tocsr()
-    n_near = np.diff(near.indptr)
-    near.data = w[near.indices]
-
-    def mean(values: Array) -> Array:
-        flat = values.reshape(len(values), -1)
-        return (near @ flat / np.maximum(near.sum(1), 1e-300)).A.reshape(len(at), *values.shape[1:])
-
-    x_mean, u_mean = mean(x), mean(u)
-    xx = mean(x[:, :, None] * x[:, None, :]) - x_mean[:, :, None] * x_mean[:, None, :]
-    ux = mean(u[:, :, None] * x[:, None, :]) - u_mean[:, :, None] * x_mean[:, None, :]
-    good = (n_near >= 4) & (4 * np.linalg.det(xx) > 1e-3 * np.trace(xx, axis1=1, axis2=2) ** 2)
-    gradient = np.full((len(at), 2, 2), np.nan)
-    gradient[good] = ux[good] @ np.linalg.inv(xx[good])
-    return gradient
-
-
 def _wrapped(snapshot: Any, points: Array) -> Array:
     """The points, moved by whole periods into the cell of a periodic sample."""
     if not snapshot.cell_width:
@@ -101,7 +78,8 @@ def _wrapped(snapshot: Any, points: Array) -> Array:
 
 def _strain(start: Any, end: Any, at: Array) -> Array:
     field = increment(start, end)
-    gradient = displacement_gradient(_wrapped(end, field.points), field.displacement, field.weight, at, STRAIN_RADIUS * end.mean_diameter)
+    gradient = displacement_gradient(_wrapped(end, field.points), field.displacement, at, weight=field.weight,
+                                     radius=STRAIN_RADIUS * end.mean_diameter)
     return -0.5 * (gradient + gradient.transpose(0, 2, 1))
 
 

@@ -217,6 +217,14 @@ def strips(points: Any, displacement: Any, mean_diameter: float, band: Any = 45.
     return Record(_diptych.strips(field, frame, float(band), offset, n))
 
 
+def displacement_gradient(points: Any, displacement: Any, at: Any = None, *, radius: float,
+                          weight: Any = None) -> Array:
+    """(m, 2, 2): d u_k / d x_l at the places `at` (m, 2); default: at the points. An affine least-squares fit to the
+    points within `radius` [length]; NaN for fewer than 4 points or nearly collinear ones."""
+    field = _field(points, displacement, weight)
+    return _diptych.displacement_gradient(field, field["position"] if at is None else at, radius)
+
+
 def shear_strain(points: Any, displacement: Any, at: Any = None, *, radius: float, weight: Any = None) -> Array:
     """(m): eps_1 - eps_2 >= 0 at the places `at` (m, 2); default: at the points. The displacement gradient is fitted to the points
     within `radius` [length]; the comparison uses 2.5 mean diameters. NaN for fewer than 4 points."""

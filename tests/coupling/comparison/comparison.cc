@@ -189,7 +189,7 @@ namespace
     ASSERT_TRUE(c.coarse);
     ASSERT_EQ(c.coarse->windows.size(), 1u);
     EXPECT_EQ(c.coarse->windows[0].continuum.band.bands[0].angle_deg, c.windows[0].continuum.band.bands[0].angle_deg);
-    EXPECT_EQ(c.coarse->peak.value, c.continuum.peak.value);
+    EXPECT_EQ(c.coarse->peak.value, c.continuum.numbers.peak.value);
   }
 
   TEST(Compare, ElasticLawHasNoTheoryLines)

@@ -31,8 +31,8 @@ namespace
     EXPECT_EQ(s.contacts, 4040);
     EXPECT_EQ(s.coordination_number, 2 * 4040. / (40 * 56));
     EXPECT_EQ(s.rattlers, 3);
-    EXPECT_NEAR(s.peak.value, 1. / 3, 1e-14);
-    EXPECT_EQ(s.final_volumetric_strain, -0.01);
+    EXPECT_NEAR(s.numbers.peak.value, 1. / 3, 1e-14);
+    EXPECT_EQ(s.numbers.final_volumetric_strain, -0.01);
     EXPECT_EQ(s.balance.mean.value, 0); // 80 up, 80 down
   }
 
@@ -125,14 +125,18 @@ namespace
   TEST(Summary, KeyNumbersComeWithDifferenceAndVerdict)
   {
     Comparison c;
-    c.discrete.peak.value = 0.4, c.continuum.peak.value = 0.36;
-    c.discrete.platen_force = 60, c.continuum.platen_force = 66;
+    c.discrete.numbers.peak.value    = 0.4;
+    c.continuum.numbers.peak.value   = 0.36;
+    c.discrete.numbers.platen_force  = 60;
+    c.continuum.numbers.platen_force = 66;
     c.windows.push_back(with_bands({-45, -46, -44}, {-49, -49, -49}));
     c.windows[0].frame.mean_diameter                         = 2;
     c.windows[0].discrete.band.bands[0].interval.width_10_90 = c.windows[0].continuum.band.bands[0].interval.width_10_90 = {4, 3,
                                                                                                                             5};
     const std::vector<KeyNumber> numbers = key_numbers(c);
-    ASSERT_EQ(numbers.size(), 6u);
+    ASSERT_EQ(numbers.size(), key_quantities.size());
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      EXPECT_EQ(numbers[k].key, key_quantities[k].key);
     EXPECT_NEAR(numbers[0].difference.value, -0.04, 1e-15);
     EXPECT_EQ(numbers[0].verdict, "one sample");
     EXPECT_EQ(numbers[1].verdict, "not in both panels") << "no strength";

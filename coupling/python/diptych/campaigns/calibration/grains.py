@@ -15,7 +15,7 @@ from .noise import Data
 from .calibration_runs import CalibrationRuns
 from .observations import Observation, Path, half_step, observe_curve, observe_history, read_target
 from ..runs.folders import SceneRun
-from ..runs.histories import panel_table, running_mean
+from ..runs.histories import panel_table, peak_of_running_mean
 from ..runs.input_file import Setting
 from ..studies.points import on_sample, scene_run
 
@@ -29,7 +29,7 @@ def mean_of(samples: Sequence[Observation], averaging_width: float) -> Observati
     values, stress, volume = (np.mean([getattr(sample, name) for sample in samples], axis=0)
                               for name in ("values", "stress_ratio", "volumetric_strain"))
     table = pd.DataFrame({"progress": samples[0].progress, "stress_ratio": stress})
-    peak = float(pd.Series(running_mean(table, "stress_ratio", averaging_width)).max())
+    peak = peak_of_running_mean(table, "stress_ratio", averaging_width)
     return Observation(values=values, peak_stress_ratio=peak, progress=samples[0].progress, stress_ratio=stress,
                        volumetric_strain=volume, samples=list(samples))
 

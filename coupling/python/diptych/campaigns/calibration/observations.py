@@ -14,7 +14,7 @@ import pandas as pd
 from ... import _diptych, operators
 from ...arrays import Array, Band
 from ...errors import SceneError
-from ..runs.histories import is_beyond, mean_over, running_mean
+from ..runs.histories import is_beyond, mean_over, peak_of_running_mean
 from ..runs.input_file import Setting
 from ..runs.key_numbers import bands_between, snapshots_at
 from .calibration_file import CURVE_COLUMNS, OF_BANDS, Target, is_element, read_curve
@@ -80,7 +80,7 @@ def observe_history(scene: _diptych.Scene, observables: Sequence[Observable], ta
         if one.kind in columns and not is_beyond(one.high, end):
             o.values[k] = mean_over(progress, columns[one.kind], one.low, one.high)
     if "stress_ratio" in columns:
-        o.peak_stress_ratio = float(pd.Series(running_mean(table, "stress_ratio", scene.averaging_width())).max())
+        o.peak_stress_ratio = peak_of_running_mean(table, "stress_ratio", scene.averaging_width())
     edges = np.linspace(0, min(end, scene.dict()["loading"]["axial_strain"]), CURVE_POINTS + 1)
     o.progress = 0.5 * (edges[1:] + edges[:-1])
     for name, column in columns.items():

@@ -7,7 +7,6 @@ from __future__ import annotations
 import argparse
 import math
 import os
-import sys
 import resource
 import shlex
 from collections.abc import Sequence
@@ -28,10 +27,10 @@ from ..runs.histories import panel_table, resampled, running_mean
 from ..runs.input_file import Setting, read_seeds, settings_of
 from ..studies.level_runs import (Levels, add_summary, demand_rule, ensemble_levels, ensemble_quantities, fine_runs, of_members, paired_points,
                          read_levels)
-from ..runs.members import Member, member_of
+from ..runs.key_numbers import QUANTITIES, summary_of
+from ..runs.members import Member, member_of, number_name
 from ..runs.statistics import line_statistics, statistics, student_quantile
 
-_LARGEST_ERROR_OF_THE_TOTAL = 1e-12  # above it `diptych run` ends with exit code 1
 _PANELS = ("discrete", "continuum")
 
 
@@ -41,7 +40,7 @@ def member_folder(directory: str, seed: int) -> str:
 
 
 def _values(members: Sequence[Member], name: str) -> list[float]:
-    return [member.numbers.get(name, (math.nan,))[0] for member in members]
+    return [member.value(name) for member in members]
 
 
 def evaluate(members: Sequence[Member], margins: dict[str, float],
@@ -54,7 +53,7 @@ def evaluate(members: Sequence[Member], margins: dict[str, float],
             found = (line_statistics if line else statistics)(values)
             quantities[name] = {"name": name, "unit": unit, **found._asdict(), "values": values}
     bands = [_band_count(name, members) for name in dict.fromkeys(name for member in members for name in member.bands)]
-    verdicts, rows = _verdicts(bands, margins, members, quantities, responses)
+    verdicts, rows = _verdicts(margins, members, quantities, responses)
     return {"quantities": list(quantities.values()), "bands": bands, "verdicts": verdicts, "validation": rows}
 
 
@@ -66,29 +65,24 @@ def _band_count(name: str, members: Sequence[Member]) -> dict[str, Any]:
     return {"name": name, "none": none, "one": one, "two": two, "text": ", ".join(texts)}
 
 
-def _verdicts(bands: Sequence[dict[str, Any]], margins: dict[str, float], members: Sequence[Member],
-              quantities: dict[str, dict[str, Any]],
+def _verdicts(margins: dict[str, float], members: Sequence[Member], quantities: dict[str, dict[str, Any]],
               responses: validation.Responses) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
     """Differences continuum minus grains with verdicts, and rows of the validation: of single numbers, and of the bands in every
     window."""
-    asked = [(key, f"discrete_summary {key}", f"continuum_summary {key}", margin, kind) for key, margin, kind in (
-        ("peak_stress_ratio", "margin_peak_stress_ratio", "relative"), ("strength", "margin_peak_stress_ratio", "relative"),
-        ("platen_force_pd", "margin_peak_stress_ratio", "relative"), ("final_volumetric_strain", "margin_volumetric_strain", "absolute"))]
-    for window, _, panel in (count["name"].rpartition(" ") for count in bands):
-        if panel == "discrete" and window.startswith("window "):
-            asked += [(f"{window} band {key}", f"{window} discrete band {key}", f"{window} continuum band {key}", margin, kind)
-                      for key, margin, kind in (("angle_deg", "margin_angle", "line"),
-                                                ("width_10_90_d", "margin_thickness", "relative"))]
+    windows = dict.fromkeys(window for member in members for window in member.windows)
     verdicts, rows = [], []
-    for name, grains, continuum, margin, kind in asked:
-        units = [quantities[one]["unit"] for one in (grains, continuum) if one in quantities]
+    for key, window in validation.compared_by(windows):
+        kind, margin = QUANTITIES[key]["difference"], margins[QUANTITIES[key]["margin"]]
+        name = f"{window} band {key.removeprefix('band_')}" if window else key
+        names = [number_name(panel, key, window) for panel in _PANELS]
+        units = [quantities[one]["unit"] for one in names if one in quantities]
         unit = units[0] if units else "degrees" if kind == "line" else "-"
-        first, second = _values(members, grains), _values(members, continuum)
-        parts = validation.uncertainties(name, (grains, continuum), kind == "line", members, responses)
-        found, row = validation.validated(name, kind, (first, second), parts, len(responses.draws))
-        verdict = found.verdict(margins[margin])
-        rows.append({**row, "unit": unit, "verdict": verdict})
-        verdicts.append({"quantity": name, "unit": "-" if kind == "relative" else unit, "margin": margins[margin],
+        first, second = (_values(members, one) for one in names)
+        parts = validation.uncertainties(key, window, members, responses)
+        found, row = validation.validated(kind, (first, second), parts, len(responses.draws))
+        verdict = found.verdict(margin)
+        rows.append({"key": key, "quantity": name, **row, "unit": unit, "verdict": verdict})
+        verdicts.append({"key": key, "quantity": name, "unit": "-" if kind == "relative" else unit, "margin": margin,
                          "relative": kind == "relative", "difference": found.difference, "difference_90": found.difference_90,
                          "n": found.n, "verdict": verdict, "discrete": first, "continuum": second})
     return verdicts, rows
@@ -138,7 +132,7 @@ def _record(scene: Any, seeds: Sequence[int], failed: Sequence[dict[str, Any]], 
         _demand_member(scene, seed)
         members.append(member_of(os.path.join(folder, "comparison.json"), folded))
     found = evaluate(members, margins, validation.responses_of(scene, done, members, runs))
-    first = read_json(os.path.join(member_folder(scene.directory, done[0]), "comparison.json"))["summary"] if done else []
+    first = summary_of(member_folder(scene.directory, done[0])) if done else {}
     return {"format": 1, "scene": scene.name, "seeds": list(seeds), "done": done, "failed": list(failed),
             "interrupted": list(interrupted), "margins": margins, "walk": scene.loading_variable(), "folded": folded,
             "student_t_95": student_quantile(0.975, n - 1) if n > 1 else math.nan,
@@ -164,7 +158,7 @@ def _write(scene: Any, record: dict[str, Any], options: Options, phase: tuple[st
     _diptych.record_files(directory, "ensemble")
     if record["summary"]:
         say(options, summaries.text_of(record["summary"]))
-        say(options, _origin(scene.dict()["comparison"]["parameters_from"]))
+        say(options, _diptych.origin_of_law(scene))
 
 
 def _member_scene(scene: Any, seed: int) -> Any:
@@ -208,7 +202,7 @@ def _finished(scene: Any, seeds: Sequence[int], options: Options) -> list[int]:
         member = _member_scene(scene, seed)
         if _diptych.holds_finished_run(member):
             stages = read_json(os.path.join(member.directory, "comparison.json"))["stages"]
-            if all(stage["mapping"]["total_relative_error"] < _LARGEST_ERROR_OF_THE_TOTAL for stage in stages):
+            if all(stage["mapping"]["total_relative_error"] < _diptych.LARGEST_ERROR_OF_THE_TOTAL for stage in stages):
                 finished.append(seed)
     _record(scene, finished, [], [], validation.NO_RUNS)
     return finished
@@ -234,14 +228,6 @@ def _add_limits(scene: Any, record: dict[str, Any], given: tuple[str, list[Any]]
     os.makedirs(os.path.join(scene.directory, "runs"), exist_ok=True)
     [point] = paired_points(Runs(scene.directory), [fine], [cheap], wanted, options)
     add_summary(record, ensemble_levels(levels, seeds, point))
-
-
-def _origin(text: str) -> str:
-    """As a single run ends: bold on a terminal if nobody fitted the law."""
-    if text:
-        return f"parameters of the continuum: {text}"
-    plain = "The parameters of the continuum were not fitted to these grains. To fit them: diptych calibrate SCENE --seeds 1-4"
-    return f"\033[1m{plain}\033[0m" if sys.stdout.isatty() else plain
 
 
 def run_ensemble(line: argparse.Namespace, options: Options) -> None:

@@ -5,30 +5,27 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ..runs.statistics import Interval
+from ..runs.key_numbers import QUANTITIES
+from ..runs.statistics import Interval, line_statistics, statistics
 
-_PANELS = ("discrete", "continuum")
 
-
-def summary(member: Sequence[dict[str, Any]], record: dict[str, Any]) -> list[dict[str, Any]]:
-    """One row per quantity in the summary of a member's comparison.json. record: quantities and verdicts as in ensemble.json.
+def summary(member: Mapping[str, dict[str, Any]], record: dict[str, Any]) -> list[dict[str, Any]]:
+    """One row per quantity in the summary of a member's comparison.json, by key. record: quantities and verdicts as in
+    ensemble.json.
 
     Differences are continuum - grains in the unit of the row; verdicts are those of the record, with their margins."""
-    verdicts, quantities = list(zip(record["verdicts"], record["validation"])), {q["name"]: q for q in record["quantities"]}
-    asked = verdicts[:4] + (verdicts[-2:] if len(verdicts) > 4 else [])  # of the windows only the last
-    return [_row(name["quantity"], name["unit"], *pair, quantities) for name, pair in zip(member, asked)]
+    # Of the windows only the last: it replaces those before it.
+    verdicts, validation = ({one["key"]: one for one in record[part]} for part in ("verdicts", "validation"))
+    return [{"key": key, "quantity": row["quantity"], "unit": row["unit"],
+             "grains": _mean(key, verdicts[key]["discrete"]), "continuum": _mean(key, verdicts[key]["continuum"]),
+             "difference": validation[key]["E"], "verdict": words_of(verdicts[key])} for key, row in member.items()]
 
 
-def _row(quantity: str, unit: str, verdict: dict[str, Any], validation: dict[str, Any],
-         quantities: dict[str, Any]) -> dict[str, Any]:
-    window, _, key = verdict["quantity"].rpartition(" band ")
-    of = [quantities.get(f"{window} {panel} band {key}" if window else f"{panel}_summary {key}") for panel in _PANELS]
-    grains, continuum = (Interval(q["mean"], q["low"], q["high"]) if q else Interval(*[math.nan] * 3) for q in of)
-    return {"quantity": quantity, "unit": unit, "grains": grains, "continuum": continuum, "difference": validation["E"],
-            "verdict": words_of(verdict)}
+def _mean(key: str, values: Sequence[float]) -> Interval:
+    return (line_statistics if QUANTITIES[key]["difference"] == "line" else statistics)(values).interval()
 
 
 def words_of(verdict: dict[str, Any]) -> str:

@@ -24,15 +24,14 @@ from ..runs.engine import Options, Run, execute
 from ..runs.folders import read_json, run_name, write_text
 from ..runs.histories import panel_table
 from ..runs.input_file import Setting
-from ..runs.key_numbers import FORCE, PEAK, STRENGTH, VOLUME, key_values
-from ..runs.members import Member, member_of
+from ..runs.key_numbers import OF_PANEL, QUANTITIES, panel_values
+from ..runs.members import Member, member_of, number_name
 from ..runs.statistics import Difference, line_statistics, line_turn, paired, statistics
 
 DRAWS = 12  # of the parameters; their deviation is then known to a fifth
 # 95 % bound / estimated numerical error, of which u_num is half. Roache (Verification and Validation in Computational Science and
 # Engineering, 1998) takes 3 for an assumed order and 1.25 for an observed one. README.md compares estimates with errors.
 SAFETY = 1.25
-_KEYS = {"peak_stress_ratio": PEAK, "strength": STRENGTH, "platen_force_pd": FORCE, "final_volumetric_strain": VOLUME}
 _PARTS = {"grains_step": "step of the grains", "mesh": "mesh", "load_step": "load step", "parameters": "parameters"}
 _FOLDER = "validation"  # of the runs; it is removed after they have been read
 NO_RUNS: dict[str, Any] = {"seed": None, "scenes": [], "quantities": [], "values": []}  # as respond() returns them
@@ -50,30 +49,32 @@ class Responses:
     draws: Sequence[Mapping[str, float]] = ()
 
 
-def uncertainties(quantity: str, names: tuple[str, str], is_line: bool, members: Sequence[Member],
-                  responses: Responses) -> dict[str, float]:
-    """Standard uncertainties but that of the samples, in the unit of the quantity. names: of grains and continuum.
+def uncertainties(key: str, window: str, members: Sequence[Member], responses: Responses) -> dict[str, float]:
+    """Standard uncertainties but that of the samples, in the unit of the quantity. window: of a band.
 
     Estimated errors: grains_step by the rule of the step; mesh and load_step by order 1 from a change d: d / (r - 1) by a mesh
     coarser by r, 2 d by half the step. parameters: deviation over the draws.
     """
+    is_line, name = QUANTITIES[key]["difference"] == "line", number_name("continuum", key, window)
     minus, average = (line_turn, line_statistics) if is_line else (np.subtract, statistics)
-    grains, fine = ([member.numbers.get(name, (math.nan,))[0] for member in members] for name in names)
-    rules = ["strength"] + ["dilation"] * (quantity == "final_volumetric_strain")  # its two parts may cancel by chance
-    expected = max(abs(statistics([member.numbers.get(f"discrete_summary expected_{rule}_error", (math.nan,))[0]
-                                   for member in members]).mean) for rule in rules)
-    coarse = [values.get(names[1], math.nan) for values in responses.coarse] or [math.nan] * len(fine)
-    half, base = (values.get(names[1], math.nan) for values in (responses.half_step, responses.base))
-    has_rule = quantity in _KEYS and expected != 0  # 0: a flow that the rule does not describe
+    grains, fine = ([member.value(number_name(panel, key, window)) for member in members]
+                    for panel in ("discrete", "continuum"))
+    rules = ["strength"] + ["dilation"] * (key == "final_volumetric_strain")  # its two parts may cancel by chance
+    expected = max(abs(statistics([member.value(f"discrete_summary expected_{rule}_error") for member in members]).mean)
+                   for rule in rules)
+    coarse = [values.get(name, math.nan) for values in responses.coarse] or [math.nan] * len(fine)
+    half, base = (values.get(name, math.nan) for values in (responses.half_step, responses.base))
+    has_rule = key in OF_PANEL and expected != 0  # 0: a flow that the rule does not describe
     errors = {"grains_step": expected * statistics(grains).mean if has_rule else math.nan,
               "mesh": statistics(minus(coarse, fine)).mean / (responses.size_ratio - 1), "load_step": 2 * float(minus(half, base))}
     return {**{name: SAFETY / 2 * abs(error) for name, error in errors.items()},
-            "parameters": average([values.get(names[1], math.nan) for values in responses.draws]).deviation}
+            "parameters": average([values.get(name, math.nan) for values in responses.draws]).deviation}
 
 
-def validated(quantity: str, kind: str, pairs: tuple[Sequence[float], Sequence[float]], parts: Mapping[str, float],
+def validated(kind: str, pairs: tuple[Sequence[float], Sequence[float]], parts: Mapping[str, float],
               n_draws: int) -> tuple[Difference, dict[str, Any]]:
-    """The difference as paired() has it, with all known parts in its intervals, and a row of ensemble.json without its verdict.
+    """The difference as paired() has it, with all known parts in its intervals, and a row of ensemble.json without key,
+    name and verdict.
 
     Half widths add in squares. Each is a standard uncertainty times Student's factor: n - 1 degrees of freedom of the samples,
     n_draws - 1 of the parameters, infinitely many of the numerical parts.
@@ -87,7 +88,7 @@ def validated(quantity: str, kind: str, pairs: tuple[Sequence[float], Sequence[f
     relative = [(u / abs(grains), f) for u, f in errors] if kind == "relative" else errors
     numerical = [parts[name] for name in ("grains_step", "mesh", "load_step") if math.isfinite(parts[name])]
     total = math.hypot(of_samples, *(u for u, _ in errors))
-    row = {"quantity": quantity, "n": error.n, "S": average(second).mean, "D": grains,
+    row = {"n": error.n, "S": average(second).mean, "D": grains,
            "E": paired(first, second, "line" if kind == "line" else "absolute").with_errors(errors).difference,
            "u_num": math.hypot(*numerical) if numerical else math.nan, "u_input": parts["parameters"], "u_D": of_samples,
            "u_val": total, "ratio": abs(error.mean) / total if total > 0 else math.nan,
@@ -101,10 +102,11 @@ def coarse_values(folder: str, scene: Any, member: Member) -> dict[str, float]:
     table = panel_table(os.path.join(folder, "coarse"), "continuum")
     if table is None:
         return {}
-    found = key_values(folder, scene, {"continuum": table})
-    bands = {name.removeprefix("continuum_coarse ").replace(" band ", " continuum band "): number[0]
-             for name, number in member.numbers.items() if name.startswith("continuum_coarse window")}
-    return {**{f"continuum_summary {key}": found["continuum", name] for key, name in _KEYS.items()}, **bands}
+    found = {number_name("continuum", key): value for key, value in panel_values(scene, table).items()}
+    for window in member.windows:
+        for key in set(QUANTITIES) - set(OF_PANEL):
+            found[number_name("continuum", key, window)] = member.value(number_name("continuum_coarse", key, window))
+    return found
 
 
 def responses_of(scene: Any, seeds: Sequence[int], members: Sequence[Member], runs: Mapping[str, Any]) -> Responses:
@@ -198,6 +200,11 @@ def _copy_grains(source: str, folder: str) -> None:
 
 def _compared(member: Member) -> dict[str, float]:
     """The numbers of the continuum that verdicts compare."""
-    keys, of_bands = [f"continuum_summary {key}" for key in _KEYS], (" continuum band angle_deg", " continuum band width_10_90_d")
-    return {name: number[0] for name, number in member.numbers.items()
-            if name in keys or (name.startswith("window ") and name.endswith(of_bands))}
+    compared = [number_name("continuum", key, window) for key, window in compared_by(member.windows)]
+    return {name: member.value(name) for name in compared if name in member.numbers}
+
+
+def compared_by(windows: Sequence[str]) -> list[tuple[str, str]]:
+    """(key, window) of every compared quantity; those of a panel's whole run have no window."""
+    of_bands = [(key, window) for window in windows for key in QUANTITIES if key not in OF_PANEL]
+    return [*((key, "") for key in OF_PANEL), *of_bands]

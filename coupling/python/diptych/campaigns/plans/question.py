@@ -15,9 +15,9 @@ import numpy as np
 from ... import _diptych
 from ...errors import SceneError
 from ..runs.input_file import Setting, settings_of
+from ..runs.members import number_name
 from ..studies.study_file import quantity
 
-EARLY_STRAIN = 0.003  # below it the strength depends on how the loading started
 NAMES = ("peak_stress_ratio", "strength", "final_volumetric_strain", "width_10_90", "angle")
 PANELS = {"discrete": ("sample", "discrete"), "continuum": ("continuum",)}  # and the sections that ask for them
 
@@ -196,15 +196,15 @@ def _short(name: str, panel: str, scene: _diptych.Scene) -> dict[str, Any]:
         return quantity(full, source=panel, reduction="peak", column="stress_ratio", to=scene.averaging_width(),
                         step_error="strength")
     if name == "strength":
-        end = scene.stages()[-1]
+        end, early = scene.stages()[-1], _diptych.EARLY_STRAIN
         return quantity(full, source=panel, reduction="strength", to=end, step_error="strength",
-                        **{"from": EARLY_STRAIN if end > 2 * EARLY_STRAIN else end / 2})
+                        **{"from": early if end > 2 * early else end / 2})
     if name == "final_volumetric_strain":
         return quantity(full, source=panel, column="volumetric_strain", step_error="dilation")
     low, high = map(_diptych.text_of_number, keys["comparison"]["window_edges"][-2:])
-    key = "angle_deg" if name == "angle" else "width_10_90_d"
-    return quantity(full, source="comparison", reduction="number", column=f"window {low}-{high} {panel} band {key}",
-                    line=name == "angle", step_error="")
+    key = "band_angle_deg" if name == "angle" else "band_width_10_90_d"
+    return quantity(full, source="comparison", reduction="number", line=name == "angle", step_error="",
+                    column=number_name(panel, key, f"window {low}-{high}"))
 
 
 def _add(question: Question, word: str, panels: set[str], scene: _diptych.Scene) -> None:

@@ -9,7 +9,6 @@ import os
 
 import numpy as np
 import pandas as pd
-from scipy.integrate import cumulative_trapezoid, trapezoid
 
 from ... import _diptych
 
@@ -32,40 +31,30 @@ def panel_table(folder: str, source: str) -> pd.DataFrame | None:
     return table if len(table) else None
 
 
-def is_beyond(progress: float, end: float) -> bool:
-    """True if progress > end, up to the rounding of a sum of steps."""
-    return progress > end + 1e-9 * abs(end)
+is_beyond = _diptych.is_beyond  # (progress, end): progress > end, up to the rounding of a sum of steps
+# (x, y, begin, end): mean over [begin, end] of the broken line through (x, y), constant beyond its ends;
+# its value there if begin = end
+mean_over = _diptych.mean_over
 
 
-def mean_over(x: np.ndarray, y: np.ndarray, begin: float, end: float) -> float:
-    """Mean over [begin, end] of the broken line through (x, y), constant beyond its ends; for begin = end its value there."""
-    if not end > begin:
-        return float(np.interp(begin, x, y))
-    inside = x[(x > begin) & (x < end)]
-    at = np.concatenate([[begin], inside, [end]])
-    return float(trapezoid(np.interp(at, x, y), at) / (end - begin))
+def columns_of(table: pd.DataFrame, *names: str) -> dict[str, np.ndarray]:
+    """The named columns, those that the table has, as arrays."""
+    return {name: table[name].to_numpy() for name in names if name in table}
 
 
 def stress_ratio_of_means(table: pd.DataFrame, begin: float, end: float) -> float:
-    """T/S: mean of t over a range of the progress divided by the mean of s.
-
-    t is half the difference of the principal stresses, s half their sum. Unlike the mean of t/s it gives less weight to moments
-    of small load.
-    """
-    yx = table["syx"] if "syx" in table else table["sxy"]
-    t = np.hypot(0.5 * (table["sxx"] - table["syy"]), 0.5 * (table["sxy"] + yx)).to_numpy()
-    s = (0.5 * (table["sxx"] + table["syy"])).to_numpy()
-    x = table["progress"].to_numpy()
-    return mean_over(x, t, begin, end) / mean_over(x, s, begin, end)
+    """T/S: mean of t over a range of the progress divided by the mean of s; NaN if the history ends before."""
+    return _diptych.stress_ratio_of_means(columns_of(table, "progress", "sxx", "sxy", "syx", "syy"), begin, end)
 
 
 def running_mean(table: pd.DataFrame, name: str, width: float) -> np.ndarray:
     """For each row the mean of a column over the preceding `width` of progress; NaN before the first full width."""
-    x, y = table["progress"].to_numpy(), table[name].to_numpy()
-    at = np.union1d(x, x - width)
-    integral = cumulative_trapezoid(np.interp(at, x, y), at, initial=0)
-    means = (np.interp(x, at, integral) - np.interp(x - width, at, integral)) / width
-    return np.where(x >= width * (1 - 1e-9), means, np.nan)
+    return _diptych.running_mean(table["progress"], table[name], width)
+
+
+def peak_of_running_mean(table: pd.DataFrame, name: str, width: float) -> float:
+    """NaN before the first full width."""
+    return _diptych.peak_of_running_mean(table["progress"], table[name], width)
 
 
 def resampled(table: pd.DataFrame, values: np.ndarray, grid: np.ndarray) -> np.ndarray:
@@ -79,12 +68,11 @@ def reduced(table: pd.DataFrame | None, quantity: dict) -> float:
         return math.nan
     how, name, begin, end = (quantity[key] for key in ("reduction", "column", "from", "to"))
     end = begin if how == "at" else end
-    if how in ("strength", "mean", "at") and is_beyond(end, table["progress"].iloc[-1]):
-        return math.nan
     if how == "strength":
         return stress_ratio_of_means(table, begin, end)
     if how in ("mean", "at"):
-        return mean_over(table["progress"].to_numpy(), table[name].to_numpy(), begin, end)
+        x = table["progress"]
+        return math.nan if is_beyond(end, x.iloc[-1]) else mean_over(x, table[name], begin, end)
     if how == "peak":
-        return float(pd.Series(running_mean(table, name, end)).max())  # without the NaNs
+        return peak_of_running_mean(table, name, end)
     return float(table[name].max() if how == "largest" else table[name].iloc[-1])

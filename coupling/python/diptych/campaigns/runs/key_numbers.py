@@ -1,6 +1,7 @@
 # diptych: the key numbers of a run, which studies take when a user names no quantity
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The rows of summary.csv: peak, strength, platen force, volume, inclination and width of the band in the last window."""
+"""The rows of summary.csv: peak, strength, platen force, volume, inclination and width of the band in the last window.
+Their keys, names and margins are those of coupling/comparison/key_numbers.h."""
 
 from __future__ import annotations
 
@@ -14,38 +15,41 @@ import pandas as pd
 from ... import _diptych, operators
 from ...arrays import Band
 from .folders import read_json
-from .histories import is_beyond, mean_over, running_mean, stress_ratio_of_means
+from .histories import columns_of
 
-PEAK, STRENGTH, VOLUME = "peak t/s", "strength T/S from 0.3 % strain", "volumetric strain at the end"
-FORCE = "platen force from 0.3 % strain"
-ANGLE, WIDTH = "inclination of the band", "10-90 % width of the band"
-# name, unit, whether it is the angle of a line; grains alone have no bands here
-OF_GRAINS = ((PEAK, "-", False), (STRENGTH, "-", False), (FORCE, "P d", False), (VOLUME, "-", False))
-OF_BOTH_PANELS = (*OF_GRAINS, (ANGLE, "degrees", True), (WIDTH, "mean diameters", False))
+QUANTITIES: dict[str, dict[str, Any]] = {one["key"]: one for one in _diptych.key_quantities()}
+OF_PANEL = [key for key, one in QUANTITIES.items() if not one["is_of_band"]]  # grains alone have no bands here
 BAND_OPTIONS = ("max_bands", "huber_threshold", "correlation_length", "minimum_jump", "residual_floor")
 SAME_PROGRESS = 1e-6
-_EARLY = 0.003  # the strength before depends on the start
+_COLUMNS = ("progress", "stress_ratio", "sxx", "sxy", "syx", "syy", "lower_fy", "upper_fy", "volumetric_strain")
 _ROWS = {"discrete": "grains", "continuum": "continuum", "difference": "difference"}
 
 
+def summary_of(folder: str) -> dict[str, dict[str, Any]]:
+    """The rows of the summary of comparison.json, by key. Raises ValueError with the file."""
+    path = os.path.join(folder, "comparison.json")
+    rows = read_json(path)["summary"]
+    if not all("key" in row for row in rows):
+        raise ValueError(f"{path}: an earlier version wrote its summary, without keys; diptych compare {folder} "
+                         "writes it again")
+    return {row["key"]: row for row in rows}
+
+
+def panel_values(scene: Any, table: pd.DataFrame) -> dict[str, float]:
+    """The key numbers of a panel's table, by key."""
+    return _diptych.panel_numbers(scene, columns_of(table, *_COLUMNS))
+
+
 def key_values(folder: str, scene: Any, tables: dict[str, pd.DataFrame | None]) -> dict[tuple[str, str], float]:
-    """(panel, name) -> value. From comparison.json if both panels ran, in which bands correspond; else from the panel's table.
+    """(panel, key) -> value. From comparison.json if both panels ran, in which bands correspond; else from the table.
 
     Raises ValueError with the name of a damaged file.
     """
     if len(tables) > 1:
-        rows = read_json(os.path.join(folder, "comparison.json"))["summary"]  # "width of the band (0.02 to 0.03)"
-        return {(panel, row["quantity"].partition(" (")[0]): math.nan if row[key]["value"] is None else row[key]["value"]
-                for row in rows for panel, key in _ROWS.items()}
-    values = {}
-    for panel, table in tables.items():
-        if table is not None:
-            along_time = scene.loading_variable() == "time"
-            values |= {(panel, PEAK): float(pd.Series(running_mean(table, "stress_ratio", scene.averaging_width())).max()),
-                       (panel, STRENGTH): math.nan if along_time
-                       else stress_ratio_of_means(table, _EARLY, table["progress"].iloc[-1]),
-                       (panel, FORCE): math.nan if along_time else _platen_force(scene, table),
-                       (panel, VOLUME): float(table["volumetric_strain"].iloc[-1])}
+        return {(panel, key): math.nan if row[part]["value"] is None else row[part]["value"]
+                for key, row in summary_of(folder).items() for panel, part in _ROWS.items()}
+    values = {(panel, key): value for panel, table in tables.items() if table is not None
+              for key, value in panel_values(scene, table).items()}
     if tables.get("continuum") is not None:
         values |= _band_of_nodes(folder, scene)
     return values
@@ -75,13 +79,5 @@ def _band_of_nodes(folder: str, scene: Any) -> dict[tuple[str, str], float]:
     if not found:
         return {}
     angle = abs(found[0].angle_deg) if scene.is_mirror_symmetric() else found[0].angle_deg
-    return {("continuum", ANGLE): angle, ("continuum", WIDTH): found[0].width_10_90 / scene.dict()["sample"]["mean_diameter"]}
-
-
-def _platen_force(scene: Any, table: pd.DataFrame) -> float:
-    """Mean vertical force of both platens in pressure x mean diameter, over the range of the later strength."""
-    keys, progress = scene.dict(), table["progress"].to_numpy()
-    if not is_beyond(progress[-1], _EARLY):
-        return math.nan
-    lower, upper = (mean_over(progress, table[name].to_numpy(), _EARLY, progress[-1]) for name in ("lower_fy", "upper_fy"))
-    return (lower - upper) / 2 / (keys["loading"]["pressure"] * keys["sample"]["mean_diameter"])
+    return {("continuum", "band_angle_deg"): angle,
+            ("continuum", "band_width_10_90_d"): found[0].width_10_90 / scene.dict()["sample"]["mean_diameter"]}

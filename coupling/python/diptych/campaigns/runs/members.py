@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import functools
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -22,10 +23,16 @@ def _described() -> dict[str, tuple[str, str]]:
 
 @dataclass
 class Member:
-    """numbers: name -> (value, unit, True for the angle of a line, place); bands: "window 0-0.01 discrete" -> their number."""
+    """numbers: name -> (value, unit, True for the angle of a line, place); windows: "window 0-0.01";
+    bands: "window 0-0.01 discrete" -> their number."""
 
     numbers: dict[str, tuple[float, str, bool, str]] = field(default_factory=dict)
+    windows: list[str] = field(default_factory=list)
     bands: dict[str, int] = field(default_factory=dict)
+
+    def value(self, name: str) -> float:
+        """NaN if the comparison has no such number."""
+        return self.numbers.get(name, (math.nan,))[0]
 
     def collect(self, value: Any, place: str, name: str) -> None:
         """Adds the numbers below a value. Lists with names become "probe zone"; of the bands only the first, strongest one."""
@@ -54,7 +61,9 @@ class Member:
 
     def collect_windows(self, windows: list[Any], place: str, prefix: str = "") -> None:
         for window in windows:
-            self.collect(window, place, f"{prefix}window {window['from']:.6g}-{window['to']:.6g}")
+            name = f"window {window['from']:.6g}-{window['to']:.6g}"
+            self.windows += [] if prefix else [name]
+            self.collect(window, place, prefix + name)
 
     def fold(self) -> None:
         """Folds mirror images of a band onto each other: angle and offset lose their sign, the jump changes it with the angle."""
@@ -68,6 +77,15 @@ class Member:
                 value = -value
             folded[name] = (value, unit, line, place)
         self.numbers = folded
+
+
+def number_name(panel: str, key: str, window: str = "") -> str:
+    """Name of a compared quantity in the numbers of a member. panel: discrete, continuum or continuum_coarse; window: that
+    of a band."""
+    if not window:
+        return f"{panel}_summary {key}"
+    of = f"{panel} {window}" if panel == "continuum_coarse" else f"{window} {panel}"
+    return f"{of} band {key.removeprefix('band_')}"
 
 
 def member_of(path: str, folded: bool) -> Member:

@@ -18,13 +18,12 @@ from ..runs.engine import Options, say
 from ..ensembles.summary import words_of
 from ..runs.folders import Runs, SceneRun, read_json
 from ..runs.input_file import Setting
-from ..runs.key_numbers import FORCE, PEAK, STRENGTH, VOLUME
+from ..runs.key_numbers import OF_PANEL
 from .levels import CHEAP, FINE, LEAST_PAIRS, MOST_RATIO, Limit, limit_of, variances, weight_of
 from .points import RunResult, on_sample, points_of, result_of, scene_run
 from ..runs.statistics import Difference, Interval, known
-from .study_file import Study, quantity
+from .study_file import Study, key_quantity
 
-NAMES = ((PEAK, "-"), (STRENGTH, "-"), (FORCE, "P d"), (VOLUME, "-"))  # of the grains, in the order of the verdicts
 IN_THE_LIMIT = ", limit of short steps"
 CLOSEST = 0.75  # second accuracy / first; their expected errors must then differ by MOST_RATIO
 
@@ -68,9 +67,8 @@ def demand_rule(scene: Any, levels: Levels) -> None:
 
 def has_rule(asked: dict[str, Any]) -> bool:
     """True if the bias of a quantity follows the rule of the step. The angle of a band, for instance, has no rule."""
-    known_names, known_columns = dict(NAMES), ("stress_ratio", "volumetric_strain")
-    return asked["source"] == "discrete" and (asked["name"] in known_names or asked["reduction"] == "strength"
-                                              or asked["column"] in known_columns)
+    return asked["source"] == "discrete" and (asked["key"] in OF_PANEL or asked["reduction"] == "strength"
+                                              or asked["column"] in ("stress_ratio", "volumetric_strain"))
 
 
 def _column(results: Sequence[RunResult], q: int, n: int) -> list[float]:
@@ -141,40 +139,48 @@ def fine_runs(scene: str, settings: Sequence[Setting], seeds: Sequence[int], fil
 
 
 def of_members(folders: Sequence[str], record: dict[str, Any]) -> list[RunResult]:
-    """The grains of an ensemble's members. record: ensemble.json, with the verdicts."""
-    members = []
+    """The grains of an ensemble's members, with the values of ensemble_quantities(). record: ensemble.json."""
+    members, verdicts = [], {verdict["key"]: verdict for verdict in record["verdicts"]}
     for k, folder in enumerate(folders):
         found = read_json(folder + "/provenance.json")
         expected = {"strength": found["discrete"]["expected_strength_error"]}
-        members.append(RunResult(known=True, values=[verdict["discrete"][k] for verdict in record["verdicts"][:len(NAMES)]],
+        members.append(RunResult(known=True, values=[verdicts[key]["discrete"][k] for key in OF_PANEL],
                                  phases=found["phases"], expected_error=expected))
     return members
 
 
 def ensemble_quantities() -> list[dict[str, Any]]:
     """The numbers of the grains for which ensembles give a limit."""
-    return [quantity(name, unit=unit, source="discrete", reduction="key number", relative=False) for name, unit in NAMES]
+    return [key_quantity(key, "discrete") for key in OF_PANEL]
 
 
 def ensemble_levels(levels: Levels, seeds: Sequence[int], point: PairedPoint) -> dict[str, Any]:
     """The entry `levels` of ensemble.json."""
     n = len(seeds)
     return {**levels._asdict(), "seeds": list(seeds[:len(point.fine)]),
-            "quantities": [{"quantity": point.quantities[q]["name"], "unit": point.quantities[q]["unit"], **vars(limit),
+            "quantities": [{"key": point.quantities[q]["key"], "quantity": point.quantities[q]["name"],
+                            "unit": point.quantities[q]["unit"], **vars(limit),
                             "relative_bias": limit.cheap / limit.limit.value - 1,
                             "fine": _column(point.fine, q, n)} for q, (limit, _) in point.limits().items()]}
 
 
 def add_summary(record: dict[str, Any], levels: dict[str, Any]) -> None:
-    """Adds the entry `levels` and its rows of the summary to the record of an ensemble, with the margins of the verdicts."""
+    """Adds the entry `levels` and its rows of the summary to the record of an ensemble, with the margins of the
+    verdicts. Raises ValueError for levels of an earlier version, which have no keys."""
+    if not all("key" in one for one in levels["quantities"]):
+        raise ValueError("levels in ensemble.json: an earlier version wrote them, without keys; diptych run with "
+                         "--seeds, --levels and --resume writes them again")
     record["levels"] = levels
-    cells = {row["quantity"]: row["continuum"] for row in record["summary"]}
+    rows, verdicts, validation = ({one["key"]: one for one in record[part]}
+                                  for part in ("summary", "verdicts", "validation"))
     n_draws = len(record["continuum_runs"]["values"]) - 1
-    for found, verdict, row in zip(levels["quantities"], record["verdicts"], record["validation"]):
+    for found in levels["quantities"]:
+        verdict, row = verdicts[found["key"]], validation[found["key"]]
         parts = [(row["parts"]["mesh"], math.inf), (row["parts"]["load_step"], math.inf), (row["u_input"], n_draws - 1)]
         grains, difference, words = _compared(found, verdict, [part for part in parts if math.isfinite(part[0])])
-        record["summary"].append({"quantity": found["quantity"] + IN_THE_LIMIT, "unit": found["unit"], "grains": grains,
-                                  "continuum": cells[found["quantity"]], "difference": difference,
+        record["summary"].append({"key": found["key"], "quantity": found["quantity"] + IN_THE_LIMIT,
+                                  "unit": found["unit"], "grains": grains, "continuum": rows[found["key"]]["continuum"],
+                                  "difference": difference,
                                   "verdict": words_of({**verdict, "verdict": words})})
 
 

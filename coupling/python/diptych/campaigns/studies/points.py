@@ -161,6 +161,6 @@ def result_of(runs: Runs, run: SceneRun, quantities: Sequence[dict[str, Any]]) -
             numbers = member_of(os.path.join(folder, "comparison.json"), run.scene.is_mirror_symmetric()).numbers
         keys = key_values(folder, run.scene, result.tables) if any(q["reduction"] == "key number" for q in quantities) else {}
         result.values = [numbers.get(q["column"], (math.nan,))[0] if q["source"] == "comparison"
-                         else keys.get((q["source"], q["name"]), math.nan) if q["reduction"] == "key number"
+                         else keys.get((q["source"], q["key"]), math.nan) if q["reduction"] == "key number"
                          else reduced(result.tables.get(q["source"]), q) for q in quantities]
     return result

@@ -16,7 +16,7 @@ from ... import _diptych
 from ...arrays import Array
 from ..runs.coordinates import COORDINATES, Coordinates, Parameter
 from ..runs.histories import SOURCES
-from ..runs.key_numbers import OF_BOTH_PANELS, OF_GRAINS
+from ..runs.key_numbers import QUANTITIES
 from ..runs.input_file import Part, Setting, is_number, name_of, value_text
 
 COMMANDS = {"discrete": ("discrete",), "continuum": ("continuum",), "run": ("discrete", "continuum"),
@@ -58,8 +58,8 @@ class Family:
 
 def quantity(name: str = "", **changes: Any) -> dict[str, Any]:
     """A quantity with the entries that study.json has. `line`: an angle that repeats after 180 degrees."""
-    return {"name": name, "unit": "-", "source": "discrete", "reduction": "last", "column": "", "from": math.nan,
-            "to": math.nan, "relative": True, "limit": None, "line": False, **changes}
+    return {"name": name, "key": "", "unit": "-", "source": "discrete", "reduction": "last", "column": "",
+            "from": math.nan, "to": math.nan, "relative": True, "limit": None, "line": False, **changes}
 
 
 @dataclass(kw_only=True)
@@ -232,8 +232,15 @@ def _quantity(part: Part, command: str) -> dict[str, Any]:
 def _key_quantities(command: str) -> list[dict[str, Any]]:
     """The key numbers of each panel that runs, and of their difference."""
     panels = (*COMMANDS[command], "difference") if command == "run" else COMMANDS[command]
-    return [quantity(name, unit=unit, line=line, source=panel, reduction="key number", relative=False)
-            for name, unit, line in (OF_GRAINS if command == "discrete" else OF_BOTH_PANELS) for panel in panels]
+    return [key_quantity(key, panel) for key, one in QUANTITIES.items() for panel in panels
+            if not (one["is_of_band"] and command == "discrete")]  # grains alone have no bands here
+
+
+def key_quantity(key: str, panel: str) -> dict[str, Any]:
+    """A key number of a panel, or of the difference, as a quantity."""
+    one = QUANTITIES[key]
+    return quantity(one["name"], key=key, unit=one["unit"], line=one["difference"] == "line", source=panel,
+                    reduction="key number", relative=False)
 
 
 def _quantities(root: Part, study: Study) -> list[dict[str, Any]]:
