@@ -132,7 +132,8 @@ def settings(docs, site, nav):
 
 def assemble(source, program, docs):
     """Writes all pages as Markdown into docs; returns their navigation."""
-    keys, results, commands = reference.Keys(program), reference.Results(program), reference.Commands(program)
+    schema = json.loads(reference.output_of(program, "explain", "--json"))
+    keys, results, commands = reference.Keys(schema), reference.Results(schema), reference.Commands(program)
     tree = readmes.Tree(source, headers.links(source), keys)
     key_pages, result_pages, rooms = list(keys.pages()), list(results.pages()), list(headers.pages(source,
                                                                                                    tree.page_of))

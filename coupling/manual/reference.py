@@ -1,6 +1,6 @@
 # diptych: pages of keys, numbers of results and commands
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Reads what `diptych explain` and `diptych COMMAND --help` print."""
+"""Reads what `diptych explain --json` and `diptych COMMAND --help` print."""
 import html
 import re
 import subprocess
@@ -16,22 +16,12 @@ def output_of(program, *words):
     return done.stdout
 
 
-def groups(text):
-    """[(heading, [(name, unit, facts, meaning)])] of the output of `explain`. Headings are not indented, entries such
-    as "step = auto  [time]  auto or a number" by two, meanings by six."""
-    found = []
-    for line in filter(str.strip, text.split("\n")):
-        depth = len(line) - len(line.lstrip())
-        if depth == 0:
-            found.append((line.strip(), []))
-        elif depth == 2:
-            match = re.fullmatch(r"(.*?)  \[(.*?)\](?:  (.*))?", line.strip())
-            if not match:
-                raise RuntimeError("the manual cannot parse this line of `diptych explain`: " + line)
-            found[-1][1].append([match[1], "" if match[2] == "-" else f"[{match[2]}]", match[3] or "", ""])
-        else:
-            found[-1][1][-1][3] = (found[-1][1][-1][3] + " " + line.strip()).strip()
-    return found
+def grouped(entries, heading):
+    """[(heading, entries)] of a list of `diptych explain --json`; the heading is an entry of each."""
+    found = {}
+    for one in entries:
+        found.setdefault(one[heading], []).append(one)
+    return list(found.items())
 
 
 def anchor(*words):
@@ -46,13 +36,16 @@ def entry(identity, head, facts, meaning):
             f'<p class="meaning">{with_code(meaning)}</p></div>')
 
 
+def unit_of(one):
+    return "" if one["unit"] == "-" else f"[{one['unit']}]"
+
+
 class Keys:
     """The keys of a scene, one page per section."""
 
-    def __init__(self, program):
-        self.sections = groups(output_of(program, "explain"))
-        self.names = {section + "/" + name.split(" = ")[0] for section, entries in self.sections for name,
-                      *_ in entries}
+    def __init__(self, schema):
+        self.sections = grouped(schema["keys"], "section")
+        self.names = {section + "/" + one["key"] for section, entries in self.sections for one in entries}
 
     def link(self, name):
         section, key = name.split("/", 1)
@@ -60,27 +53,28 @@ class Keys:
 
     def pages(self):
         for section, entries in self.sections:
+            heads = [f"{one['key']} = {one['default'] or '(empty)'}" for one in entries]
             lines = [f"# Section `{section}`", "", f"{len(entries)} keys; `diptych explain {section}` prints the same "
-                     "list. In a scene:", "", f"    subsection {section}", f"      set {entries[0][0]}", "    end", "",
+                     "list. In a scene:", "", f"    subsection {section}", f"      set {heads[0]}", "    end", "",
                      f"or on the command line `--set {section}/KEY=VALUE`.", ""]
-            for name, unit, bounds, meaning in entries:
-                lines += [entry(anchor(section, name.split(" = ")[0]), name, (unit, bounds), meaning), ""]
+            for one, head in zip(entries, heads):
+                lines += [entry(anchor(section, one["key"]), head, (unit_of(one), one["allowed"]), one["meaning"]), ""]
             yield f"reference/keys_{section}.md", f"Section {section}", "\n".join(lines)
 
     def index(self):
         for section, entries in self.sections:
-            for name, _, _, meaning in entries:
-                key = section + "/" + name.split(" = ")[0]
-                yield key, "key", self.link(key), meaning
+            for one in entries:
+                key = section + "/" + one["key"]
+                yield key, "key", self.link(key), one["meaning"]
 
 
 class Results:
     """The columns, numbers and datasets of result files, one page per family of files: the first word of the
     heading."""
 
-    def __init__(self, program):
+    def __init__(self, schema):
         self.families = {}
-        for heading, entries in groups(output_of(program, "explain", "results")):
+        for heading, entries in grouped(schema["results"], "file"):
             self.families.setdefault(re.match(r"[a-z]+", heading)[0], []).append((heading, entries))
 
     def pages(self):
@@ -89,16 +83,17 @@ class Results:
                      "are positive in compression.", ""]
             for heading, entries in files:
                 lines += ["## " + heading, ""]
-                for name, unit, kind, meaning in entries:
-                    lines += [entry(anchor(heading, name), name, (unit, kind), meaning), ""]
+                for one in entries:
+                    facts = (unit_of(one), one["shape"])
+                    lines += [entry(anchor(heading, one["entry"]), one["entry"], facts, one["meaning"]), ""]
             yield f"reference/results_{family}.md", f"Results: {family}", "\n".join(lines)
 
     def index(self):
         for family, files in self.families.items():
             for heading, entries in files:
-                for name, _, kind, meaning in entries:
-                    page = f"reference/results_{family}.html#{anchor(heading, name)}"
-                    yield name, heading + (", " + kind if kind else ""), page, meaning
+                for one in entries:
+                    page = f"reference/results_{family}.html#{anchor(heading, one['entry'])}"
+                    yield one["entry"], f"{heading}, {one['shape']}", page, one["meaning"]
 
 
 def options(text):

@@ -180,6 +180,7 @@ namespace diptych::coupling
             "a section, a key or a word in names of keys; results: the content of result files (default: all sections)")
           ->type_name("{" + discrete::joined(section_names(), ",") + ",results}");
         explain->add_option("WORD", line.word, "after results: only entries whose file, name or meaning contains this word");
+        explain->add_flag("--json", line.prints_json, "all keys and entries of result files as JSON");
         add(Command::completion,
             "print a script that completes command lines; zsh loads it, too: source <(diptych completion bash)")
           ->add_option("SHELL", line.target)

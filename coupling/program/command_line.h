@@ -48,9 +48,10 @@ namespace diptych::coupling
   struct CommandLine : RunOptions, SceneOptions
   {
     Command      command = Command::explain;
-    std::string  target; // scene or problem file, result folder, section or shell
-    std::string  output; // --output
-    std::string  word;   // explain results WORD
+    std::string  target;              // scene or problem file, result folder, section or shell
+    std::string  output;              // --output
+    std::string  word;                // explain results WORD
+    bool         prints_json = false; // explain: --json
     SolveOptions solve;
     bool         prints_warnings = true; // true on the first of several processes
     std::string  path;                   // material-point: --path; empty: that of the scene

@@ -4,9 +4,16 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
 #include <iostream>
+#include <sstream>
+#include <stdexcept>
 
+#include <nlohmann/json.hpp>
+
+#include "coupling/program/python_package.h"
 #include "coupling/program/result_entries.h"
+#include "coupling/scene/keys.h"
 #include "coupling/scene/scene_error.h"
 #include "coupling/scene/scene_file.h"
 #include "coupling/store/origin.h"
@@ -22,6 +29,47 @@ namespace diptych::coupling
     {
       const auto same = [](const unsigned char a, const unsigned char b) { return std::tolower(a) == std::tolower(b); };
       return std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end();
+    }
+
+    // Files that a room of the Python package writes: file, entry, shape, unit and meaning, separated by tabs.
+    void add_python(const std::string &room, ResultList &result)
+    {
+      const std::string path = python_package() + "/diptych/" + room + "/result_entries.tsv";
+      std::ifstream     in(path);
+      if (!in)
+        throw std::runtime_error(path + " cannot be read; the installation is broken");
+      std::string line;
+      std::getline(in, line); // the names of the columns
+      while (std::getline(in, line))
+        {
+          std::istringstream fields(line);
+          ResultEntry        entry;
+          for (std::string *field : {&entry.file, &entry.name, &entry.shape, &entry.unit, &entry.meaning})
+            std::getline(fields, *field, '\t');
+          result.push_back(entry);
+        }
+    }
+
+    nlohmann::ordered_json schema(const std::vector<std::function<ResultList()>> &lists)
+    {
+      using Json   = nlohmann::ordered_json;
+      Json keys    = Json::array();
+      Json results = Json::array();
+      for (const KeyDescription &key : described_keys(""))
+        keys.push_back(Json{{"section", key.section},
+                            {"key", key.name},
+                            {"default", key.value},
+                            {"unit", key.unit},
+                            {"allowed", key.allowed},
+                            {"meaning", key.meaning}});
+      for (const auto &list : lists)
+        for (const ResultEntry &entry : list())
+          results.push_back(Json{{"file", entry.file},
+                                 {"entry", entry.name},
+                                 {"shape", entry.shape},
+                                 {"unit", entry.unit.empty() ? "-" : entry.unit},
+                                 {"meaning", entry.meaning}});
+      return Json{{"keys", keys}, {"results", results}};
     }
   } // namespace
 
@@ -60,8 +108,22 @@ namespace diptych::coupling
     return result;
   }
 
+  ResultList python_result_entries()
+  {
+    ResultList result;
+    for (const char *room : {"campaigns/ensembles", "campaigns/studies", "campaigns/plans", "campaigns/calibration", "importers",
+                             "campaigns/element"})
+      add_python(room, result);
+    return result;
+  }
+
   int explain(const CommandLine &line, const std::vector<std::function<ResultList()>> &lists)
   {
+    if (line.prints_json)
+      {
+        std::cout << schema(lists).dump(1) << '\n';
+        return done;
+      }
     if (line.target != "results")
       {
         if (!line.word.empty())

@@ -1,9 +1,5 @@
 // diptych: what the continuum's and the comparison's files hold
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <fstream>
-#include <sstream>
-#include <stdexcept>
-
 #include "continuum/history.h"
 #include "continuum/laws/material_point_row.h"
 #include "continuum/snapshot_fields.h"
@@ -11,7 +7,6 @@
 #include "coupling/comparison/comparison_output.h"
 #include "coupling/comparison/comparison_schema.h"
 #include "coupling/comparison/key_numbers.h"
-#include "coupling/program/python_package.h"
 #include "coupling/program/result_entries.h"
 
 namespace diptych::coupling
@@ -59,25 +54,6 @@ namespace diptych::coupling
       list_window_cell_arrays(increment, {}, AddArrays{windows, "cells/", result});
       list_history_arrays(history, 1, AddArrays{"comparison.h5, groups histories/discrete and histories/continuum", "", result});
     }
-
-    // The files of campaigns, which Python writes: file, entry, shape, unit and meaning, separated by tabs.
-    void add_campaigns(ResultList &result)
-    {
-      const std::string path = python_package() + "/diptych/campaigns/result_entries.tsv";
-      std::ifstream     in(path);
-      if (!in)
-        throw std::runtime_error(path + " cannot be read; the installation is broken");
-      std::string line;
-      std::getline(in, line); // the names of the columns
-      while (std::getline(in, line))
-        {
-          std::istringstream fields(line);
-          ResultEntry        entry;
-          for (std::string *field : {&entry.file, &entry.name, &entry.shape, &entry.unit, &entry.meaning})
-            std::getline(fields, *field, '\t');
-          result.push_back(entry);
-        }
-    }
   } // namespace
 
   ResultList comparison_result_entries()
@@ -90,7 +66,6 @@ namespace diptych::coupling
     add_table("comparison.csv", comparison_columns(), result);
     add_table("summary.csv", summary_columns(), result);
     add_comparison_arrays(result);
-    add_campaigns(result);
     return result;
   }
 } // namespace diptych::coupling

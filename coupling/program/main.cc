@@ -34,7 +34,8 @@ namespace
   using namespace diptych::coupling;
 
 #ifdef DIPTYCH_CONTINUUM
-  const std::vector<std::function<ResultList()>> result_lists = {discrete_result_entries, comparison_result_entries};
+  const std::vector<std::function<ResultList()>> result_lists = {discrete_result_entries, comparison_result_entries,
+                                                                 python_result_entries};
 
   int compare(const CommandLine &line)
   {
@@ -75,7 +76,7 @@ namespace
     throw std::runtime_error(name + " is not beside " + own_path() + "; the installation is broken");
   }
 #else
-  const std::vector<std::function<ResultList()>> result_lists = {discrete_result_entries};
+  const std::vector<std::function<ResultList()>> result_lists = {discrete_result_entries, python_result_entries};
 
   [[noreturn]] void refuse_without_continuum(const std::string &command)
   {

@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: explain_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
 
+import json
 import os
 import re
 import unittest
@@ -16,18 +17,13 @@ INTERVAL = {"value", "low", "high"}
 
 
 def explained():
-    """Heading -> name -> (unit, shape) of `diptych explain results`."""
-    found, heading = {}, None
-    for line in diptych("explain", "results").stdout.splitlines():
-        entry = re.fullmatch(r"  (\S.*?)  \[(.*?)\]  (.*)", line)
-        if entry:
-            names = entry[1]
-            for name in [names] if not names.startswith("cells/, grid/ ") else [p + names[14:] for p in ("cells/", "grid/")]:
-                assert name not in found[heading], f"{heading}: {name} twice"
-                found[heading][name] = entry[2], entry[3]
-        elif line and not line.startswith(" "):
-            heading = line
-            found.setdefault(heading, {})
+    """Heading -> name -> (unit, shape) of `diptych explain --json`."""
+    found = {}
+    for one in json.loads(diptych("explain", "--json").stdout)["results"]:
+        entries, name = found.setdefault(one["file"], {}), one["entry"]
+        for name in [p + name[14:] for p in ("cells/", "grid/")] if name.startswith("cells/, grid/ ") else [name]:
+            assert name not in entries, f"{one['file']}: {name} twice"
+            entries[name] = one["unit"], one["shape"]
     return found
 
 

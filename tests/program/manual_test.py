@@ -5,6 +5,7 @@
 
 import html
 import html.parser
+import json
 import os
 import re
 import shutil
@@ -39,14 +40,9 @@ def setUpModule():
                          for name in names if name.endswith(".html"))
 
 
-def explained(*words):
-    """(heading, whether it names a key or array, text without unit) of every line that `diptych explain` prints."""
-    heading = None
-    for line in diptych("explain", *words, check=True).stdout.split("\n"):
-        if line and not line.startswith(" "):
-            heading = line
-        elif line.strip():
-            yield heading, line[2] != " ", line.split("  [")[0].strip()
+def explained(part):
+    """The entries keys or results of `diptych explain --json`."""
+    return json.loads(diptych("explain", "--json", check=True).stdout)[part]
 
 
 class Built(unittest.TestCase):
@@ -95,15 +91,16 @@ class Manual(Built):
         return html.unescape(re.sub(r"<[^>]*>", "", self.page(name)))
 
     def test_every_key_column_and_dataset_is_listed_with_its_meaning(self):
-        keys = [(heading, text) for heading, named, text in explained() if named]
-        self.assertGreater(len(keys), 100)
-        for heading, text in keys:
-            self.assertIn(text, self.shown(f"reference/keys_{heading}.html"))
-        results = list(explained("results"))
-        self.assertGreater(sum(named for _, named, _ in results), 900)
-        for heading, named, text in results:
-            page = self.shown(f"reference/results_{re.match('[a-z]+', heading)[0]}.html")
-            self.assertIn(text if named else text.replace("`", ""), page)
+        self.assertGreater(len(explained("keys")), 100)
+        for one in explained("keys"):
+            page = self.shown(f"reference/keys_{one['section']}.html")
+            for text in (f"{one['key']} = {one['default'] or '(empty)'}", one["allowed"], one["meaning"].replace("`", "")):
+                self.assertIn(text, page)
+        self.assertGreater(len(explained("results")), 900)
+        for one in explained("results"):
+            page = self.shown(f"reference/results_{re.match('[a-z]+', one['file'])[0]}.html")
+            for text in (one["entry"], one["shape"], one["meaning"].replace("`", "")):
+                self.assertIn(text, page)
 
     def test_every_command_and_option_is_listed(self):
         names = re.findall(r"^  ([a-z-]+) ", diptych("--help", check=True).stdout.split("Subcommands:")[1], re.MULTILINE)
@@ -123,7 +120,7 @@ class Manual(Built):
                 self.assertIn(os.path.join("source", os.path.dirname(path), "index.html"), self.pages)
 
     def test_the_pages_name_existing_keys_commands_and_options(self):
-        keys = {f"{section}/{text.split(' = ')[0]}" for section, named, text in explained() if named}
+        keys = {f"{one['section']}/{one['key']}" for one in explained("keys")}
         sections = "|".join({key.split("/")[0] for key in keys})
         for name in os.listdir(os.path.join(MANUAL, "pages")):
             text = content(os.path.join(MANUAL, "pages", name)).decode()

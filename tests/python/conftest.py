@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The program, and a small scene that both the program and the package run."""
 
+import json
 import os
 import subprocess
 
@@ -29,6 +30,11 @@ def program(*arguments):
     done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     return done.stdout
+
+
+def explained(*files):
+    """Entries of result files by `diptych explain --json`."""
+    return {one["entry"] for one in json.loads(program("explain", "--json"))["results"] if one["file"] in files}
 
 
 @pytest.fixture(scope="session")

@@ -10,9 +10,8 @@ import threading
 import time
 
 import numpy as np
-import pandas as pd
 import pytest
-from conftest import SMALL
+from conftest import SMALL, explained
 
 import diptych
 from diptych.campaigns.studies import effects
@@ -280,8 +279,6 @@ def test_ctrl_c_keeps_an_ensemble_of_a_dict_and_the_same_call_goes_on(tmp_path, 
 
 
 def expect_explained(found):
-    explained = pd.read_csv(os.path.join(os.path.dirname(diptych.campaigns.__file__), "result_entries.tsv"), sep="\t", keep_default_na=False)
-
     def keys(record, place=""):
         for key, value in record.items():
             yield place + key
@@ -290,7 +287,7 @@ def expect_explained(found):
                     yield from keys(entry, f"{place}{key}/")
 
     for file, record in (("study.json", found.numbers), ("study_cost.json", found.cost)):
-        assert set(keys(record)) <= set(explained[explained.file == file].entry)
+        assert set(keys(record)) <= explained(file)
 
 
 def test_parameters_of_a_dict_give_means_and_changes(tmp_path, monkeypatch):

@@ -18,14 +18,7 @@ from running import bits, setting
 @functools.lru_cache(maxsize=None)
 def explained_keys():
     """(section/key, allowed values) of all keys."""
-    found, section = [], ""
-    for line in bases.printed("explain").splitlines():
-        if re.match(r"[a-z]\w*$", line):
-            section = line
-        key = re.match(r"  (\w+) = .*?  \[.*?\]  (.*)$", line)
-        if key:
-            found.append((f"{section}/{key[1]}", key[2]))
-    return tuple(found)
+    return tuple((f"{key['section']}/{key['key']}", key["allowed"]) for key in json.loads(bases.printed("explain", "--json"))["keys"])
 
 
 def key_names():
