@@ -1,6 +1,7 @@
 # diptych: a page in headless Chromium, for tests
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Speaks the DevTools protocol over the browser's own pipe (--remote-debugging-pipe): JSON messages that end in a zero byte."""
+"""Speaks the DevTools protocol over the browser's own pipe (--remote-debugging-pipe): JSON messages that end in a zero
+byte."""
 
 import base64
 import json
@@ -21,7 +22,8 @@ def program():
 
 
 class Page:
-    """One page of a browser of its own. messages: what it wrote to the console as warning or error, and uncaught exceptions.
+    """One page of a browser of its own. messages: what it wrote to the console as warning or error, and uncaught
+    exceptions.
 
     Raises RuntimeError where the browser refuses a command and TimeoutError where it does not answer.
     """
@@ -34,8 +36,8 @@ class Page:
         try:
             self._process = subprocess.Popen(
                 ["/bin/sh", "-c", f'exec "$@" 3<&{to_browser} 4>&{from_browser}', "sh", program(), "--headless",
-                 "--remote-debugging-pipe", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
-                 "--user-data-dir=" + self._profile.name, "about:blank"],
+                 "--remote-debugging-pipe", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+                 "--no-first-run", "--user-data-dir=" + self._profile.name, "about:blank"],
                 pass_fds=(to_browser, from_browser), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         finally:
             os.close(to_browser), os.close(from_browser)

@@ -13,8 +13,8 @@ import time
 import browser
 from running import content, diptych, ENVIRONMENT, Folder, listing, main, PROGRAM, QUICK, read_json, start, write
 
-TINY = {"sample/grains": 150, "loading/axial_strain": 0.02, "loading/stage_strain": 0.01, "loading/inertial_number": 1e-3,
-        "comparison/window_edges": "0, 0.01, 0.02"}
+TINY = {"sample/grains": 150, "loading/axial_strain": 0.02, "loading/stage_strain": 0.01,
+        "loading/inertial_number": 1e-3, "comparison/window_edges": "0, 0.01, 0.02"}
 TABLES = ("calibration.json", "calibration.csv", "posterior.csv", "calibrated.prm")
 
 
@@ -70,11 +70,11 @@ class Results(Calibrate):
         # The fragment is what a scene takes, before what --set says.
         fragment = os.path.join(self.folder, "calibrated.prm")
         words = [word for key, value in TINY.items() for word in ("--set", f"{key}={value}")]
-        mesh = ["--set", "continuum/mesh=rectangle", "--set", "continuum/rectangle_width=15", "--set", "continuum/rectangle_height=20",
-                "--set", "comparison/coarse_element_size=0"]
+        mesh = ["--set", "continuum/mesh=rectangle", "--set", "continuum/rectangle_width=15", "--set",
+                "continuum/rectangle_height=20", "--set", "comparison/coarse_element_size=0"]
         again = os.path.join(self.work, "again")
-        result = diptych("continuum", QUICK, *words, *mesh, "--set-file", fragment, "--set", "continuum/internal_length=2.5", "--output",
-                         again, "--quiet")
+        result = diptych("continuum", QUICK, *words, *mesh, "--set-file", fragment, "--set",
+                         "continuum/internal_length=2.5", "--output", again, "--quiet")
         self.assertEqual(result.returncode, 0, result.stderr)
         for text in (f"= {friction['value']!r}", "= 2.5", "= calibrated on fitted, seeds 1-2"):
             self.assertIn(text, content(os.path.join(again, "scene.prm")).decode())
@@ -87,7 +87,8 @@ class Results(Calibrate):
         self.look_at_the_page(len(record["paths"]))
 
     def look_at_the_page(self, paths):
-        """It opens without an error and fits a telephone; two curves and the residuals of every path, discrepancy, posterior."""
+        """It opens without an error and fits a telephone; two curves and the residuals of every path, discrepancy,
+        posterior."""
         if browser.program() is None:
             self.skipTest("chromium is not installed (test.sh installs it)")
         for width in (1400, 390):
@@ -103,7 +104,8 @@ class Results(Calibrate):
         folders = []
         for seed in (1, 2):
             folders.append(os.path.join(self.work, f"grains_{seed}"))
-            result = diptych("discrete", QUICK, *words, "--set", f"sample/seed={seed}", "--output", folders[-1], "--quiet")
+            result = diptych("discrete", QUICK, *words, "--set", f"sample/seed={seed}", "--output", folders[-1],
+                             "--quiet")
             self.assertEqual(result.returncode, 0, result.stderr)
         self.calibrate(calibration(targets=[{"name": "read", "results": folders}], check_samples=0))
         record = self.record()
@@ -113,18 +115,21 @@ class Results(Calibrate):
         table = os.path.join(folders[1], "discrete.csv")
         lines = content(table).decode().splitlines(keepends=True)
         write(table, "".join(lines[:len(lines) // 2]))
-        changed = self.calibrate(calibration(targets=[{"name": "read", "results": folders}]), code=2, folder=os.path.join(self.work, "b"))
+        changed = self.calibrate(calibration(targets=[{"name": "read", "results": folders}]), code=2,
+                                 folder=os.path.join(self.work, "b"))
         self.assertIn("grains_2/discrete.csv", changed.stderr)
         record = os.path.join(folders[1], "provenance.json")
         write(record, content(record).decode().replace("discrete_files", "no_files"))  # as of an earlier version
-        result = self.calibrate(calibration(targets=[{"name": "read", "results": folders}]), code=2, folder=os.path.join(self.work, "b"))
+        result = self.calibrate(calibration(targets=[{"name": "read", "results": folders}]), code=2,
+                                folder=os.path.join(self.work, "b"))
         for text in ("target 'read'", "grains_2", "before the end of its loading"):
             self.assertIn(text, result.stderr)
 
 
     def test_a_scene_with_seeds_stands_for_a_file(self):
         scene = write(os.path.join(self.work, "mine.prm"), content(QUICK).decode())
-        words = [word for key, value in {**TINY, "continuum/law": "linear_elastic"}.items() for word in ("--set", f"{key}={value}")]
+        words = [word for key, value in {**TINY, "continuum/law": "linear_elastic"}.items()
+                 for word in ("--set", f"{key}={value}")]
         result = diptych("calibrate", scene, "--seeds", "1-2", *words, "--output", self.folder, "--quiet")
         self.assertEqual(result.returncode, 0, result.stderr)
         asked = read_json(self.folder, "calibration_input.json")
@@ -145,7 +150,8 @@ class Results(Calibrate):
         asked = calibration(targets=[target], parameters=[friction])
         self.calibrate(asked)
         record = self.record()
-        self.assertTrue(record["parameters"][0]["number_low"] < 0.5 < record["parameters"][0]["number_high"], record["parameters"])
+        self.assertTrue(record["parameters"][0]["number_low"] < 0.5 < record["parameters"][0]["number_high"],
+                        record["parameters"])
         self.assertLess(record["chi2"], record["chi2_before"])
         fragment = content(self.path("calibrated.prm")).decode()
         self.assertIn("subsection discrete\n  set friction = ", fragment)
@@ -182,7 +188,8 @@ class Interruption(Calibrate):
         for name, bit in kept.items():
             self.assertEqual(content(os.path.join(self.folder, "runs", name)), bit, "run again")
         alone = os.path.join(self.work, "alone")
-        words = ["mpirun", "--oversubscribe", "-np", "2", PROGRAM, "calibrate", self.file(calibration()), "--output", alone, "--quiet"]
+        words = ["mpirun", "--oversubscribe", "-np", "2", PROGRAM, "calibrate", self.file(calibration()), "--output",
+                 alone, "--quiet"]
         result = subprocess.run(words, env=ENVIRONMENT, capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         for name in TABLES:
@@ -202,9 +209,11 @@ class Refused(Calibrate):
                 ({"bins": [0.5, 0.6]}, ["no bin"]),
                 ({"parameters": [{**parameter, "key": "friction"}]}, ["continuum/friction", "nearest"]),
                 ({"parameters": [{**parameter, "low": 0}]}, ["low", "logarithm"]),
-                ({"parameters": [{"key": "dilatancy_angle_peak", "start": 0.5, "low": 0, "high": 2}]}, ["between 0 and 1"]),
+                ({"parameters": [{"key": "dilatancy_angle_peak", "start": 0.5, "low": 0, "high": 2}]},
+                 ["between 0 and 1"]),
                 ({"parameters": [{**parameter, "targets": ["loose"]}]}, ["targets", "'loose'"]),
-                ({"targets": [target, {**target, "name": "b", "use": "predict"}], "parameters": [{**parameter, "targets": ["b"]}]}, ["targets", "fitted"]),
+                ({"targets": [target, {**target, "name": "b", "use": "predict"}],
+                  "parameters": [{**parameter, "targets": ["b"]}]}, ["targets", "fitted"]),
                 ({"targets": [{**target, "before": QUICK}]}, ["before", "sample/grains"]),
                 ({"parameters": [{**parameter, "of": "cohesion"}]}, ["of", "share_of"]),
                 ({"set": {"discrete/friction": 0.5}}, ["discrete/friction"]),
@@ -218,7 +227,8 @@ class Refused(Calibrate):
                 for text in [*words, "one.json"]:
                     self.assertIn(text, result.stderr)
                 self.assertFalse(os.path.exists(self.folder), "something was made")
-        for words, text in [((QUICK,), "--seeds 1-4"), ((self.file(calibration()), "--seeds", "1-2"), "--seeds, --set")]:
+        for words, text in [((QUICK,), "--seeds 1-4"), ((self.file(calibration()), "--seeds", "1-2"),
+                                                        "--seeds, --set")]:
             result = diptych("calibrate", *words, "--output", self.folder)
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn(text, result.stderr)

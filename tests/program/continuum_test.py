@@ -15,8 +15,8 @@ import h5py
 import numpy
 
 import running
-from running import (content, contents, diptych, ENVIRONMENT, facts, finished, half_files, history, listing, main, PROGRAM,
-                     QUICK, read_json, setting, SMALL, start, temporary, write)
+from running import (content, contents, diptych, ENVIRONMENT, facts, finished, half_files, history, listing, main,
+                     PROGRAM, QUICK, read_json, setting, SMALL, start, temporary, write)
 
 WIDTH, HEIGHT = 12, 18
 RECTANGLE = setting(continuum_mesh="rectangle", continuum_rectangle_width=WIDTH, continuum_rectangle_height=HEIGHT,
@@ -24,14 +24,16 @@ RECTANGLE = setting(continuum_mesh="rectangle", continuum_rectangle_width=WIDTH,
 # Closed forms: E = 500, nu = 0.2 in plane strain, geometry that does not change.
 E, NU = 500, 0.2
 SHEAR_MODULUS, CONSTRAINED = E / (2 * (1 + NU)), E * (1 - NU) / ((1 + NU) * (1 - 2 * NU))
-ELASTIC = RECTANGLE + setting(continuum_law="linear_elastic", continuum_geometry="small_strain", continuum_youngs_modulus=E,
+ELASTIC = RECTANGLE + setting(continuum_law="linear_elastic", continuum_geometry="small_strain",
+                              continuum_youngs_modulus=E,
                               continuum_poisson_ratio=NU, loading_horizontal_over_vertical=0)
 FIXED_WIDTH = setting(discrete_lateral="periodic", discrete_side_motion="velocity")
 # A Cosserat band on 40 steps of some 30 ms: long enough to be interrupted.
 LONG = setting(continuum_mesh="rectangle", continuum_rectangle_width=30, continuum_rectangle_height=40,
                continuum_law="cosserat_mohr_coulomb", comparison_coarse_element_size=4, loading_axial_strain=0.02,
                continuum_initial_step=5e-4, continuum_max_step=5e-4)
-CURVES = ["axial_strain", "shear_strain", "time", "stress_ratio", "volumetric_strain", "lower_fy", "upper_fx", "upper_fy"]
+CURVES = ["axial_strain", "shear_strain", "time", "stress_ratio", "volumetric_strain", "lower_fy", "upper_fx",
+          "upper_fy"]
 
 
 class Folder(running.Folder):
@@ -49,7 +51,8 @@ class Folder(running.Folder):
 
     def wait_for(self, process, name, size):
         """Until a file of the folder has grown to a size."""
-        while process.poll() is None and not (os.path.exists(self.path(name)) and os.path.getsize(self.path(name)) > size):
+        while process.poll() is None and not (os.path.exists(self.path(name)) and os.path.getsize(self.path(name))
+                                              > size):
             time.sleep(0.002)
         self.assertIsNone(process.poll(), "it ended before the signal")
 
@@ -58,7 +61,8 @@ class Loadings(Folder):
     """One elastic element of every kind of loading against its closed form."""
 
     def test_descent_between_smooth_platens(self):
-        """Small strain: s_xx stays the pressure, and in plane strain syy grows by E / (1 - nu^2) eps. No grains are made."""
+        """Small strain: s_xx stays the pressure, and in plane strain syy grows by E / (1 - nu^2) eps. No grains are
+        made."""
         self.continuum(*ELASTIC, *setting(continuum_platens="smooth"))
         rows = self.rows()
         strain = rows["axial_strain"]
@@ -77,7 +81,8 @@ class Loadings(Folder):
         self.assertAlmostEqual(rows["upper_fx"][-1] / (SHEAR_MODULUS * 0.01 * WIDTH), 1, places=4)
 
     def test_walls_that_move_as_a_table_says(self):
-        """v from 0 to -0.1 in 2 units of time: 0.1 down after 2, 0.2 after 3; the walls stand still, so that eps_v = u / H."""
+        """v from 0 to -0.1 in 2 units of time: 0.1 down after 2, 0.2 after 3; the walls stand still, so that eps_v = u
+        / H."""
         drive = write(os.path.join(self.work, "drive.csv"), "time,velocity\n0,0\n2,-0.1\n")
         words = setting(loading_mode="time", loading_duration=3, loading_stage_time=1, discrete_lateral="rigid_walls",
                         discrete_side_motion="velocity", continuum_initial_step=0.5, continuum_max_step=0.5)
@@ -123,7 +128,8 @@ class GrainSamples(Folder):
         with h5py.File(os.path.join(self.folder, "comparison.h5"), "r") as file:
             travel = file["window_0/nodes/displacement_increment"][()]
             self.assertEqual(len(travel), len(file["window_0/nodes/position"]))
-        # the window holds the whole descent of the upper platen, with which the nodes on it move (one at a free corner may sink deeper)
+        # the window holds the whole descent of the upper platen, with which the nodes on it move (one at a free corner
+        # may sink deeper)
         with_platen = numpy.isclose(travel[:, 1], -0.01 * facts(self.folder)["initial_height"], rtol=0, atol=1e-6)
         self.assertGreater(with_platen.sum(), 3)
 
@@ -160,7 +166,8 @@ class Resume(Folder):
             expected, found = history(self.alone, name), self.rows(name)
             for column in CURVES:
                 scale = abs(expected[column]).max()
-                numpy.testing.assert_allclose(found[column], expected[column], rtol=1e-4, atol=1e-4 * scale, err_msg=name + column)
+                numpy.testing.assert_allclose(found[column], expected[column], rtol=1e-4, atol=1e-4 * scale,
+                                              err_msg=name + column)
         stages = []
         for folder in (self.alone, self.folder):
             with h5py.File(os.path.join(folder, "continuum.h5"), "r") as file:
@@ -194,7 +201,8 @@ class Resume(Folder):
         self.assertIn("coarse/continuum_checkpoint.h5", listing(self.folder))
         before = os.stat(os.path.join(self.folder, "continuum.h5")).st_mtime_ns
         self.continuum(*LONG, "--resume")
-        self.assertEqual(os.stat(os.path.join(self.folder, "continuum.h5")).st_mtime_ns, before)  # the fine one was finished
+        # the fine one was finished
+        self.assertEqual(os.stat(os.path.join(self.folder, "continuum.h5")).st_mtime_ns, before)
         self.expect_same_curves()
 
     def test_killed_in_the_first_steps(self):
@@ -221,8 +229,10 @@ class Resume(Folder):
 @unittest.skipUnless(shutil.which("mpirun"), "mpirun is not installed (openmpi-bin)")
 class Processes(Folder):
     def on_two(self, *words):
-        return subprocess.run(["mpirun", "-np", "2", "--oversubscribe", PROGRAM, *words, "--output", self.folder], env=ENVIRONMENT,
-                              capture_output=True, text=True, timeout=1500)  # processes that wait for each other are slow beside a third
+        return subprocess.run(["mpirun", "-np", "2", "--oversubscribe", PROGRAM, *words, "--output", self.folder],
+                              env=ENVIRONMENT,
+                              # processes that wait for each other are slow beside a third
+                              capture_output=True, text=True, timeout=1500)
 
     def test_a_grain_sample_with_its_own_stress(self):
         """Only the first process prepares grains and maps their stress."""
@@ -239,8 +249,8 @@ class Processes(Folder):
     def test_one_by_itself_shares_no_session_folder(self):
         """With one, those that start at once fail: the first that ends removes the folder of all."""
         taken = write(os.path.join(self.work, f"ompi.{socket.gethostname()}.{os.geteuid()}"), "not a folder")
-        result = subprocess.run([PROGRAM, "material-point", QUICK, "--output", self.folder, "--quiet"], capture_output=True,
-                                text=True, env=dict(ENVIRONMENT, TMPDIR=self.work))
+        result = subprocess.run([PROGRAM, "material-point", QUICK, "--output", self.folder, "--quiet"],
+                                capture_output=True, text=True, env=dict(ENVIRONMENT, TMPDIR=self.work))
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(content(taken), b"not a folder")
 
@@ -257,9 +267,10 @@ class Processes(Folder):
 
     def test_what_the_first_cannot_write_ends_all(self):
         """Only the first process writes rows, while the others are on their way into the next step."""
-        words = ["continuum", QUICK, *RECTANGLE, *setting(continuum_initial_step=1e-4, continuum_max_step=1e-4), "--output", self.folder, "--quiet"]
-        process = subprocess.Popen(["mpirun", "-np", "2", "--oversubscribe", PROGRAM, *words], env=ENVIRONMENT, stdout=subprocess.PIPE,
-                                   stderr=subprocess.PIPE, text=True)
+        words = ["continuum", QUICK, *RECTANGLE, *setting(continuum_initial_step=1e-4, continuum_max_step=1e-4),
+                 "--output", self.folder, "--quiet"]
+        process = subprocess.Popen(["mpirun", "-np", "2", "--oversubscribe", PROGRAM, *words], env=ENVIRONMENT,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         while process.poll() is None and not os.path.exists(os.path.join(self.folder, "continuum.csv")):
             time.sleep(0.01)
         os.rename(self.folder, self.folder + "_moved")

@@ -26,11 +26,14 @@ class Element(Folder):
         curves, record = history(self.folder, "element.csv"), read_json(self.folder, "element.json")
         samples, [law] = self.histories("discrete.csv"), self.histories("material_point.csv")
         self.assertEqual((record["done"], record["failed"], len(samples)), ([1, 2], [], 2))
-        # The parts of the path are equal, so that the mean of their means is the mean over the path. The grains begin with a step.
-        means = [(one["syy"][0] * one["progress"][0] + trapezoid(one["syy"], one["progress"])) / 0.01 for one in [*samples, law]]
+        # The parts of the path are equal, so that the mean of their means is the mean over the path. The grains begin
+        # with a step.
+        means = [(one["syy"][0] * one["progress"][0] + trapezoid(one["syy"], one["progress"])) / 0.01
+                 for one in [*samples, law]]
         self.assertAlmostEqual(curves["grains_syy"].mean(), numpy.mean(means[:2]), places=8)
         self.assertAlmostEqual(curves["law_syy"].mean(), means[2], places=8)
-        numpy.testing.assert_allclose(curves["law_sxx"], 1, rtol=1e-9)  # both carry the lateral pressure, the grains on average
+        # both carry the lateral pressure, the grains on average
+        numpy.testing.assert_allclose(curves["law_sxx"], 1, rtol=1e-9)
         self.assertAlmostEqual(curves["grains_sxx"].mean(), 1, delta=0.02)
         rms = {one["quantity"]: one["value"] for one in record["rms"]}
         difference = curves["law_stress_ratio"] - curves["grains_stress_ratio"]
@@ -66,7 +69,8 @@ class Element(Folder):
     def test_after_a_stop_the_finished_samples_are_kept(self):
         words = ("element", SCENE, *SMALL, "--seeds", "1-3", "--jobs", "1", "--output", self.folder)
         run = start(*words)
-        while not any(b"exit_code" in content(path) for path in glob.glob(self.path("runs", "*.json"))) and run.poll() is None:
+        while not any(b"exit_code" in content(path) for path in glob.glob(self.path("runs",
+                                                                                    "*.json"))) and run.poll() is None:
             time.sleep(0.02)
         run.send_signal(signal.SIGINT)
         _, errors = run.communicate()

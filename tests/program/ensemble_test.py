@@ -14,7 +14,8 @@ import time
 
 import pandas
 
-from running import content, diptych, ENVIRONMENT, Folder, listing, main, PROGRAM, QUICK, read_json, setting, start, write
+from running import (content, diptych, ENVIRONMENT, Folder, listing, main, PROGRAM, QUICK, read_json, setting, start,
+                     write)
 
 # 150 grains and a coarse continuum: a member takes less than a second.
 TINY = setting(sample_grains=150, loading_inertial_number=1e-3, loading_axial_strain=0.01, discrete_step=0.1,
@@ -22,8 +23,8 @@ TINY = setting(sample_grains=150, loading_inertial_number=1e-3, loading_axial_st
                comparison_window_edges="0,0.01", continuum_element_size=2.5, comparison_coarse_element_size=3)
 PLAIN = TINY + setting(output_report="false")
 # The grains' part long enough to be interrupted in.
-LONG = PLAIN + setting(sample_grains=200, loading_inertial_number=5e-4, loading_axial_strain=0.04, loading_stage_strain=0.01,
-                       comparison_window_edges="0,0.04")
+LONG = PLAIN + setting(sample_grains=200, loading_inertial_number=5e-4, loading_axial_strain=0.04,
+                       loading_stage_strain=0.01, comparison_window_edges="0,0.04")
 
 
 def read(folder, name="ensemble.json"):
@@ -92,11 +93,14 @@ class Statistics(Ensemble):
 
     def test_the_summary_has_the_rows_of_a_single_run_with_intervals_and_verdicts(self):
         """The terminal ends with it. Its peak is the mean over the seeds; its difference is that of the means."""
-        first, single = read(self.three)["summary"], read(os.path.join(self.three, "seed_1"), "comparison.json")["summary"]
-        self.assertEqual([(row["quantity"], row["unit"]) for row in first], [(row["quantity"], row["unit"]) for row in single])
+        first, single = read(self.three)["summary"], read(os.path.join(self.three, "seed_1"),
+                                                          "comparison.json")["summary"]
+        self.assertEqual([(row["quantity"], row["unit"]) for row in first],
+                         [(row["quantity"], row["unit"]) for row in single])
         peak = quantity(self.three, "discrete_summary peak_stress_ratio")
         self.assertEqual(first[0]["grains"], {"value": peak["mean"], "low": peak["low"], "high": peak["high"]})
-        self.assertAlmostEqual(first[0]["difference"]["value"], first[0]["continuum"]["value"] - peak["mean"], places=12)
+        self.assertAlmostEqual(first[0]["difference"]["value"], first[0]["continuum"]["value"] - peak["mean"],
+                               places=12)
         self.assertRegex(first[0]["verdict"], r"^(equivalent within|different by more than|cannot tell \(margin) 3 %")
         self.assertRegex(self.process.stdout.splitlines()[-len(first) - 1], r"^peak t/s +0\.\d+ \[.*3 %")
 
@@ -106,7 +110,8 @@ class Statistics(Ensemble):
             self.assertEqual(content(self.path(name)), content(os.path.join(self.three, name)), name)
 
     def test_several_processes_share_the_seeds(self):
-        words = ["mpirun", "--oversubscribe", "-np", "2", PROGRAM, "run", QUICK, *PLAIN, "--seeds", "1-3", "--output", self.folder]
+        words = ["mpirun", "--oversubscribe", "-np", "2", PROGRAM, "run", QUICK, *PLAIN, "--seeds", "1-3", "--output",
+                 self.folder]
         result = subprocess.run(words, env=ENVIRONMENT, capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(content(self.path("ensemble.json")), content(os.path.join(self.three, "ensemble.json")))
@@ -133,9 +138,12 @@ class Statistics(Ensemble):
         """Another member in its place counts one sample twice; a number changed by hand counts as measured."""
         record = read_json(self.three, "seed_2", "comparison.json")
         record["discrete_summary"]["peak_stress_ratio"] = 5.0
-        for put, told in ((lambda: shutil.copytree(self.path("seed_1"), self.path("seed_2"), dirs_exist_ok=True), "sample/seed"),
-                          (lambda: shutil.copy(self.path("seed_1", "comparison.json"), self.path("seed_2")), "comparison.json"),
-                          (lambda: write(self.path("seed_2", "comparison.json"), json.dumps(record)), "comparison.json")):
+        for put, told in ((lambda: shutil.copytree(self.path("seed_1"), self.path("seed_2"), dirs_exist_ok=True),
+                           "sample/seed"),
+                          (lambda: shutil.copy(self.path("seed_1", "comparison.json"), self.path("seed_2")),
+                           "comparison.json"),
+                          (lambda: write(self.path("seed_2", "comparison.json"), json.dumps(record)),
+                           "comparison.json")):
             with self.subTest(told=told):
                 shutil.rmtree(self.folder, ignore_errors=True)
                 shutil.copytree(self.three, self.folder)
@@ -144,7 +152,8 @@ class Statistics(Ensemble):
                 self.assertEqual(refused.returncode, 2, refused.stderr)
                 self.assertIn(self.path("seed_2"), refused.stderr)
                 self.assertIn(told, refused.stderr)
-                self.assertEqual(content(self.path("ensemble.json")), content(os.path.join(self.three, "ensemble.json")))
+                self.assertEqual(content(self.path("ensemble.json")),
+                                 content(os.path.join(self.three, "ensemble.json")))
 
     def test_more_seeds_are_added_by_resuming(self):
         shutil.copytree(self.three, self.folder)
@@ -166,7 +175,8 @@ class Failures(Ensemble):
         self.run_seeds("1", "--quiet")
         os.makedirs(self.path("seed_2", ".diptych.lock"))
         result = self.run_seeds("1-3", "--resume", scene=TINY, code=3)
-        for text in ["seed 2 failed with exit code 4", "cannot be locked", "seed_2.log", "failed: seed 2", "2 of 3 seeds are done"]:
+        for text in ["seed 2 failed with exit code 4", "cannot be locked", "seed_2.log", "failed: seed 2",
+                     "2 of 3 seeds are done"]:
             self.assertIn(text, result.stderr)
         record = read(self.folder)
         self.assertEqual(record["done"], [1, 3])
@@ -288,7 +298,8 @@ class Page(Ensemble):
             self.assertTrue(os.path.getsize(self.path(f"seed_{seed}", "report.html")) > 0)
         links = re.findall(r'(?:href|src)="([^"]+)"', text)
         self.assertEqual([link for link in links if not link.startswith(("data:", "seed_"))], [])
-        self.assertEqual(len(re.findall(r'<td class="verdict', text)), 6)  # peak, strength, force, volume, angle and width of one window
+        # peak, strength, force, volume, angle and width of one window
+        self.assertEqual(len(re.findall(r'<td class="verdict', text)), 6)
         self.assertIn("two one-sided tests", text)
         self.assertTrue(read(self.folder)["folded"])  # left and right by chance
         images = re.findall(r'<img src="data:[^"]+" alt="([^"]{20,})"', text)

@@ -12,7 +12,8 @@ import h5py
 
 from running import QUICK, SMALL, diptych, finished, history, main, read_json, setting, temporary
 
-TINY = SMALL + setting(sample_grains=150, continuum_element_size=2.5, comparison_coarse_element_size=3, output_report="false")
+TINY = SMALL + setting(sample_grains=150, continuum_element_size=2.5, comparison_coarse_element_size=3,
+                       output_report="false")
 INTERVAL = {"value", "low", "high"}
 
 
@@ -55,21 +56,24 @@ class Results(unittest.TestCase):
         found = {}
         for heading, entries in self.explained.items():
             parts = [part.strip() for part in re.split("[,;]", heading)]
-            if file in (part.split(" ")[0] for part in parts) and (group is None or any(part.endswith(group) for part in parts)):
+            if file in (part.split(" ")[0] for part in parts) and (group is None
+                                                                   or any(part.endswith(group) for part in parts)):
                 found.update(entries)
         self.assertTrue(found, f"nothing is said of {file} {group or ''}")
         return found
 
     def test_columns_of_tables(self):
-        for folder, name in ((self.run_, "discrete.csv"), (self.run_, "continuum.csv"), (self.point, "material_point.csv"),
-                             (self.run_, "comparison.csv"), (self.run_, "summary.csv"), (self.ensemble, "ensemble.csv")):
+        for folder, name in ((self.run_, "discrete.csv"), (self.run_, "continuum.csv"),
+                             (self.point, "material_point.csv"),
+                             (self.run_, "comparison.csv"), (self.run_, "summary.csv"),
+                             (self.ensemble, "ensemble.csv")):
             columns = [column for column in history(folder, name) if not re.fullmatch("seed_[0-9]+", column)]
             self.assertGreater(len(columns), 5)
             self.assertEqual([column for column in columns if column not in self.entries(name)], [], name)
 
     def test_keys_of_json_files(self):
-        for folder, name in ((self.run_, "comparison.json"), (self.run_, "provenance.json"), (self.ensemble, "ensemble.json"),
-                             (self.ensemble, "provenance.json")):
+        for folder, name in ((self.run_, "comparison.json"), (self.run_, "provenance.json"),
+                             (self.ensemble, "ensemble.json"), (self.ensemble, "provenance.json")):
             record = read_json(folder, name)
             record.pop("numbers", None)  # what explains the file itself
             found = set(places(record))
@@ -78,7 +82,8 @@ class Results(unittest.TestCase):
 
     def test_arrays_and_attributes_of_hdf5_files(self):
         groups = {"discrete.h5": {"stage_0001": "stage_NNNN"}, "continuum.h5": {"stage_0001": "stage_NNNN"},
-                  "comparison.h5": {"stage_0001": "stage_NNNN", "window_0": "window_N", "histories/discrete": "histories/discrete "
+                  "comparison.h5": {"stage_0001": "stage_NNNN", "window_0": "window_N",
+                                    "histories/discrete": "histories/discrete "
                                     "and histories/continuum"},
                   "ensemble.h5": {"discrete/stress_ratio": "PANEL/stress_ratio and PANEL/volumetric_strain"}}
         for name, of_file in groups.items():
@@ -101,7 +106,8 @@ class Results(unittest.TestCase):
 
     def test_arrays_of_paraview_files(self):
         for name, heading in (("fields/stage_0001.vtu", "comparison.h5"), ("continuum/stage_0001.vtu", "continuum.h5"),
-                              ("discrete/stage_0001.vtu", "discrete.h5"), ("discrete_contacts/stage_0001.vtu", "discrete.h5")):
+                              ("discrete/stage_0001.vtu", "discrete.h5"),
+                              ("discrete_contacts/stage_0001.vtu", "discrete.h5")):
             with open(os.path.join(self.run_, name), "rb") as file:
                 text = file.read().decode(errors="ignore")
             arrays = set(re.findall('Name="([^"]+)"', text)) - {"connectivity", "offsets", "types", "Points"}

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # diptych: wrong input, failures of the system and signals: the message and the exit code, and nothing is lost
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: faults_test.py PROGRAM SOURCE_DIR [unittest arguments]. tests/robustness has random cases of the same rules."""
+"""Usage: faults_test.py PROGRAM SOURCE_DIR [unittest arguments]. tests/robustness has random cases of the same
+rules."""
 
 import json
 import os
@@ -16,8 +17,8 @@ import time
 import h5py
 
 import running
-from running import (ENVIRONMENT, PROBLEMS, PROGRAM, QUICK, SMALL, content, contents, diptych, facts, finished, listing, main,
-                     setting, start, write)
+from running import (ENVIRONMENT, PROBLEMS, PROGRAM, QUICK, SMALL, content, contents, diptych, facts, finished, listing,
+                     main, setting, start, write)
 
 FEW = SMALL + setting(sample_grains=60, output_report="false")
 BOTH = FEW + setting(continuum_element_size=2.5, continuum_initial_step=0.0025, continuum_max_step=0.0025,
@@ -59,53 +60,69 @@ class Folder(running.Folder):
 
 class Inputs(Folder):
     def test_values_that_no_machine_could_compute(self):
-        for words, text in ((setting(sample_width=1e12), "sample/width"), (setting(discrete_step=1e-12), "discrete/step"),
-                            (setting(loading_inertial_number=1e-12), "loading/inertial_number"), (["--threads", "100000"], "--threads")):
+        for words, text in ((setting(sample_width=1e12), "sample/width"),
+                            (setting(discrete_step=1e-12), "discrete/step"),
+                            (setting(loading_inertial_number=1e-12), "loading/inertial_number"),
+                            (["--threads", "100000"], "--threads")):
             self.expect(2, self.discrete(*words), text)
-        self.expect(4, self.discrete(*setting(loading_inertial_number=1e-9, discrete_step=0.011)), "discrete/history_interval")
+        self.expect(4, self.discrete(*setting(loading_inertial_number=1e-9, discrete_step=0.011)),
+                    "discrete/history_interval")
         self.assertFalse(os.path.exists(self.folder))
 
     def test_scenes_that_are_refused(self):
         carriage_returns = content(QUICK).decode().replace("\n", "\r")
-        for name, text, *said in (("a.json", '{"sampel": {}}', "sampel"), ("a.prm", "subsection sampel\nend\n", "sampel"), ("a.prm", "", "empty"),
-                                  ("a.json", "", "empty"), ("a.prm", "\n \t\r\n", "empty"), ("a.prm", carriage_returns, "a.prm, line 1", "carriage return"),
-                                  ("a.prm", "subsection sample\n  set grains = 100\n  set grains = 60\nend\n", "a.prm, line 3", "sample/grains", "line 2")):
+        for name, text, *said in (("a.json", '{"sampel": {}}', "sampel"),
+                                  ("a.prm", "subsection sampel\nend\n", "sampel"), ("a.prm", "", "empty"),
+                                  ("a.json", "", "empty"), ("a.prm", "\n \t\r\n", "empty"),
+                                  ("a.prm", carriage_returns, "a.prm, line 1", "carriage return"),
+                                  ("a.prm", "subsection sample\n  set grains = 100\n  set grains = 60\nend\n",
+                                   "a.prm, line 3", "sample/grains", "line 2")):
             with self.subTest(name=name, text=text[:20]):
                 with open(os.path.join(self.work, name), "w", newline="") as file:
                     file.write(text)
                 self.expect(2, ["discrete", name, *FEW, "--output", self.folder, "--quiet"], name, *said)
         self.expect(2, ["discrete", QUICK, *FEW, "--output", "", "--quiet"], "--output")
-        self.expect(0, ["discrete", write(os.path.join(self.work, "a.prm"), "# defaults\n"), *FEW, "--output", self.folder, "--quiet"])
+        self.expect(0, ["discrete", write(os.path.join(self.work, "a.prm"), "# defaults\n"), *FEW, "--output",
+                        self.folder, "--quiet"])
 
     def test_a_pipe_as_an_input_is_refused_before_it_is_opened(self):
         """A program that opens it waits for a writer."""
         for name in ("p.prm", "p.csv", "p.h5", "p.json"):
             os.mkfifo(os.path.join(self.work, name))
-        for words in (["discrete", "p.prm"], ["discrete", QUICK, *FEW, *setting(sample_file="p.csv")], ["discrete", QUICK, *FEW, *setting(sample_file="p.h5")],
+        for words in (["discrete", "p.prm"], ["discrete", QUICK, *FEW, *setting(sample_file="p.csv")],
+                      ["discrete", QUICK, *FEW, *setting(sample_file="p.h5")],
                       ["solve", "p.h5"], ["study", "p.json"], ["calibrate", "p.json"], ["import", "csv", "p.csv"]):
             with self.subTest(words=words):
-                result = diptych(*words, *([] if words[0] == "solve" else ["--output", self.folder]), cwd=self.work, timeout=60)
+                result = diptych(*words, *([] if words[0] == "solve" else ["--output", self.folder]), cwd=self.work,
+                                 timeout=60)
                 self.expect_message(result, 2, words[-1].split("=")[-1])
                 self.assertFalse(os.path.exists(self.folder))
 
     def test_an_input_is_never_moved_or_removed(self):
         """An input in the folder that --overwrite would rename, or in the earlier one that it would remove."""
-        study = {"scene": QUICK, "command": "discrete", "reference": {"discrete/step": 0.1}, "axes": [{"key": "discrete/step", "values": [0.4]}],
+        study = {"scene": QUICK, "command": "discrete", "reference": {"discrete/step": 0.1},
+                 "axes": [{"key": "discrete/step", "values": [0.4]}],
                  "quantities": [{"column": "volumetric_strain", "at": 0.005}]}
-        calibration = {"targets": [{"name": "a", "scene": QUICK, "seeds": "1"}], "quantities": ["stress_ratio"], "bins": [0.005],
+        calibration = {"targets": [{"name": "a", "scene": QUICK, "seeds": "1"}], "quantities": ["stress_ratio"],
+                       "bins": [0.005],
                        "parameters": [{"key": "friction_angle_peak", "start": 20, "low": 14, "high": 40}]}
-        inputs = {"mine.prm": content(QUICK).decode(), "study.json": json.dumps(study), "fit.json": json.dumps(calibration),
+        inputs = {"mine.prm": content(QUICK).decode(), "study.json": json.dumps(study),
+                  "fit.json": json.dumps(calibration),
                   "grains.csv": "x,y,r\n" + "".join(f"{x},{y},0.5\n" for x in range(12) for y in (0.5, 1.5))}
-        lines = (["run", "mine.prm", *BOTH], ["run", QUICK, *BOTH, *setting(sample_file="grains.csv")], ["study", "study.json"],
-                 ["discrete", "mine.prm", *BOTH], ["continuum", "mine.prm", *BOTH], ["material-point", "mine.prm", *BOTH],
+        lines = (["run", "mine.prm", *BOTH], ["run", QUICK, *BOTH, *setting(sample_file="grains.csv")],
+                 ["study", "study.json"],
+                 ["discrete", "mine.prm", *BOTH], ["continuum", "mine.prm", *BOTH],
+                 ["material-point", "mine.prm", *BOTH],
                  ["discrete", QUICK, *BOTH, "--set-file", "mine.prm"], ["run", "mine.prm", *BOTH, "--seeds", "1-2"],
-                 ["calibrate", "fit.json"], ["plan", "mine.prm", *BOTH, "--accuracy", "0.5"], ["import", "csv", "grains.csv", "--walls-touch"])
+                 ["calibrate", "fit.json"], ["plan", "mine.prm", *BOTH, "--accuracy", "0.5"],
+                 ["import", "csv", "grains.csv", "--walls-touch"])
         for place, tried in ((self.folder, lines), (self.folder + ".1", lines[:3])):
             shutil.copytree(self.whole, place)
             for name, text in inputs.items():
                 write(os.path.join(place, name), text)
             for line in tried:
-                words = [re.sub(r"(^|sample/file=)(mine.prm|study.json|fit.json|grains.csv)$", rf"\1{place}/\2", word) for word in line]
+                words = [re.sub(r"(^|sample/file=)(mine.prm|study.json|fit.json|grains.csv)$", rf"\1{place}/\2", word)
+                         for word in line]
                 with self.subTest(command=line[0], words=line[-1], place=os.path.basename(place)):
                     self.expect(2, [*words, "--overwrite", "--output", self.folder], place)
             for name in inputs:
@@ -114,12 +131,14 @@ class Inputs(Folder):
     def test_grains_that_carry_nothing_are_pointed_out(self):
         """Sixty diameters apart: t/s comes from single impacts."""
         rows = "".join(f"{60 * i + 0.1 * j},{60 * j + 0.2 * i},0.5\n" for i in range(8) for j in range(8))
-        words = self.discrete(*setting(sample_file=write(os.path.join(self.work, "cloud.csv"), "x,y,r\n" + rows), loading_axial_strain=0.001,
+        words = self.discrete(*setting(sample_file=write(os.path.join(self.work, "cloud.csv"), "x,y,r\n" + rows),
+                                       loading_axial_strain=0.001,
                                        loading_stage_strain=0.0005, comparison_window_edges="0,0.001"))
         self.expect(0, words, "nothing is pressed together")
         self.assertIn(b"nothing is pressed together", content(os.path.join(self.folder, "provenance.json")))
         self.assertNotIn(b"nothing is pressed together", content(os.path.join(self.whole, "provenance.json")))
-        self.expect(3, [*words, "--overwrite", *setting(sample_prepare_file="true", sample_preparation_steps=1)], "nothing carries loading/pressure")
+        self.expect(3, [*words, "--overwrite", *setting(sample_prepare_file="true", sample_preparation_steps=1)],
+                    "nothing carries loading/pressure")
 
     def test_solutions_replace_solutions_only(self):
         scene = write(os.path.join(self.work, "scene.prm"), "# mine\n")
@@ -133,9 +152,11 @@ class Inputs(Folder):
         self.expect(2, ["solve", small, "--output", problem], problem)
 
     def test_platens_at_rest_and_probes_outside_the_sample_are_refused(self):
-        rest = setting(loading_mode="time", loading_duration=1, loading_stage_time=0.5, comparison_window_edges="0,1", discrete_lateral="rigid_walls")
+        rest = setting(loading_mode="time", loading_duration=1, loading_stage_time=0.5, comparison_window_edges="0,1",
+                       discrete_lateral="rigid_walls")
         self.expect(2, self.run_both(*rest), "discrete/drive_upper_y")
-        for words, text in ((setting(comparison_probe_circle="100,100,5"), "comparison/probe_circle"), (setting(sample_grains=12), "sample/grains"),
+        for words, text in ((setting(comparison_probe_circle="100,100,5"), "comparison/probe_circle"),
+                            (setting(sample_grains=12), "sample/grains"),
                             ([*setting(comparison_probe_rectangles="100,100,5,5,0"), "--seeds", "1-2", "--jobs", "1"],
                              "comparison/probe_rectangles")):
             with self.subTest(text=text):
@@ -154,11 +175,13 @@ class Results(Folder):
     def test_results_do_not_need_the_table_of_their_sample(self):
         with h5py.File(os.path.join(self.whole, "discrete.h5"), "r") as file:
             grains = file["stage_0000/grains"]
-            rows = [f"{x!r},{y!r},{r!r}\n" for (x, y, _), r in zip(grains["position"][()].tolist(), grains["radius"][()].tolist())]
+            rows = [f"{x!r},{y!r},{r!r}\n" for (x, y, _), r in zip(grains["position"][()].tolist(),
+                                                                   grains["radius"][()].tolist())]
         table = write(os.path.join(self.work, "grains.csv"), "x,y,r\n" + "".join(rows))
         self.expect(0, self.run_both(*setting(sample_file=table)))
         os.remove(table)
-        for words in (["compare", self.folder], ["report", self.folder], ["export", self.folder, "--format", "csv", "--output", "theirs"]):
+        for words in (["compare", self.folder], ["report", self.folder],
+                      ["export", self.folder, "--format", "csv", "--output", "theirs"]):
             self.expect(0, [*words, "--quiet"])
         self.expect(2, ["export", self.folder, "--format", "csv", "--output", self.folder], "--output")
         self.expect(2, ["compare", self.folder, "--output", "other"], "--output")
@@ -167,8 +190,10 @@ class Results(Folder):
         words = self.run_both("--seeds", "1-2", "--jobs", "1")
         self.expect(0, words)
         member = os.path.join(self.folder, "seed_2")
-        other = start("discrete", QUICK, *FEW, *setting(sample_grains=400), "--overwrite", "--output", member, "--quiet")
-        while other.poll() is None and not (os.path.exists(member + ".1") and os.path.exists(os.path.join(member, "scene.prm"))):
+        other = start("discrete", QUICK, *FEW, *setting(sample_grains=400), "--overwrite", "--output", member,
+                      "--quiet")
+        while other.poll() is None and not (os.path.exists(member + ".1")
+                                            and os.path.exists(os.path.join(member, "scene.prm"))):
             time.sleep(0.002)
         os.kill(other.pid, signal.SIGSTOP)
         self.addCleanup(other.communicate)
@@ -194,7 +219,8 @@ class Results(Folder):
         self.expect(3, self.discrete(*setting(discrete_tolerance=1e-13, discrete_max_sweeps=20)), "did not converge")
         self.assertIn("discrete.h5", listing(self.folder))
         shutil.rmtree(self.folder)
-        self.expect(3, self.discrete(*setting(sample_grains=100, discrete_method="penalty", discrete_penalty_step_fraction=1.5)), "blew up")
+        self.expect(3, self.discrete(*setting(sample_grains=100, discrete_method="penalty",
+                                              discrete_penalty_step_fraction=1.5)), "blew up")
         for wrong in ("max_sweeps", "did not converge"):
             self.assertNotIn(wrong, facts(self.folder)["message"])
 
@@ -212,7 +238,8 @@ def with_limit(kind, value):
 class Machine(Folder):
     def test_a_signal_at_the_start_ends_with_code_3_and_writes_nothing(self):
         for command in ("discrete", "run", "continuum"):
-            self.expect(3, [command, QUICK, *BOTH, "--output", self.folder], "stopped on request", preexec_fn=with_waiting_signal)
+            self.expect(3, [command, QUICK, *BOTH, "--output", self.folder], "stopped on request",
+                        preexec_fn=with_waiting_signal)
             self.assertFalse(os.path.exists(self.folder))
 
     def test_the_program_after_an_exec_accepts_the_signal_too(self):
@@ -220,8 +247,8 @@ class Machine(Folder):
         panels = os.path.join(os.path.dirname(PROGRAM), "diptych-panels")
         if not os.path.exists(panels):
             self.skipTest("installed elsewhere, or a build without the continuum")
-        result = subprocess.run([panels, "continuum", QUICK, *BOTH, "--output", self.folder], env=ENVIRONMENT, capture_output=True, text=True,
-                                preexec_fn=with_waiting_signal, check=False)
+        result = subprocess.run([panels, "continuum", QUICK, *BOTH, "--output", self.folder], env=ENVIRONMENT,
+                                capture_output=True, text=True, preexec_fn=with_waiting_signal, check=False)
         self.expect_message(result, 3, "stopped on request")
         self.assertFalse(os.path.exists(self.folder))
 
@@ -231,20 +258,23 @@ class Machine(Folder):
                                       ("continuum", "continuum/stage_0000.vtu", FEW + RECTANGLE)):
             with self.subTest(command=command):
                 shutil.rmtree(self.folder, ignore_errors=True)
-                process = start(command, QUICK, *words, *setting(loading_axial_strain=0.2, comparison_window_edges="0,0.2"), "--output", self.folder, "--quiet")
+                process = start(command, QUICK, *words, *setting(loading_axial_strain=0.2,
+                                                                 comparison_window_edges="0,0.2"), "--output",
+                                self.folder, "--quiet")
                 while process.poll() is None and not os.path.exists(os.path.join(self.folder, begun)):
                     time.sleep(0.002)
                 self.assertIsNone(process.poll(), "it ended before the disk was full")
                 resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (60000, 60000))
                 out, errors = process.communicate()
-                self.expect_message(subprocess.CompletedProcess(command, process.returncode, out, errors), 4, "kept in " + self.folder, "scene.prm")
+                self.expect_message(subprocess.CompletedProcess(command, process.returncode, out, errors), 4,
+                                    "kept in " + self.folder, "scene.prm")
 
     def test_a_full_disk_under_a_comparison_with_other_keys(self):
         """The earlier comparison is either still that of scene.prm, or no report shows it."""
         shutil.copytree(self.whole, self.folder)
         scene = content(os.path.join(self.folder, "scene.prm"))
-        self.expect(4, ["compare", self.folder, *setting(comparison_max_bands=1), "--quiet"], "comparison.h5", "kept in",
-                    preexec_fn=with_limit(resource.RLIMIT_FSIZE, 50000))
+        self.expect(4, ["compare", self.folder, *setting(comparison_max_bands=1), "--quiet"], "comparison.h5",
+                    "kept in", preexec_fn=with_limit(resource.RLIMIT_FSIZE, 50000))
         if scene != content(os.path.join(self.folder, "scene.prm")):
             self.expect(2, ["report", self.folder, "--quiet"], self.folder)
         self.expect(0, ["compare", self.folder, *setting(comparison_max_bands=1), "--quiet"])
@@ -255,14 +285,16 @@ class Machine(Folder):
             self.expect(2, [command, QUICK, *FEW, "--output", os.path.join(path, "out"), "--quiet"], path)
 
     def test_little_memory_is_no_wrong_input(self):
-        table = write(os.path.join(self.work, "grains.csv"), "x,y,r\n" + "".join(f"{k % 700},{k // 700},0.5\n" for k in range(490000)))
-        for words in (self.discrete(*setting(sample_file=table)), ["import", "csv", table, "--output", self.folder, "--quiet"]):
+        table = write(os.path.join(self.work, "grains.csv"),
+                      "x,y,r\n" + "".join(f"{k % 700},{k // 700},0.5\n" for k in range(490000)))
+        for words in (self.discrete(*setting(sample_file=table)),
+                      ["import", "csv", table, "--output", self.folder, "--quiet"]):
             self.expect(4, words, "not enough memory", table, preexec_fn=with_limit(resource.RLIMIT_AS, 200 << 20))
             self.assertFalse(os.path.exists(self.folder))
 
     def test_a_mesh_that_is_too_large_for_the_memory(self):
-        words = setting(continuum_mesh="rectangle", continuum_rectangle_width=400, continuum_rectangle_height=600, continuum_element_size=1.2,
-                        comparison_coarse_element_size=0)
+        words = setting(continuum_mesh="rectangle", continuum_rectangle_width=400, continuum_rectangle_height=600,
+                        continuum_element_size=1.2, comparison_coarse_element_size=0)
         self.expect(4, ["continuum", QUICK, *FEW, *words, "--output", self.folder, "--quiet"], "GB of memory",
                     preexec_fn=with_limit(resource.RLIMIT_AS, 2 << 30))
 
@@ -273,14 +305,16 @@ class Machine(Folder):
             reader, writer = os.pipe()
             os.close(reader)
             with open(writer, "wb") as pipe:
-                result = subprocess.run([PROGRAM, words[0], QUICK, *words[1:], "--output", self.folder], env=ENVIRONMENT, stdout=pipe, stderr=pipe, check=False)
+                result = subprocess.run([PROGRAM, words[0], QUICK, *words[1:], "--output", self.folder],
+                                        env=ENVIRONMENT, stdout=pipe, stderr=pipe, check=False)
             self.assertEqual(result.returncode, 0)
             self.assertIn(name, listing(self.folder))
 
     def test_output_that_cannot_be_printed_is_reported(self):
         for words in (["explain"], ["--version"], ["solve", os.path.join(PROBLEMS, "small.h5")]):
             with open("/dev/full", "wb") as full:
-                result = subprocess.run([PROGRAM, *words], env=ENVIRONMENT, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+                result = subprocess.run([PROGRAM, *words], env=ENVIRONMENT, stdout=full, stderr=subprocess.PIPE,
+                                        text=True, check=False)
             self.assertEqual(result.returncode, 4, words)
             self.assertIn("standard output cannot be written", result.stderr)
 

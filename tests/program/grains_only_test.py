@@ -12,8 +12,8 @@ CELL = os.path.join(SOURCE, "benchmarks", "element", "scene.prm")
 
 class GrainsOnly(Folder):
     def test_grains_are_varied_and_homogenised(self):
-        finished("study", QUICK, *SMALL, "--panels", "discrete", "--vary", "discrete/friction=0.2,0.5", "--seeds", "1-2",
-                 "--output", self.folder, "--quiet")
+        finished("study", QUICK, *SMALL, "--panels", "discrete", "--vary", "discrete/friction=0.2,0.5", "--seeds",
+                 "1-2", "--output", self.folder, "--quiet")
         points = read_json(self.folder, "study.json")["points"]
         self.assertEqual([point["quantities"][0]["n"] for point in points], [2, 2])
         grains = os.path.join(self.folder, points[0]["folders"][0])
@@ -24,7 +24,8 @@ class GrainsOnly(Folder):
         vary = ["--vary", "discrete/friction=0.2,0.5"]
         for words in (["run", QUICK], ["run", QUICK, "--seeds", "1-2"], ["continuum", QUICK], ["study", QUICK, *vary],
                       ["study", QUICK, *vary, "--panels", "continuum"], ["element", CELL],
-                      ["calibrate", QUICK, "--seeds", "1-2"], ["plan", QUICK, "--accuracy", "2", "%", "--for", "continuum.strength"]):
+                      ["calibrate", QUICK, "--seeds", "1-2"],
+                      ["plan", QUICK, "--accuracy", "2", "%", "--for", "continuum.strength"]):
             with self.subTest(words=words):
                 result = diptych(*words, "--output", self.folder)
                 self.assertEqual(result.returncode, 2, result.stderr)

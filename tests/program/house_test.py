@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-# diptych: how the sources look: formatted as .clang-format says, no file and no function above what CONTRIBUTING.md allows
-# SPDX-License-Identifier: LGPL-2.1-or-later
+# diptych: how the sources look: formatted as .clang-format says, no file and no function above what CONTRIBUTING.md
+# allows SPDX-License-Identifier: LGPL-2.1-or-later
 """Usage: house_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
 
 import ast
@@ -17,7 +17,8 @@ FOLDERS = ("discrete", "continuum", "coupling", "tests", "benchmarks")
 
 
 def sources(*endings):
-    return sorted(os.path.join(folder, name) for top in FOLDERS for folder, _, names in os.walk(os.path.join(SOURCE, top))
+    return sorted(os.path.join(folder, name) for top in FOLDERS for folder, _,
+                  names in os.walk(os.path.join(SOURCE, top))
                   for name in names if name.endswith(endings))
 
 
@@ -27,16 +28,18 @@ def allowed(pattern):
     return [int(number) for number in re.search(pattern, text).groups()]
 
 
-# Take six or seven arguments: kernels that are called for every contact, wrappers of the HDF5 library, constructors of what is
-# made from plain data. No other function may.
-MANY_ARGUMENTS = {"write_attribute", "write_array", "apply_law", "solve_sampled", "sweep_psor", "add_squares", "sweep_batches",
-                  "local_solution", "relative_velocity", "RecordedContinuum", "record", "pack_rectangle", "Course", "BoundaryValueProblem"}
+# Take six or seven arguments: kernels that are called for every contact, wrappers of the HDF5 library, constructors of
+# what is made from plain data. No other function may.
+MANY_ARGUMENTS = {"write_attribute", "write_array", "apply_law", "solve_sampled", "sweep_psor", "add_squares",
+                  "sweep_batches",
+                  "local_solution", "relative_velocity", "RecordedContinuum", "record", "pack_rectangle", "Course",
+                  "BoundaryValueProblem"}
 CONTROL = re.compile(r"(if|for|while|else|do|switch|try|catch|namespace|struct|class|enum|union|extern)\b")
 
 
 def functions(path):
-    """(lines of the body, arguments, line, head) of every function of a formatted source; lists of keys and numbers, which call
-    a visitor line by line, left out."""
+    """(lines of the body, arguments, line, head) of every function of a formatted source; lists of keys and numbers,
+    which call a visitor line by line, left out."""
     lines = content(path).decode().split("\n")
     for k, line in enumerate(lines):
         brace = re.fullmatch(r"( *)\{", line)
@@ -73,7 +76,8 @@ def positional_records(source):
 
 HEADS = re.compile(r"((if|for|while|switch) *(constexpr )?@\s*|(else|do)\b\s*|case [\w:@]+:\s+|default:\s+)*")
 CHAIN = re.compile(r"(\+\+|--|\*)?[\w:]+((\.|->)\w+|[@$])*(\+\+|--)?(\s*[-+*/%|&^]?=[^=,][^,]*)?,")
-# Strings, comments and directives; then what holds no brackets any more: lambdas, blocks, arguments, lists, indices, types.
+# Strings, comments and directives; then what holds no brackets any more: lambdas, blocks, arguments, lists, indices,
+# types.
 PLAIN = re.compile(r'//.*|^ *#.*|"(\\.|[^"\\\n])*"|\'(\\.|[^\'\\\n])+\'', re.MULTILINE)
 INSIDE = r"[^(){}\[\]]*"
 INNERMOST = re.compile(fr"(\[{INSIDE}\]|\$)\s*(\({INSIDE}\)|@)?\s*(mutable\s*)?(->\s*[\w:]+\s*)?\{{{INSIDE}\}}|"
@@ -81,13 +85,14 @@ INNERMOST = re.compile(fr"(\[{INSIDE}\]|\$)\s*(\({INSIDE}\)|@)?\s*(mutable\s*)?(
 
 
 def chained(text):
-    """The statements of a source that join several by commas, like `a = 1, b = 2;`. Reduces the text from the inside: indices and
-    captures to `$`, arguments, lists of values and lambdas to `@`, other blocks to `;`."""
+    """The statements of a source that join several by commas, like `a = 1, b = 2;`. Reduces the text from the inside:
+    indices and captures to `$`, arguments, lists of values and lambdas to `@`, other blocks to `;`."""
     found = []
 
     def reduced(match):
         if match[0].endswith("}") and ";" in match[0]:
-            statements = [HEADS.sub("", part.strip(), count=1) for part in match[0][match[0].index("{") + 1:-1].split(";")]
+            statements = [HEADS.sub("", part.strip(), count=1)
+                          for part in match[0][match[0].index("{") + 1:-1].split(";")]
             found.extend(" ".join(statement.split()) for statement in statements if CHAIN.match(statement))
             return ";" if match[0][0] == "{" else "@"
         return {"<": "", "[": "$" if match[0].endswith("]") else "@"}.get(match[0][0], "@")
@@ -119,12 +124,14 @@ class House(unittest.TestCase):
         self.assertGreater(len(found), 1500)
         self.assertGreater(max(lines for _, lines, *_ in found), most_lines // 2)
         self.assertEqual([one for one in found if one[1] > most_lines], [])
-        many = {re.search(r"(\w+)\s*\(", re.sub(r"<[^<>]*>", "", head))[1]: arguments for _, _, arguments, _, head in found
+        many = {re.search(r"(\w+)\s*\(", re.sub(r"<[^<>]*>", "", head))[1]: arguments for _, _, arguments, _,
+                head in found
                 if arguments > 5}
         self.assertLessEqual(set(many), MANY_ARGUMENTS)
         self.assertLessEqual(max(many.values()), 7)
         with tempfile.TemporaryDirectory() as work:  # it can fail
-            path = write(os.path.join(work, "long.cc"), "int f(const A<int, B> a,\n      int b)\n{\n" + "  ++a;\n" * 70 + "}\n")
+            path = write(os.path.join(work, "long.cc"), "int f(const A<int, B> a,\n      int b)\n{\n" + "  ++a;\n" * 70
+                         + "}\n")
             self.assertEqual([function[:2] for function in functions(path)], [(70, 2)])
 
     def test_records_of_more_than_three_fields_are_built_by_name(self):
@@ -148,7 +155,8 @@ class House(unittest.TestCase):
             self.skipTest("clang-format is not installed (test.sh installs it)")
         version = subprocess.run(["clang-format", "--version"], capture_output=True, text=True, check=True).stdout
         if " 14." not in version:
-            self.skipTest("other versions than 14, that of Debian 12, format a few lines differently: " + version.strip())
+            self.skipTest("other versions than 14, that of Debian 12, format a few lines differently: "
+                          + version.strip())
         files = sources(".h", ".cc")
         self.assertGreater(len(files), 300)
         self.assertEqual(self.misformatted(files), [])

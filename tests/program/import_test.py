@@ -16,7 +16,8 @@ import numpy
 from running import QUICK, SMALL, SOURCE, bits, content, diptych, history, listing, main, setting, write
 
 FOREIGN = os.path.join(SOURCE, "tests", "foreign")
-COARSE = ["--set", "continuum/element_size=3", "--set", "comparison/coarse_element_size=0", "--set", "output/report=false"]
+COARSE = ["--set", "continuum/element_size=3", "--set", "comparison/coarse_element_size=0", "--set",
+          "output/report=false"]
 
 
 def files(pattern):
@@ -54,8 +55,8 @@ class Import(Case):
     def test_a_sample_of_lammps_beside_the_continuum(self):
         told = self.done("import", "lammps", *LAMMPS, "--output", self.path("mine"))
         self.assertIn("not in the files: rotations", told)
-        self.done("run", self.path("mine", "scene.prm"), "--output", self.path("both"), "--quiet", "--set", "continuum/element_size=3",
-                  "--set", "comparison/coarse_element_size=0")
+        self.done("run", self.path("mine", "scene.prm"), "--output", self.path("both"), "--quiet", "--set",
+                  "continuum/element_size=3", "--set", "comparison/coarse_element_size=0")
         self.assertEqual(bits(self.path("mine", "discrete.h5")), bits(self.path("both", "discrete.h5")))
         with open(self.path("both", "comparison.json")) as file:
             stages = json.load(file)["stages"]
@@ -77,13 +78,15 @@ class Import(Case):
         self.done("import", "lammps", *LAMMPS, "--output", self.path("mine"), "--quiet")
         scene = self.path("mine", "scene.prm")
         self.done("continuum", scene, "--output", self.path("pressed"), "--quiet", *COARSE)
-        self.done("continuum", scene, "--output", self.path("moved"), "--quiet", *COARSE, "--set", "discrete/side_motion=velocity")
+        self.done("continuum", scene, "--output", self.path("moved"), "--quiet", *COARSE, "--set",
+                  "discrete/side_motion=velocity")
         grains = history(self.path("mine"))
         moved = history(self.path("moved"), "continuum.csv")
         # Side walls moved as the imported ones: the same volume; the walls' height and width are given.
         at = [numpy.argmin(abs(moved["axial_strain"] - strain)) for strain in grains["axial_strain"]]
         numpy.testing.assert_allclose(moved["volumetric_strain"][at], grains["volumetric_strain"], atol=2e-6)
-        # Under the imported pressure: horizontal equilibrium, mean of the continuum's sxx over the height is the pressure of the right wall.
+        # Under the imported pressure: horizontal equilibrium, mean of the continuum's sxx over the height is the
+        # pressure of the right wall.
         pressed = history(self.path("pressed"), "continuum.csv")
         numpy.testing.assert_allclose(pressed["axial_strain"][-1], grains["axial_strain"][-1], rtol=1e-9)
         self.assertNotAlmostEqual(pressed["volumetric_strain"][-1], grains["volumetric_strain"][-1], places=5)
@@ -98,14 +101,19 @@ class Import(Case):
         self.done("run", self.path("all.prm"), "--seeds", "1-3", "--output", self.path("ensemble"), "--quiet", *COARSE)
         with open(self.path("ensemble", "ensemble.json")) as file:
             self.assertEqual(json.load(file)["seeds"], [1, 2, 3])
-        self.assertNotEqual(content(self.path("ensemble", "seed_1", "discrete.csv")), content(self.path("ensemble", "seed_2", "discrete.csv")))
-        self.refused("run", self.path("all.prm"), "--seeds", "1-4", "--output", self.path("more"), says="sample_4/discrete.h5")
-        self.refused("run", self.path("sample_1", "scene.prm"), "--seeds", "1-2", "--output", self.path("more"), says="{seed}")
+        self.assertNotEqual(content(self.path("ensemble", "seed_1", "discrete.csv")),
+                            content(self.path("ensemble", "seed_2", "discrete.csv")))
+        self.refused("run", self.path("all.prm"), "--seeds", "1-4", "--output", self.path("more"),
+                     says="sample_4/discrete.h5")
+        self.refused("run", self.path("sample_1", "scene.prm"), "--seeds", "1-2", "--output", self.path("more"),
+                     says="{seed}")
 
     def test_calibration_and_study_take_imported_samples(self):
         self.done("import", "lammps", *LAMMPS, "--output", self.path("mine"), "--quiet")
-        calibration = {"targets": [{"name": "lammps", "scene": "mine/scene.prm", "seeds": "1", "set": {"continuum/element_size": 4}}],
-                       "quantities": ["stress_ratio"], "bins": [0.0101, 0.0201, 0.03001], "noise": {"stress_level": 0.02, "stress_shape": 0.02},
+        calibration = {"targets": [{"name": "lammps", "scene": "mine/scene.prm", "seeds": "1",
+                                    "set": {"continuum/element_size": 4}}],
+                       "quantities": ["stress_ratio"], "bins": [0.0101, 0.0201, 0.03001],
+                       "noise": {"stress_level": 0.02, "stress_shape": 0.02},
                        "set": {"continuum/hardening": "exponential"}, "coarse_element_size": 5,
                        "parameters": [{"key": "friction_angle_peak", "start": 30, "low": 12, "high": 50}]}
         write(self.path("calibration.json"), json.dumps(calibration))
@@ -114,7 +122,8 @@ class Import(Case):
         self.assertIn(b"friction_angle_peak", content(self.path("fit", "calibrated.prm")))
         study = {"scene": "mine/scene.prm", "command": "run", "set": {"comparison/coarse_element_size": 0},
                  "reference": {"continuum/element_size": 2}, "axes": [{"key": "continuum/element_size", "values": [4]}],
-                 "quantities": [{"name": "peak", "of": "continuum", "column": "stress_ratio", "largest": True, "limit": {"relative": 0.1}}]}
+                 "quantities": [{"name": "peak", "of": "continuum", "column": "stress_ratio", "largest": True,
+                                 "limit": {"relative": 0.1}}]}
         write(self.path("study.json"), json.dumps(study))
         self.done("study", self.path("study.json"), "--output", self.path("study"), "--quiet")
 
@@ -175,24 +184,27 @@ class Refused(Case):
         write(self.path("mine", "import.json"), record.decode())
         self.refused("run", scene, "--output", self.path("mine"), says="--overwrite")
         self.refused("run", scene, "--output", self.path("out"), "--set", "discrete/file=absent.h5", says="absent.h5")
-        self.refused("run", scene, "--output", self.path("out"), "--set", "loading/stages=0.01,0.03", "--set", "loading/axial_strain=0.03", "--set",
-                     "comparison/window_edges=0,0.03", says="frames")
+        self.refused("run", scene, "--output", self.path("out"), "--set", "loading/stages=0.01,0.03", "--set",
+                     "loading/axial_strain=0.03", "--set", "comparison/window_edges=0,0.03", says="frames")
         self.refused("run", scene, "--output", self.path("out"), "--set", "loading/stages=0.01,0.02,0.031", "--set",
                      "loading/axial_strain=0.031", "--set", "comparison/window_edges=0,0.031", says="frame 3 is at")
 
 
 class Export(Case):
     def test_our_own_run_exported_and_imported_is_the_same_sample(self):
-        """Free sides, platens that travel: stresses of the last step of every stage, volume of the outline, progress."""
-        self.done("discrete", QUICK, *SMALL, *setting(loading_stage_strain=0.0025, comparison_window_edges="0,0.01"), "--output",
-                  self.path("own"), "--quiet")
+        """Free sides, platens that travel: stresses of the last step of every stage, volume of the outline,
+        progress."""
+        self.done("discrete", QUICK, *SMALL, *setting(loading_stage_strain=0.0025, comparison_window_edges="0,0.01"),
+                  "--output", self.path("own"), "--quiet")
         for stage in range(5):
-            self.done("export", self.path("own"), "--format", "csv", "--stage", str(stage), "--output", self.path("tables"), "--quiet")
-        self.done("import", "csv", *sorted(glob.glob(self.path("tables", "*.csv"))), "--output", self.path("back"), "--pressure", "1",
-                  "--mean-diameter", "1", "--quiet")
+            self.done("export", self.path("own"), "--format", "csv", "--stage", str(stage), "--output",
+                      self.path("tables"), "--quiet")
+        self.done("import", "csv", *sorted(glob.glob(self.path("tables", "*.csv"))), "--output", self.path("back"),
+                  "--pressure", "1", "--mean-diameter", "1", "--quiet")
         own, back = history(self.path("own")), history(self.path("back"))
         at = [numpy.argmin(abs(own["axial_strain"] - strain)) for strain in back["axial_strain"]]
-        self.assertLess(abs(own["axial_strain"][at] - back["axial_strain"])[1:].max(), 1e-12)  # our first row is that of the first step
+        # our first row is that of the first step
+        self.assertLess(abs(own["axial_strain"][at] - back["axial_strain"])[1:].max(), 1e-12)
         for name in ("sxx", "sxy", "syy", "stress_ratio", "volumetric_strain", "solid_fraction", "shear_strain"):
             numpy.testing.assert_allclose(back[name][1:], own[name][at][1:], rtol=1e-6, atol=1e-9, err_msg=name)
         for name in ("upper_fx", "upper_fy", "lower_fy"):
@@ -205,12 +217,14 @@ class Export(Case):
         self.done("import", "lammps", *LAMMPS, "--output", self.path("mine"), "--quiet")
         self.done("run", self.path("mine", "scene.prm"), "--output", self.path("both"), "--quiet", *COARSE)
         self.done("export", self.path("both"), "--format", "lammps", "--output", self.path("start"))
-        self.done("import", "lammps", self.path("start", "sample.data"), "--walls-touch", "--output", self.path("back"), "--quiet")
+        self.done("import", "lammps", self.path("start", "sample.data"), "--walls-touch", "--output", self.path("back"),
+                  "--quiet")
         with h5py.File(self.path("mine", "discrete.h5")) as mine, h5py.File(self.path("back", "discrete.h5")) as back:
             for name in ("stage_0000/grains/position", "stage_0000/grains/radius"):
                 numpy.testing.assert_allclose(back[name][()], mine[name][()], rtol=1e-15, err_msg=name)
         self.refused("export", self.path("both"), "--format", "lammps", "--output", self.path("start"), says="exists")
-        self.refused("export", self.path("both"), "--format", "csv", "--stage", "9", "--output", self.path("x"), says="0 to 3")
+        self.refused("export", self.path("both"), "--format", "csv", "--stage", "9", "--output", self.path("x"),
+                     says="0 to 3")
 
 
 if __name__ == "__main__":

@@ -24,8 +24,8 @@ class Package(unittest.TestCase):
         cls.work = temporary(cls)
         cls.root = os.path.join(cls.work, "root")
         cls.share = os.path.join(cls.root, "usr", "share")
-        subprocess.run(["cpack", "--config", os.path.join(BUILD, "CPackConfig.cmake"), "-G", "DEB", "-B", cls.work], check=True,
-                       capture_output=True, cwd=cls.work)
+        subprocess.run(["cpack", "--config", os.path.join(BUILD, "CPackConfig.cmake"), "-G", "DEB", "-B", cls.work],
+                       check=True, capture_output=True, cwd=cls.work)
         cls.package = next(os.path.join(cls.work, name) for name in os.listdir(cls.work) if name.endswith(".deb"))
         subprocess.run(["dpkg-deb", "-x", cls.package, cls.root], check=True)
         cls.program = os.path.join(cls.root, "usr", "bin", "diptych")
@@ -36,8 +36,10 @@ class Package(unittest.TestCase):
                               env={"PATH": "/usr/bin:/bin", "HOME": self.work, **environment})
 
     def test_it_names_what_it_needs(self):
-        fields = subprocess.run(["dpkg-deb", "-f", self.package, "Depends"], check=True, capture_output=True, text=True).stdout
-        for package in ("python3-h5py", "python3-matplotlib", "python3-jinja2", "python3-numpy", "python3-scipy", "python3-pandas",
+        fields = subprocess.run(["dpkg-deb", "-f", self.package, "Depends"], check=True, capture_output=True,
+                                text=True).stdout
+        for package in ("python3-h5py", "python3-matplotlib", "python3-jinja2", "python3-numpy", "python3-scipy",
+                        "python3-pandas",
                         "python3-mpi4py", "python3-meshio", "python3-emcee", "libdeal.ii", "libhdf5-openmpi", "libc6"):
             self.assertIn(package, fields)
 
@@ -59,11 +61,13 @@ class Package(unittest.TestCase):
         page = os.path.join(self.share, "man", "man1", "diptych.1.gz")
         with gzip.open(page, "rt") as file:
             text = file.read().replace("\\-", "-")
-        commands = re.findall(r"^  ([a-z-]+) ", self.run_program("--help").stdout.split("Subcommands:")[1], re.MULTILINE)
+        commands = re.findall(r"^  ([a-z-]+) ", self.run_program("--help").stdout.split("Subcommands:")[1],
+                              re.MULTILINE)
         self.assertGreater(len(commands), 10)
         for command in commands:
             section = text.split(f'.SS "diptych {command}"')[1].split(".SS")[0]
-            for option in re.findall(r"^  (?:-h,)?(--[a-z-]+)", self.run_program(command, "--help").stdout, re.MULTILINE):
+            for option in re.findall(r"^  (?:-h,)?(--[a-z-]+)", self.run_program(command, "--help").stdout,
+                                     re.MULTILINE):
                 self.assertRegex(section, rf"(?m)^\.B (?:-h, )?{option}\b")
         if shutil.which("man"):
             told = subprocess.run(["man", "--warnings", "-l", page], capture_output=True, text=True, check=True,
@@ -84,22 +88,26 @@ class Package(unittest.TestCase):
         build = os.path.join(self.work, "external")
         source = os.path.join(os.path.dirname(os.path.abspath(__file__)), "external_project")
         environment = {"PATH": "/usr/bin:/bin", "HOME": self.work}
-        for words in (["cmake", "-S", source, "-B", build, "-DCMAKE_PREFIX_PATH=" + os.path.join(self.root, "usr")], ["cmake", "--build", build]):
+        for words in (["cmake", "-S", source, "-B", build, "-DCMAKE_PREFIX_PATH=" + os.path.join(self.root, "usr")],
+                      ["cmake", "--build", build]):
             done = subprocess.run(words, capture_output=True, text=True, check=False, env=environment)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         cache = content(os.path.join(build, "CMakeCache.txt")).decode()
         self.assertIn("diptych_DIR:PATH=" + self.root, cache)
         self.assertNotIn(BUILD, cache)
-        told = subprocess.run([os.path.join(build, "three_discs"), os.path.join(self.work, "discs.h5")], capture_output=True, text=True,
-                              check=True, env=environment).stdout
+        told = subprocess.run([os.path.join(build, "three_discs"), os.path.join(self.work, "discs.h5")],
+                              capture_output=True, text=True, check=True, env=environment).stdout
         ratio, height = (float(number) for number in re.findall(r"\d+\.\d+", told))
         self.assertAlmostEqual(ratio, 1, delta=1e-8)  # at rest the floor carries the weight of all three
-        self.assertAlmostEqual(height, 2.5, delta=3e-4)  # radius 0.5 on two diameters, less penetrations of at most 1e-4 d
+        # radius 0.5 on two diameters, less penetrations of at most 1e-4 d
+        self.assertAlmostEqual(height, 2.5, delta=3e-4)
 
     def test_a_law_of_the_user(self):
         """Built from the installed examples against the installed header, as README of continuum/ says."""
-        folder = shutil.copytree(os.path.join(self.share, "diptych", "benchmarks", "own_law"), os.path.join(self.work, "own_law"))
-        subprocess.run(["make", "-s", "-C", folder, "INCLUDE=" + os.path.join(self.root, "usr", "include", "diptych")], check=True)
+        folder = shutil.copytree(os.path.join(self.share, "diptych", "benchmarks", "own_law"),
+                                 os.path.join(self.work, "own_law"))
+        subprocess.run(["make", "-s", "-C", folder, "INCLUDE=" + os.path.join(self.root, "usr", "include", "diptych")],
+                       check=True)
         for library in ("mohr_coulomb.so", "von_mises.so"):
             done = self.run_program("check-law", os.path.join(folder, library), "--quiet")
             self.assertEqual((done.returncode, done.stdout.count(": holds")), (0, 5), done.stdout + done.stderr)
@@ -117,11 +125,11 @@ class Package(unittest.TestCase):
 
     def test_the_python_package(self):
         place = os.path.join(self.root, "usr", "lib", "python3", "dist-packages")
-        script = ("import diptych; p = diptych.ContinuumPanel({'continuum': {'mesh': 'rectangle', 'rectangle_width': 8, "
-                  "'rectangle_height': 8}}); print(p.prepare(), diptych.__file__, diptych.notebooks_dir(), "
+        script = ("import diptych; p = diptych.ContinuumPanel({'continuum': {'mesh': 'rectangle', 'rectangle_width': "
+                  "8, 'rectangle_height': 8}}); print(p.prepare(), diptych.__file__, diptych.notebooks_dir(), "
                   "diptych.scene(diptych.benchmarks_dir() + '/moreau_quick/scene.prm')['sample']['grains'])")
-        done = subprocess.run([sys.executable, "-B", "-c", script], capture_output=True, text=True, check=False, cwd=self.work,
-                              env={"PATH": "/usr/bin:/bin", "HOME": self.work, "PYTHONPATH": place})
+        done = subprocess.run([sys.executable, "-B", "-c", script], capture_output=True, text=True, check=False,
+                              cwd=self.work, env={"PATH": "/usr/bin:/bin", "HOME": self.work, "PYTHONPATH": place})
         notebooks = os.path.join(self.share, "diptych", "notebooks")
         package = os.path.join(place, "diptych", "__init__.py")
         self.assertEqual(done.stdout.split(), ["finished", package, notebooks, "2000"], done.stderr)

@@ -11,7 +11,8 @@ import subprocess
 import h5py
 import numpy
 
-from running import bits, content, diptych, ENVIRONMENT, finished, Folder, history, main, PROGRAM, read_json, setting, SOURCE, temporary, write
+from running import (bits, content, diptych, ENVIRONMENT, finished, Folder, history, main, PROGRAM, read_json, setting,
+                     SOURCE, temporary, write)
 
 HEADER, EXAMPLES = os.path.join(SOURCE, "continuum", "laws"), os.path.join(SOURCE, "benchmarks", "own_law")
 FAULTY = os.path.join(SOURCE, "tests", "program", "faulty_law.c")
@@ -41,9 +42,11 @@ class Libraries(Folder):
     def setUpClass(cls):
         cls.libraries = temporary(cls)
         for name, source, words in (("mohr_coulomb", os.path.join(EXAMPLES, "mohr_coulomb.cc"), ["c++", "-std=c++17"]),
-                                    ("von_mises", os.path.join(EXAMPLES, "von_mises.c"), ["cc", "-std=c99", "-pedantic"]),
+                                    ("von_mises", os.path.join(EXAMPLES, "von_mises.c"),
+                                     ["cc", "-std=c99", "-pedantic"]),
                                     ("faulty", FAULTY, ["cc"]), ("old", FAULTY, ["cc", "-DVERSION=0"]),
-                                    ("empty", FAULTY, ["cc", "-DNO_UPDATE"]), ("bent", FAULTY, ["cc", "-DTANGENT=0.999"])):
+                                    ("empty", FAULTY, ["cc", "-DNO_UPDATE"]),
+                                    ("bent", FAULTY, ["cc", "-DTANGENT=0.999"])):
             subprocess.run([*words, "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", "-O2", "-I" + HEADER, "-o",
                             os.path.join(cls.libraries, name + ".so"), source, "-lm"], check=True)
 
@@ -65,7 +68,8 @@ class Libraries(Folder):
     def test_a_wrong_tangent_is_found(self):
         result = diptych("check-law", os.path.join(self.libraries, "bent.so"))
         self.assertEqual(result.returncode, 2)
-        self.assertRegex(result.stdout, r"tangent: FAILS, largest deviation 0.001 .*; path \d+, step \d+, strain increment ")
+        self.assertRegex(result.stdout, r"tangent: FAILS, largest deviation 0.001 .*; path \d+, step \d+, strain "
+                         r"increment ")
         self.assertEqual(result.stdout.count(": holds"), 4, result.stdout)
 
     def test_an_answer_that_is_not_finite_is_found(self):
@@ -77,7 +81,8 @@ class Libraries(Folder):
     def test_the_mohr_coulomb_example_is_the_built_in_law(self):
         """At a point and in a boundary problem, where some points reach edges, to the tolerance of the equilibrium."""
         scene = self.scene("mohr_coulomb", "law.friction_angle = 25", "tolerance = 1e-10")
-        built_in = setting(continuum_law="mohr_coulomb", continuum_hardening="constant", continuum_friction_angle_peak=25,
+        built_in = setting(continuum_law="mohr_coulomb", continuum_hardening="constant",
+                           continuum_friction_angle_peak=25,
                            continuum_dilatancy_angle_peak=12, continuum_youngs_modulus=500, continuum_cohesion=0.01)
         plain = write(os.path.join(self.libraries, "built_in.prm"),
                       "\n".join(line for line in SCENE.format(library="", keys="  set tolerance = 1e-10").split("\n")
@@ -112,7 +117,8 @@ class Libraries(Folder):
         for fault, number in (("crash", signal.SIGSEGV), ("divide", signal.SIGFPE), ("abort", signal.SIGABRT)):
             result = self.faulty_run(fault, "--overwrite")
             self.assertEqual(result.returncode, -number, result.stderr)
-            self.assertRegex(result.stderr, "a crash ends this program, which uses the law library .*/faulty.so; a run keeps")
+            self.assertRegex(result.stderr, "a crash ends this program, which uses the law library .*/faulty.so; a run "
+                             "keeps")
             self.assertGreater(history(self.folder, "continuum.csv")["axial_strain"][-1], 0.003)
         self.assertEqual(self.faulty_run("none", "--resume").returncode, 0)
         whole, resumed = os.path.join(self.work, "whole"), bits(self.path("continuum.h5"))
@@ -127,16 +133,19 @@ class Libraries(Folder):
                 self.assertIn(reason, result.stderr)
                 self.assertIn("travel 0.00", result.stderr)
                 self.assertEqual("min_step" in result.stderr, command == "continuum", result.stderr)
-                self.assertEqual(bool(re.search(r"in element \d+, point \d \(x = ", result.stderr)), command == "continuum", result.stderr)
+                self.assertEqual(bool(re.search(r"in element \d+, point \d \(x = ", result.stderr)),
+                                 command == "continuum", result.stderr)
 
     def test_wrong_libraries_and_parameters_are_refused(self):
         text = write(os.path.join(self.libraries, "text.so"), "no library")
         self.assertTrue(text)
-        for library, keys, words in (("missing", (), ["line 4", "law_library", "missing.so is not a file", "cc -shared"]),
+        for library, keys, words in (("missing", (), ["line 4", "law_library", "missing.so is not a file",
+                                                      "cc -shared"]),
                                      ("text", (), ["line 4", "cannot be opened"]),
                                      ("old", (), ["line 4", "interface version 0", "needs 1"]),
                                      ("empty", (), ["has no function diptych_law_update"]),
-                                     ("von_mises", ("law.strenght = 2",), ["line 10", "law.strenght", "it has law.youngs_modulus"]),
+                                     ("von_mises", ("law.strenght = 2",),
+                                      ["line 10", "law.strenght", "it has law.youngs_modulus"]),
                                      ("von_mises", ("law.strength = -2",), ["line 10", "must lie in [1e-09, 1e+12]"]),
                                      ("von_mises", ("law.strength = strong",), ["line 10", "law.strength = 'strong'"])):
             result = diptych("continuum", self.scene(library, *keys), "--output", self.folder)

@@ -32,11 +32,12 @@ def setUpModule():
     work = tempfile.TemporaryDirectory()
     unittest.addModuleCleanup(work.cleanup)
     Built.site = os.path.join(work.name, "manual")
-    built = subprocess.run([sys.executable, "-B", os.path.join(MANUAL, "build.py"), SOURCE, PROGRAM, Built.site], capture_output=True,
-                           text=True, check=False)
+    built = subprocess.run([sys.executable, "-B", os.path.join(MANUAL, "build.py"), SOURCE, PROGRAM, Built.site],
+                           capture_output=True, text=True, check=False)
     if built.returncode:
         raise RuntimeError(built.stderr)
-    Built.pages = sorted(os.path.relpath(os.path.join(folder, name), Built.site) for folder, _, names in os.walk(Built.site)
+    Built.pages = sorted(os.path.relpath(os.path.join(folder, name), Built.site) for folder, _,
+                         names in os.walk(Built.site)
                          for name in names if name.endswith(".html"))
 
 
@@ -67,7 +68,8 @@ class Links(html.parser.HTMLParser):
 
 def broken_links(folder):
     """Sorted (page, link) of the links within a folder of pages whose file or anchor does not exist."""
-    pages = {os.path.join(root, name): Links(os.path.join(root, name)) for root, _, names in os.walk(os.path.realpath(folder))
+    pages = {os.path.join(root, name): Links(os.path.join(root, name)) for root, _,
+             names in os.walk(os.path.realpath(folder))
              for name in names if name.endswith(".html")}
     broken, top = [], os.path.realpath(folder)
     for path, page in pages.items():
@@ -94,7 +96,8 @@ class Manual(Built):
         self.assertGreater(len(explained("keys")), 100)
         for one in explained("keys"):
             page = self.shown(f"reference/keys_{one['section']}.html")
-            for text in (f"{one['key']} = {one['default'] or '(empty)'}", one["allowed"], one["meaning"].replace("`", "")):
+            for text in (f"{one['key']} = {one['default'] or '(empty)'}", one["allowed"],
+                         one["meaning"].replace("`", "")):
                 self.assertIn(text, page)
         self.assertGreater(len(explained("results")), 900)
         for one in explained("results"):
@@ -103,7 +106,8 @@ class Manual(Built):
                 self.assertIn(text, page)
 
     def test_every_command_and_option_is_listed(self):
-        names = re.findall(r"^  ([a-z-]+) ", diptych("--help", check=True).stdout.split("Subcommands:")[1], re.MULTILINE)
+        names = re.findall(r"^  ([a-z-]+) ", diptych("--help", check=True).stdout.split("Subcommands:")[1],
+                           re.MULTILINE)
         shown = self.shown("reference/commands.html")
         self.assertGreater(len(names), 10)
         for name in names:
@@ -112,7 +116,8 @@ class Manual(Built):
                 self.assertIn(option, shown)
 
     def test_every_readme_is_a_page(self):
-        found = [os.path.relpath(os.path.join(folder, "README.md"), SOURCE) for top in ("discrete", "continuum", "coupling", "benchmarks")
+        found = [os.path.relpath(os.path.join(folder, "README.md"), SOURCE)
+                 for top in ("discrete", "continuum", "coupling", "benchmarks")
                  for folder, _, names in os.walk(os.path.join(SOURCE, top)) if "README.md" in names]
         self.assertGreater(len(found), 30)
         for path in found:
@@ -132,8 +137,10 @@ class Manual(Built):
                     self.assertIn(option, known, f"{name}: diptych {command}")
 
     def test_equations_are_the_comments_of_the_sources(self):
-        shown, count = "".join(self.shown("equations.html").split()), 0  # without blanks: list items are lines of their own
-        for path in re.findall(r"<!-- equations: (.+) -->", content(os.path.join(MANUAL, "pages", "equations.md")).decode()):
+        # without blanks: list items are lines of their own
+        shown, count = "".join(self.shown("equations.html").split()), 0
+        for path in re.findall(r"<!-- equations: (.+) -->",
+                               content(os.path.join(MANUAL, "pages", "equations.md")).decode()):
             for comment in headers.formulas(content(os.path.join(SOURCE, path)).decode()):
                 self.assertIn("".join(comment.replace("`", "").split()[:9]), shown, path)
                 count += 1
@@ -156,7 +163,8 @@ class Manual(Built):
             for tag in re.findall(r"<(?:script|img|link)\b[^>]*>", self.page(name)):
                 if 'rel="canonical"' not in tag:
                     self.assertNotRegex(tag, r'(?:src|href)="(?:https?:)?//', name)
-        styles = [os.path.join(folder, name) for folder, _, names in os.walk(self.site) for name in names if name.endswith(".css")]
+        styles = [os.path.join(folder, name) for folder, _, names in os.walk(self.site) for name in names
+                  if name.endswith(".css")]
         self.assertGreater(len(styles), 2)
         for path in styles:
             self.assertNotRegex(content(path).decode(), r"url\(['\"]?https?:", path)
@@ -164,8 +172,8 @@ class Manual(Built):
     def test_the_example_scenes_run(self):
         for name in (name for name in os.listdir(os.path.join(MANUAL, "examples")) if name.endswith(".prm")):
             with tempfile.TemporaryDirectory() as work:
-                done = diptych("run", os.path.join(MANUAL, "examples", name), *SMALL, *setting(sample_grains=200, output_report="false"),
-                               "--output", work, "--quiet")
+                done = diptych("run", os.path.join(MANUAL, "examples", name), *SMALL,
+                               *setting(sample_grains=200, output_report="false"), "--output", work, "--quiet")
                 self.assertEqual((done.returncode, "warning" in done.stderr), (0, False), done.stderr)
         self.assertTrue(os.path.exists(QUICK))  # the scene of the page first_comparison
 
@@ -194,7 +202,8 @@ class Look(Built):
             for name in names:
                 self.open(name)
                 self.assertLessEqual(self.width(), size[0], name)
-        self.window.run("document.querySelector('article').innerHTML = '<p style=\"width: 900px\">x</p>'")  # it can fail
+        # it can fail
+        self.window.run("document.querySelector('article').innerHTML = '<p style=\"width: 900px\">x</p>'")
         self.assertGreater(self.width(), PHONE[0])
         self.assertEqual(self.window.messages, [])
 
@@ -203,7 +212,8 @@ class Look(Built):
         self.open("find.html")
         links = "[...document.querySelectorAll('#found a')].map((a) => a.getAttribute('href'))"
         self.assertGreater(len(self.window.run(links)), 10)  # before anything is typed
-        self.window.run("(() => { const f = document.getElementById('words'); f.value = 'internal Cosserat KEY'; f.dispatchEvent(new Event('input')); })()")
+        self.window.run("(() => { const f = document.getElementById('words'); f.value = 'internal Cosserat KEY'; "
+                        "f.dispatchEvent(new Event('input')); })()")
         self.assertIn("reference/keys_continuum.html#continuum-internal_length", self.window.run(links))
         self.assertEqual(self.window.messages, [])
 

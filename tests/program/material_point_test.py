@@ -11,9 +11,10 @@ from running import QUICK, Folder, diptych, finished, history, listing, main, se
 
 class MaterialPoint(Folder):
     def test_perfectly_plastic_mohr_coulomb(self):
-        """s1 = s3 Kp + 2 c sqrt(Kp) with Kp = (1 + sin phi)/(1 - sin phi) = 3: s1 = 3 + 0.2 sqrt 3, t/s = (s1-1)/(s1+1)."""
-        words = setting(continuum_law="cosserat_mohr_coulomb", continuum_hardening="constant", continuum_friction_angle_peak=30,
-                        continuum_cohesion=0.1, loading_axial_strain=0.04)
+        """s1 = s3 Kp + 2 c sqrt(Kp) with Kp = (1 + sin phi)/(1 - sin phi) = 3: s1 = 3 + 0.2 sqrt 3, t/s =
+        (s1-1)/(s1+1)."""
+        words = setting(continuum_law="cosserat_mohr_coulomb", continuum_hardening="constant",
+                        continuum_friction_angle_peak=30, continuum_cohesion=0.1, loading_axial_strain=0.04)
         result = finished("material-point", QUICK, *words, "--output", self.folder)
         rows, s1 = history(self.folder, "material_point.csv"), 3 + 0.2 * math.sqrt(3)
         self.assertAlmostEqual(rows["stress_ratio"][-1], (s1 - 1) / (s1 + 1), places=6)
@@ -31,10 +32,12 @@ class MaterialPoint(Folder):
         self.assertLess(abs(rows["volumetric_strain"]).max(), 1e-15)
 
     def test_a_table_drives_the_point_and_a_stress_beyond_the_strength_keeps_what_was_reached(self):
-        """Loading, unloading to half of it with E / (1 - nu^2) = 520.8, then a stress above s1 = 3 + 0.2 sqrt 3 = 3.3464."""
+        """Loading, unloading to half of it with E / (1 - nu^2) = 520.8, then a stress above s1 = 3 + 0.2 sqrt 3 =
+        3.3464."""
         words = setting(continuum_law="mohr_coulomb", continuum_hardening="constant", continuum_friction_angle_peak=30,
                         continuum_cohesion=0.1, continuum_youngs_modulus=500)
-        table = write(os.path.join(self.work, "path.csv"), "# an unloading\nprogress, syy, sxx, exy\n0, 1, 1, 0\n1, 3, 1, 0\n"
+        table = write(os.path.join(self.work, "path.csv"), "# an unloading\nprogress, syy, sxx, exy\n0, 1, 1, 0\n1, 3, "
+                      "1, 0\n"
                                                            "2, 1.5, 1, 0\n3, 4, 1, 0\n")
         result = diptych("material-point", QUICK, *words, "--path", table, "--output", self.folder)
         self.assertEqual(result.returncode, 3, result.stderr)

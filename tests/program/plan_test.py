@@ -70,17 +70,20 @@ class Panels(Plan):
         reference = os.path.join(self.work, "fine")
         fine = setting(continuum_element_size=0.75, continuum_max_step=0.0005, continuum_initial_step=0.0005,
                        comparison_coarse_element_size=0)
-        for scene, folder, words in ((OBLIQUE, reference, COARSE + fine), (os.path.join(self.folder, "planned.prm"), self.work + "/planned", [])):
+        for scene, folder, words in ((OBLIQUE, reference, COARSE + fine),
+                                     (os.path.join(self.folder, "planned.prm"), self.work + "/planned", [])):
             run = diptych("continuum", scene, "--output", folder, "--quiet", *words)
             self.assertEqual(run.returncode, 0, run.stderr)
-        peaks = [max(history(folder, "continuum.csv")["stress_ratio"]) for folder in (reference, self.work + "/planned")]
+        peaks = [max(history(folder, "continuum.csv")["stress_ratio"])
+                 for folder in (reference, self.work + "/planned")]
         self.assertLess(abs(peaks[1] / peaks[0] - 1), 0.03)
 
     def test_both_panels_and_a_number_of_the_comparison(self):
         self.plan(QUICK, "50%", *SMALL, "--set", "discrete/step=auto", "--set", "discrete/tolerance=auto", "--for",
                   "final_volumetric_strain,discrete_summary peak_stress_ratio", "--jobs", "2")
         plan = read_json(self.folder, "plan.json")
-        self.assertEqual([(p["panel"], p["command"]) for p in plan["panels"]], [("discrete", "run"), ("continuum", "continuum")])
+        self.assertEqual([(p["panel"], p["command"]) for p in plan["panels"]],
+                         [("discrete", "run"), ("continuum", "continuum")])
         self.assertIn("discrete/snapshot_max_sweeps = 0", plan["panels"][0]["settings"])
         self.assertIn("comparison/coarse_element_size = 0", plan["panels"][1]["settings"])
         self.assertEqual(len(plan["panels"][0]["quantities"]), 2)
@@ -123,9 +126,11 @@ class Refused(Plan):
         for scene, words, texts in [
                 (GRAINS, ["--accuracy", "2%", "--for", "peak"], ["'peak'", "peak_stress_ratio, strength"]),
                 (GRAINS, ["--accuracy", "2%", "--set", "sample/grians=3"], ["sample/grians", "sample/grains"]),
-                (GRAINS, ["--accuracy", "2%", "--set", "discrete/method=penalty"], ["discrete/method = penalty", "nscd"]),
+                (GRAINS, ["--accuracy", "2%", "--set", "discrete/method=penalty"],
+                 ["discrete/method = penalty", "nscd"]),
                 (GRAINS, ["--accuracy", "2%", "--set", "loading/mode=time"], ["loading/mode = time"]),
-                (OBLIQUE, ["--accuracy", "2%", "--for", "continuum.angle"], ["continuum/mesh = rectangle", "comparison"]),
+                (OBLIQUE, ["--accuracy", "2%", "--for", "continuum.angle"],
+                 ["continuum/mesh = rectangle", "comparison"]),
                 (OBLIQUE, ["--accuracy", "2%", "--for", "discrete.strength"], ["sets no key of sample or discrete"]),
                 (GRAINS, [], ["--accuracy is required"])]:
             with self.subTest(words=words):
@@ -136,7 +141,8 @@ class Refused(Plan):
         self.assertFalse(os.path.exists(self.folder))
 
     def test_an_accuracy_out_of_reach_is_said(self):
-        result = self.plan(GRAINS, "0.1%", *setting(sample_grains=40, loading_axial_strain=0.01, loading_stage_strain=0.01), code=3)
+        result = self.plan(GRAINS, "0.1%", *setting(sample_grains=40, loading_axial_strain=0.01,
+                                                    loading_stage_strain=0.01), code=3)
         self.assertIn("not reached", result.stderr)
         self.assertIn("NOT reached", result.stdout)
         (panel,) = read_json(self.folder, "plan.json")["panels"]

@@ -13,8 +13,8 @@ import unittest
 import numpy
 
 import browser
-from running import (PROGRAM, QUICK, SOURCE, diptych, finished, half_files, history, main, read_json, setting, temporary,
-                     write)
+from running import (PROGRAM, QUICK, SOURCE, diptych, finished, half_files, history, main, read_json, setting,
+                     temporary, write)
 
 
 def number(value):
@@ -32,7 +32,8 @@ class QuickScene(unittest.TestCase):
         cls.comparison = read_json(cls.folder, "comparison.json")
 
     def test_every_promised_file_is_there_and_no_half_file(self):
-        for name in ["scene.prm", "provenance.json", "discrete.h5", "discrete.pvd", "discrete_contacts.pvd", "discrete.csv", "continuum.h5",
+        for name in ["scene.prm", "provenance.json", "discrete.h5", "discrete.pvd", "discrete_contacts.pvd",
+                     "discrete.csv", "continuum.h5",
                      "continuum.pvd", "continuum.csv", "comparison.json", "comparison.csv", "summary.csv",
                      "fields.pvd", "report.html"]:
             self.assertTrue(os.path.getsize(os.path.join(self.folder, name)) > 0, name)
@@ -72,7 +73,8 @@ class QuickScene(unittest.TestCase):
         self.assertLess(abs(last["lower_fy"] + last["upper_fy"]), 1e-3 * abs(last["upper_fy"]))
 
     def test_dissipation_inside_and_outside_the_band_adds_up_to_the_ledger(self):
-        """Every stage shows a band here; what its contacts dissipate, by friction and by impacts, is what the ledger counted."""
+        """Every stage shows a band here; what its contacts dissipate, by friction and by impacts, is what the ledger
+        counted."""
         splits = [stage["discrete"]["dissipation"] for stage in self.comparison["stages"]]
         rows = history(self.folder)
         ledger = rows["friction_dissipation"][-1] + rows["impact_dissipation"][-1]
@@ -110,8 +112,8 @@ class QuickScene(unittest.TestCase):
         self.assertEqual(float(peak[0]["value"]), c["discrete_summary"]["peak_stress_ratio"])
 
     def test_dynamic_terms_are_small(self):
-        """P33: below 0.1 % in the paper; here the spin term is. The acceleration is that of a single step: below 1 % in the median, more
-        where the step falls into a burst."""
+        """P33: below 0.1 % in the paper; here the spin term is. The acceleration is that of a single step: below 1 % in
+        the median, more where the step falls into a burst."""
         shares = []
         for stage in self.comparison["stages"]:
             self.assertLess(abs(stage["discrete"]["dynamic_share"]), 1e-3)
@@ -171,12 +173,14 @@ class ReferenceScene(unittest.TestCase):
 
 
 class WideSample(unittest.TestCase):
-    """W/H = 1.5: a line at 45 degrees cannot leave by both sides, and what is found along the diagonal parts no two packs."""
+    """W/H = 1.5: a line at 45 degrees cannot leave by both sides, and what is found along the diagonal parts no two
+    packs."""
 
     def test_no_band_is_called_a_zone_between_two_packs(self):
         n_bands, zones = 0, []
         for seed in (1, 2, 3):
-            folder, words = temporary(self), setting(sample_width_over_height=1.5, sample_seed=seed, output_report="false")
+            folder, words = temporary(self), setting(sample_width_over_height=1.5, sample_seed=seed,
+                                                     output_report="false")
             finished("run", QUICK, *words, "--output", folder, "--quiet")
             windows = read_json(folder, "comparison.json")["windows"]
             self.assertEqual(len(windows), 3)
@@ -197,7 +201,8 @@ class WideSample(unittest.TestCase):
 class CommandLine(unittest.TestCase):
     def test_wrong_words_are_named(self):
         for words, *texts in ((["run"], "SCENE is required"), (["rnu", QUICK], "'rnu' is not a command", "'run'"),
-                              (["run", QUICK, "--outptu", "x"], "'--outptu x' is not used", "nearest option is '--output'"),
+                              (["run", QUICK, "--outptu", "x"], "'--outptu x' is not used",
+                               "nearest option is '--output'"),
                               (["run", QUICK, "--outptu=x"], "'--outptu=x' is not used"),
                               (["run", QUICK, "--seed", "3"], "nearest option is '--seeds'"),
                               (["run", QUICK, "--solver", "psor"], "option of diptych solve"),
@@ -227,15 +232,18 @@ class CommandLine(unittest.TestCase):
 
     def test_completion_offers_commands_options_keys_and_values(self):
         script = write(os.path.join(temporary(self), "completion"), diptych("completion", "bash").stdout)
-        for words, offered in ((["ru"], "run"), (["run", "scene.prm", "--see"], "--seeds"), (["solve", "--solver", ""], "psor"),
-                               (["solve", "--form", "lo"], "local"), (["explain", "samp"], "sample"), (["explain", "res"], "results"),
+        for words, offered in ((["ru"], "run"), (["run", "scene.prm", "--see"], "--seeds"),
+                               (["solve", "--solver", ""], "psor"),
+                               (["solve", "--form", "lo"], "local"), (["explain", "samp"], "sample"),
+                               (["explain", "res"], "results"),
                                (["completion", ""], "bash"), (["study", "scene.prm", "--va"], "--vary"),
                                (["study", "--panels", "d"], "discrete"),
                                (["run", "--set", "discrete/fric"], "discrete/friction="),
                                (["run", "--set", "continuum/law", "=", "mo"], "mohr_coulomb"),
                                (["run", "--set", "discrete/lateral", "="], "periodic")):
             quoted = " ".join(f"'{word}'" for word in [PROGRAM, *words])
-            told = subprocess.run(["bash", "-c", f"source {script}; COMP_WORDS=({quoted}); COMP_CWORD={len(words)}; _diptych; "
+            told = subprocess.run(["bash", "-c", f"source {script}; COMP_WORDS=({quoted}); COMP_CWORD={len(words)}; "
+                                   "_diptych; "
                                    "echo ${COMPREPLY[@]}"], capture_output=True, text=True, check=True).stdout.split()
             self.assertIn(offered, told, words)
             self.assertLess(len(told), 20, words)

@@ -16,8 +16,8 @@ PACKAGE = os.path.join(SOURCE, "coupling", "python", "diptych")
 FOLDERS = ("discrete", "continuum", "coupling", "tests", "benchmarks")
 
 # The rooms of the package from the ground up: a folder or a module. A room imports itself and those before it.
-ROOMS = ("errors", "words", "files", "compiled", "scenes", "plotting", "arrays", "operators", "laws", "panels", "problems",
-         "results", "sheets", "averaging_width", "homogenisation", "shipped", "importers", "report/data",
+ROOMS = ("errors", "words", "files", "compiled", "scenes", "plotting", "arrays", "operators", "laws", "panels",
+         "problems", "results", "sheets", "averaging_width", "homogenisation", "shipped", "importers", "report/data",
          "report/charts", "report/tables", "report/page", "report", "campaigns/runs", "campaigns/studies",
          "campaigns/ensembles", "campaigns/calibration", "campaigns/plans", "campaigns/exchange", "campaigns/element",
          "campaigns", "")
@@ -56,7 +56,8 @@ def imports(root, path):
     """The modules of the package that a module imports outside of type checks, as paths below the package."""
     here = [part for part in os.path.relpath(os.path.dirname(path), root).split(os.sep) if part != "."]
     tree = ast.parse(text_of(path))
-    typing_only = {child for node in ast.walk(tree) if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test)
+    typing_only = {child for node in ast.walk(tree) if isinstance(node, ast.If)
+                   and "TYPE_CHECKING" in ast.dump(node.test)
                    for child in ast.walk(node)}
     for node in ast.walk(tree):
         if isinstance(node, ast.ImportFrom) and node.level and node not in typing_only:

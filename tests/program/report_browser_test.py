@@ -42,7 +42,8 @@ class Browser(unittest.TestCase):
 
     def limits(self):
         """Colour limits of both panels of the first pair."""
-        return self.page.run(f"[...document.querySelectorAll('{PAIR}')].map((c) => c.dataset.low + ' ' + c.dataset.high)")
+        return self.page.run(f"[...document.querySelectorAll('{PAIR}')].map((c) => c.dataset.low + ' ' + "
+                             "c.dataset.high)")
 
     def choose(self, selector, value):
         self.page.run(f"(() => {{ const s = document.querySelector('{selector}'); s.value = '{value}';"
@@ -61,7 +62,8 @@ class Browser(unittest.TestCase):
         self.assertEqual(self.page.messages, [])
         self.assertEqual((self.page.run("document.querySelectorAll('figure.panel img').length"),
                           self.page.run("document.querySelectorAll('canvas').length")), number_of_figures())
-        bad = "[...document.querySelectorAll('canvas.map')].filter((c) => c.dataset.drawn !== 'yes' || c.width < 100).length"
+        bad = ("[...document.querySelectorAll('canvas.map')]"
+               ".filter((c) => c.dataset.drawn !== 'yes' || c.width < 100).length")
         self.assertEqual(self.page.run(bad), 0)
         self.assertTrue(self.page.run("[...document.images].every((i) => i.complete && i.naturalWidth > 0)"))
 
@@ -70,12 +72,14 @@ class Browser(unittest.TestCase):
         self.page.size(*PHONE)
         self.page.open(os.path.join(self.folder, "report.html"))
         cut = self.page.run("""[...document.querySelectorAll('canvas.bar')].filter((c) => [0, c.width - 1].some((x) =>
-          c.getContext('2d').getImageData(x, 30 * pixels, 1, c.height - 30 * pixels).data.some((v) => v < 250))).length""")
+          c.getContext('2d').getImageData(x, 30 * pixels, 1, c.height - 30 * pixels).data
+            .some((v) => v < 250))).length""")
         self.assertEqual((self.page.run("document.querySelectorAll('canvas.bar').length > 2"), cut), (True, 0))
 
     def test_a_map_has_the_right_colour_at_a_place(self):
-        # The limits of the window are 0 and 3.9 %. Continuum, third cell: 0.08 * 2/5 = 3.2 %, so colour floor(256 * 3.2/3.9) = 210.
-        # Grains: grain 20 (fifth row, first column) at (0.5, 4.5): 2 * 20/39 = 1.0256 %, so floor(256 * 1.0256/3.9) = 67.
+        # The limits of the window are 0 and 3.9 %. Continuum, third cell: 0.08 * 2/5 = 3.2 %, so colour floor(256 *
+        # 3.2/3.9) = 210. Grains: grain 20 (fifth row, first column) at (0.5, 4.5): 2 * 20/39 = 1.0256 %, so floor(256 *
+        # 1.0256/3.9) = 67.
         table = self.page.run("data.maps.viridis")
         for panel, at, number in (("continuum", (1.25, 3.6), 210), ("discrete", (0.5, 4.65), 67)):
             expected = [int(table[number][k:k + 2], 16) for k in (1, 3, 5)]
@@ -127,7 +131,8 @@ class Browser(unittest.TestCase):
         self.page.run("""(() => {
           const c = document.querySelector('.pair[data-draw="quantity"] canvas'), r = c.getBoundingClientRect();
           const scale = (r.width - 44) / (data.box[1] - data.box[0]);
-          c.dispatchEvent(new PointerEvent('pointermove', {bubbles: true, clientX: r.left + 38 + scale * (0.5 - data.box[0]),
+          c.dispatchEvent(new PointerEvent('pointermove', {bubbles: true,
+            clientX: r.left + 38 + scale * (0.5 - data.box[0]),
             clientY: r.top + 6 + scale * (data.box[3] - 4.5)})); })()""")
         self.assertEqual(self.page.run("document.querySelector('output.readout').textContent"),
                          "x 0.5 d, y 4.5 d: grains 1.03, continuum 3.20")
@@ -146,7 +151,8 @@ class Browser(unittest.TestCase):
         self.page.command("Emulation.setEmulatedMedia", media="print")
         self.page.run("window.dispatchEvent(new Event('beforeprint'))")
         self.assertEqual(self.page.run("document.querySelectorAll('#sheet canvas').length"), 2 * (STAGES + WINDOWS))
-        shown = self.page.run("[...document.querySelectorAll('#strips-section .pane.window')].map((p) => p.offsetHeight > 0)")
+        shown = self.page.run("[...document.querySelectorAll('#strips-section .pane.window')].map((p) => "
+                              "p.offsetHeight > 0)")
         self.assertEqual(shown, [True] * WINDOWS)
         cut = self.page.run("""[...document.querySelectorAll('figure, canvas, img')].filter((f) => f.offsetHeight > 0)
           .map((f) => f.getBoundingClientRect())

@@ -16,8 +16,8 @@ OTHER = setting(continuum_friction_angle_peak=30)
 STUDY = {
     "scene": os.path.join(SOURCE, "benchmarks", "dense_biaxial", "scene.prm"), "command": "discrete", "seeds": "1-2",
     "set": {"sample/grains": 100, "loading/axial_strain": 0.005, "loading/stage_strain": 0.005},
-    "reference": {"discrete/step": 0.1, "discrete/tolerance": 1e-4}, "axes": [{"key": "discrete/step", "values": [0.4]}],
-    "quantities": [{"column": "volumetric_strain", "at": 0.005}]}
+    "reference": {"discrete/step": 0.1, "discrete/tolerance": 1e-4},
+    "axes": [{"key": "discrete/step", "values": [0.4]}], "quantities": [{"column": "volumetric_strain", "at": 0.005}]}
 
 
 class Folders(faults_test.Folder):
@@ -42,18 +42,21 @@ class Folders(faults_test.Folder):
 class Refused(Folders):
     def test_results_are_replaced_only_on_request(self):
         for command in ("run", "discrete"):
-            self.expect(2, self.words(command, *setting(discrete_friction=0.3)), self.folder, "discrete/friction", "--output", "--overwrite")
+            self.expect(2, self.words(command, *setting(discrete_friction=0.3)), self.folder, "discrete/friction",
+                        "--output", "--overwrite")
         self.expect(2, self.words("run", *OTHER), "--resume", "--overwrite")
 
     def test_results_of_another_sample_are_not_gone_on_from(self):
-        for words in (["run", "--resume"], ["discrete", "--resume"], ["continuum"], ["continuum", "--resume"], ["material-point"]):
+        for words in (["run", "--resume"], ["discrete", "--resume"], ["continuum"], ["continuum", "--resume"],
+                      ["material-point"]):
             self.expect(2, self.words(*words, *setting(discrete_friction=0.3)), "discrete/friction", self.folder)
 
     def test_a_folder_with_other_files_is_refused(self):
         shutil.rmtree(self.folder)
         os.mkdir(self.folder)
         write(os.path.join(self.folder, "thesis.tex"), "n\n")
-        for words in (["run"], ["run", "--resume"], ["run", "--overwrite"], ["run", "--seeds", "1-2"], ["run", "--seeds", "1-2", "--overwrite"]):
+        for words in (["run"], ["run", "--resume"], ["run", "--overwrite"], ["run", "--seeds", "1-2"],
+                      ["run", "--seeds", "1-2", "--overwrite"]):
             self.expect(2, self.words(*words), self.folder)
 
     def test_a_second_writer_is_refused(self):
@@ -69,9 +72,10 @@ class Refused(Folders):
         self.assertFalse(os.path.exists(self.folder + ".1"))
 
     def test_a_changed_byte_is_noticed(self):
-        for name, commands in (("discrete.csv", ("compare", "report", "resume")), ("continuum.csv", ("compare", "report", "resume")),
-                               ("discrete.h5", ("compare", "report", "resume")), ("continuum.h5", ("compare", "report")),
-                               ("comparison.json", ("report",))):
+        for name, commands in (("discrete.csv", ("compare", "report", "resume")),
+                               ("continuum.csv", ("compare", "report", "resume")),
+                               ("discrete.h5", ("compare", "report", "resume")),
+                               ("continuum.h5", ("compare", "report")), ("comparison.json", ("report",))):
             path = os.path.join(self.folder, name)
             whole = content(path)
             with open(path, "wb") as file:
@@ -91,7 +95,8 @@ class Overwritten(Folders):
         for seed in (3, 4):  # one generation is kept
             self.expect(0, self.words("discrete", "--overwrite", *setting(sample_seed=seed)))
             if seed == 3:
-                self.assertEqual({name: content(os.path.join(self.folder + ".1", name)) for name in listing(self.folder + ".1")}, before)
+                self.assertEqual({name: content(os.path.join(self.folder + ".1", name))
+                                  for name in listing(self.folder + ".1")}, before)
         self.assertNotIn("notes.txt", listing(self.folder))
         self.assertIn(b"set seed = 3", content(os.path.join(self.folder + ".1", "scene.prm")))
         self.assertIn(b"set seed = 4", content(os.path.join(self.folder, "scene.prm")))
@@ -111,7 +116,8 @@ class Overwritten(Folders):
 
     def test_what_is_refused_leaves_the_results_in_their_place(self):
         self.expect(2, self.words("discrete", "--overwrite", *setting(discrete_friction=-1)), "discrete/friction")
-        self.expect(2, self.words("run", "--overwrite", *setting(sample_target_solid_fraction=0.99)), "target_solid_fraction")
+        self.expect(2, self.words("run", "--overwrite", *setting(sample_target_solid_fraction=0.99)),
+                    "target_solid_fraction")
 
     def test_ensembles_and_studies(self):
         study = [write(os.path.join(self.work, "study.json"), json.dumps(STUDY)), "--jobs", "2", "--quiet"]
@@ -155,7 +161,8 @@ class GoneOn(Folders):
                 self.expect(0, ["compare", self.folder, "--quiet"])
 
     def test_until_it_is_complete_the_first_continuum_stays(self):
-        """Killed at any moment, the folder is that of the first continuum, and --resume ends with the second one's bits."""
+        """Killed at any moment, the folder is that of the first continuum, and --resume ends with the second one's
+        bits."""
         first, second = self.curve(self.folder), self.curve(self.truth())
         comparison = content(os.path.join(self.folder, "comparison.json"))
         words = self.words("run", "--resume", *OTHER, *setting(continuum_checkpoint_minutes=0))
@@ -165,7 +172,8 @@ class GoneOn(Folders):
                 time.sleep(0.002)
             process.kill()
             process.wait()
-            self.assertEqual((self.curve(self.folder), content(os.path.join(self.folder, "comparison.json"))), (first, comparison))
+            self.assertEqual((self.curve(self.folder), content(os.path.join(self.folder, "comparison.json"))),
+                             (first, comparison))
         self.expect(0, words)
         self.assertEqual(self.curve(self.folder), second)
         self.assertNotEqual(content(os.path.join(self.folder, "comparison.json")), comparison)
@@ -199,7 +207,8 @@ class GoneOn(Folders):
         self.expect(0, words)
         table = content(os.path.join(self.folder, "ensemble.csv"))
         member = os.path.join(self.folder, "seed_1")
-        self.expect(0, ["run", QUICK, *BOTH, *setting(discrete_friction=0.9), "--quiet", "--overwrite", "--output", member])
+        self.expect(0, ["run", QUICK, *BOTH, *setting(discrete_friction=0.9), "--quiet", "--overwrite", "--output",
+                        member])
         self.expect(2, ["compare", self.folder], member, "discrete/friction")
         self.expect(2, [*words, "--resume"], member, "discrete/friction")
         shutil.rmtree(member)

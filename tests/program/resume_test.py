@@ -10,8 +10,8 @@ import time
 
 import h5py
 
-from running import (bits, content, contents, diptych, finished, Folder, half_files, listing, LONG, main, QUICK, setting, SMALL,
-                     start, temporary)
+from running import (bits, content, contents, diptych, finished, Folder, half_files, listing, LONG, main, QUICK,
+                     setting, SMALL, start, temporary)
 
 
 class Resume(Folder):
@@ -102,10 +102,11 @@ class Resume(Folder):
         self.expect_same_results()
 
     def test_a_run_that_did_not_converge_in_its_last_stage_is_not_finished(self):
-        """Springs with steps far too long blow up soon. In a loading of one stage the prepared sample and the last accepted
-        step are two snapshots, as many as a whole run has."""
+        """Springs with steps far too long blow up soon. In a loading of one stage the prepared sample and the last
+        accepted step are two snapshots, as many as a whole run has."""
         words = SMALL + setting(sample_grains=100, loading_axial_strain=0.005, comparison_window_edges="0,0.005",
-                                discrete_method="penalty", discrete_penalty_step_fraction=1.5, discrete_penalty_preload=0)
+                                discrete_method="penalty", discrete_penalty_step_fraction=1.5,
+                                discrete_penalty_preload=0)
         for more in ([], ["--resume"]):
             result = diptych("discrete", QUICK, *words, "--output", self.folder, "--quiet", *more)
             self.assertEqual(result.returncode, 3, result.stdout + result.stderr)

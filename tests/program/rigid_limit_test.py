@@ -1,7 +1,8 @@
 # diptych: grains against stored runs of LAMMPS, and against their own limits of step and tolerance
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""rigid_limit_test.py PROGRAM SOURCE CLASS. Samples, stored curves and how a run is read: benchmarks/rigid_limit. All runs have the same
-bits on every machine: bounds allow for changes of the code, not for chance. Differences are sample by sample."""
+"""rigid_limit_test.py PROGRAM SOURCE CLASS. Samples, stored curves and how a run is read: benchmarks/rigid_limit. All
+runs have the same bits on every machine: bounds allow for changes of the code, not for chance. Differences are sample
+by sample."""
 import argparse
 import os
 import sys

@@ -42,11 +42,13 @@ def diptych(*words, **options):
 
 
 def start(*words, **options):
-    return subprocess.Popen([PROGRAM, *words], env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
+    return subprocess.Popen([PROGRAM, *words], env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                            text=True, **options)
 
 
 def listing(folder):
-    return sorted(os.path.relpath(os.path.join(root, name), folder) for root, _, names in os.walk(folder) for name in names)
+    return sorted(os.path.relpath(os.path.join(root, name), folder) for root, _,
+                  names in os.walk(folder) for name in names)
 
 
 def write(path, text):
@@ -109,9 +111,11 @@ def facts(folder):
 
 
 def bound_by_permissions():
-    """For preexec_fn: the system's administrator, too, may not write where nobody may (CAP_DAC_OVERRIDE is given up)."""
+    """For preexec_fn: the system's administrator, too, may not write where nobody may (CAP_DAC_OVERRIDE is given
+    up)."""
     drop_of_the_bounding_set, override_of_permissions = 24, 1
-    if os.getuid() == 0 and ctypes.CDLL(None, use_errno=True).prctl(drop_of_the_bounding_set, override_of_permissions, 0, 0, 0) != 0:
+    if os.getuid() == 0 and ctypes.CDLL(None, use_errno=True).prctl(drop_of_the_bounding_set, override_of_permissions,
+                                                                    0, 0, 0) != 0:
         raise OSError(ctypes.get_errno(), "prctl")
 
 

@@ -40,24 +40,28 @@ class Solve(Folder):
         self.assertTrue((numpy.abs(rt) <= mu * rn * (1 + 1e-12)).all())
         scale = numpy.abs(r).max() * (diagonal[0::2] * rn.size**0.5)
         self.assertTrue((un >= -10 * tolerance * scale).all(), "closing velocity left")
-        self.assertTrue((numpy.minimum(rn * diagonal[0::2], numpy.abs(un)) <= 10 * tolerance * scale).all(), "complementarity")
+        self.assertTrue((numpy.minimum(rn * diagonal[0::2], numpy.abs(un)) <= 10 * tolerance * scale).all(),
+                        "complementarity")
 
     def test_what_is_called_solved_is(self):
         """With each solver and form, and the same bits with two threads."""
         found = {}
         for problem, solver, form, tolerance, threads in [
-                ("small", "psor", "body", 1e-8, 1), ("small", "psor", "body", 1e-8, 2), ("small", "psor", "local", 1e-8, 1),
-                ("small", "nsgs", "body", 1e-8, 1), ("small", "nsgs", "local", 1e-8, 1), ("medium", "psor", "body", 1e-6, 1)]:
+                ("small", "psor", "body", 1e-8, 1), ("small", "psor", "body", 1e-8, 2),
+                ("small", "psor", "local", 1e-8, 1),
+                ("small", "nsgs", "body", 1e-8, 1), ("small", "nsgs", "local", 1e-8, 1),
+                ("medium", "psor", "body", 1e-6, 1)]:
             with self.subTest(problem=problem, solver=solver, form=form, threads=threads):
                 path = os.path.join(self.work, "solved.h5")
-                result, printed = solve(problem + ".h5", "--solver", solver, "--form", form, "--tolerance", str(tolerance),
-                                        "--threads", str(threads), "--output", path)
+                result, printed = solve(problem + ".h5", "--solver", solver, "--form", form, "--tolerance",
+                                        str(tolerance), "--threads", str(threads), "--output", path)
                 self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
                 self.assertEqual((printed["status"], printed["solver"], printed["form"]), ("converged", solver, form))
                 self.assertLessEqual(float(printed["residual"]), tolerance)
                 self.judge(path, tolerance)
                 self.assertEqual(listing(self.work), ["solved.h5"])
-                self.assertEqual(bits(path)["solution/r"], found.setdefault((problem, solver, form), bits(path)["solution/r"]))
+                self.assertEqual(bits(path)["solution/r"], found.setdefault((problem, solver, form),
+                                                                            bits(path)["solution/r"]))
                 os.remove(path)
 
     def test_too_few_sweeps_are_exit_code_three_and_what_was_reached_is_kept(self):
@@ -75,13 +79,15 @@ class Solve(Folder):
         other = os.path.join(self.work, "other.h5")
         with h5py.File(other, "w") as file:
             file["numbers"] = [1, 2, 3]
-        for wrong in [half, other, write(os.path.join(self.work, "text.h5"), "no HDF5\n"), os.path.join(self.work, "none.h5")]:
+        for wrong in [half, other, write(os.path.join(self.work, "text.h5"), "no HDF5\n"),
+                      os.path.join(self.work, "none.h5")]:
             result, _ = solve(wrong)
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn(wrong, result.stderr)
 
     def test_words_that_are_wrong(self):
-        for words in [["--solver", "lemke"], ["--form", "global"], ["--tolerance", "0"], ["--tolerance", "2"], ["--max-sweeps", "0"]]:
+        for words in [["--solver", "lemke"], ["--form", "global"], ["--tolerance", "0"], ["--tolerance", "2"],
+                      ["--max-sweeps", "0"]]:
             result, _ = solve("small.h5", *words)
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn(words[1], result.stderr)

@@ -19,7 +19,8 @@ class Interruption(study_test.Study):
     @classmethod
     def setUpClass(cls):
         work = cls.enterClassContext(tempfile.TemporaryDirectory())
-        cls.alone, file = os.path.join(work, "alone"), write(os.path.join(work, "steps.json"), json.dumps(LONG, indent=1))
+        cls.alone, file = os.path.join(work, "alone"), write(os.path.join(work, "steps.json"),
+                                                             json.dumps(LONG, indent=1))
         result = diptych("study", file, "--output", cls.alone, "--quiet")
         assert result.returncode == 0, result.stderr
 

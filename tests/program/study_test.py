@@ -51,7 +51,8 @@ class Study(Folder):
 
     def times(self):
         """When each run's table was written."""
-        return {name: os.stat(self.path(name)).st_mtime_ns for name in listing(self.folder) if name.endswith("discrete.csv")}
+        return {name: os.stat(self.path(name)).st_mtime_ns for name in listing(self.folder)
+                if name.endswith("discrete.csv")}
 
     def worker_at_work(self, process):
         """Process number of a study's worker, once a run of it has a sample."""
@@ -75,14 +76,16 @@ class Points(Study):
     @classmethod
     def setUpClass(cls):
         work = cls.enterClassContext(tempfile.TemporaryDirectory())
-        cls.done, file = os.path.join(work, "done"), write(os.path.join(work, "steps.json"), json.dumps(STUDY, indent=1))
+        cls.done, file = os.path.join(work, "done"), write(os.path.join(work, "steps.json"),
+                                                           json.dumps(STUDY, indent=1))
         cls.process = diptych("study", file, "--output", cls.done, "--jobs", "1")
         assert cls.process.returncode == 0, cls.process.stdout + cls.process.stderr
 
     def test_every_point_is_there_with_its_errors(self):
         record = read_json(self.done, "study.json")
         self.assertEqual([p["labels"] for p in record["points"]],
-                         [[]] + [[step, tolerance] for step in ("0.8", "0.2", "0.1") for tolerance in ("0.5", "0.0001")])
+                         [[]] + [[step, tolerance] for step in ("0.8", "0.2", "0.1")
+                                 for tolerance in ("0.5", "0.0001")])
         self.assertEqual(record["points"][0]["quantities"][0]["error"], {"value": 0, "low": 0, "high": 0})
         by_labels = {tuple(p["labels"]): p for p in record["points"]}
         # Unsolved contacts carry nothing: half the strength is gone, and the program had warned of the tolerance.
@@ -195,7 +198,8 @@ class Failures(Study):
         _, errors = process.communicate()
         self.assertEqual(process.returncode, 3, errors)
         self.assertIn(words, errors)
-        self.assertIn(sum(p["class"] == "not run" for p in read_json(self.folder, "study.json")["points"]), range(1, most + 1))
+        self.assertIn(sum(p["class"] == "not run" for p in read_json(self.folder, "study.json")["points"]),
+                      range(1, most + 1))
         self.run_study(LONG, "--resume")
         self.assertNotIn("not run", {p["class"] for p in read_json(self.folder, "study.json")["points"]})
 
@@ -210,8 +214,10 @@ class Failures(Study):
         resource.prlimit(worker, resource.RLIMIT_FSIZE, (ROOM, resource.RLIM_INFINITY))
         while process.poll() is None and len([n for n in listing(self.folder) if n.endswith(".log")]) < 2:
             time.sleep(0.002)
-        resource.prlimit(worker, resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))  # somebody made room
-        self.expect_few_lost_and_run_again(process, 2, "failed with exit code 4")  # the next may begin before there is room
+        # somebody made room
+        resource.prlimit(worker, resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+        # the next may begin before there is room
+        self.expect_few_lost_and_run_again(process, 2, "failed with exit code 4")
 
     def test_a_window_beyond_the_loading_is_pointed_out_and_not_judged(self):
         study = {**STUDY, "seeds": 1, "axes": [{"key": "discrete/step", "values": [0.2]}],
@@ -228,8 +234,10 @@ class Failures(Study):
 
     def test_wrong_studies_are_refused_before_anything_is_written(self):
         for study, words in [({**STUDY, "seedz": 3}, ["seedz", "'seeds'"]),
-                             ({**STUDY, "axes": [{"key": "output/directory", "values": ["x", "y"]}]}, ["output/directory cannot be set"]),
-                             ({**STUDY, "seeds": "1-2", "axes": [{"key": "sample/seed", "values": [1, 2]}]}, ["seeds", "sample/seed = 1"]),
+                             ({**STUDY, "axes": [{"key": "output/directory", "values": ["x", "y"]}]},
+                              ["output/directory cannot be set"]),
+                             ({**STUDY, "seeds": "1-2", "axes": [{"key": "sample/seed", "values": [1, 2]}]},
+                              ["seeds", "sample/seed = 1"]),
                              ({**STUDY, "set": {"sample/grains": 0}}, ["sample/grains = '0'", "whole number"])]:
             with self.subTest(words=words):
                 result = self.run_study(study, code=2)
@@ -244,21 +252,23 @@ class Failures(Study):
 class Effects(Folder):
     """Two frictions on two samples, both panels."""
 
-    SCENE = ("subsection sample\n  set grains = 150\nend\nsubsection loading\n  set inertial_number = 1e-3\n  set axial_strain = 0.01\n"
-             "end\nsubsection comparison\n  set window_edges = 0, 0.01\nend\n")
+    SCENE = ("subsection sample\n  set grains = 150\nend\nsubsection loading\n  set inertial_number = 1e-3\n  set "
+             "axial_strain = 0.01\nend\nsubsection comparison\n  set window_edges = 0, 0.01\nend\n")
 
     @classmethod
     def setUpClass(cls):
         work = cls.enterClassContext(tempfile.TemporaryDirectory())
         cls.scene, cls.done = write(os.path.join(work, "tiny.prm"), cls.SCENE), os.path.join(work, "done")
-        cls.process = diptych("study", cls.scene, "--vary", "discrete/friction=0.1,0.6", "--seeds", "1-2", "--output", cls.done)
+        cls.process = diptych("study", cls.scene, "--vary", "discrete/friction=0.1,0.6", "--seeds", "1-2", "--output",
+                              cls.done)
         assert cls.process.returncode == 0, cls.process.stdout + cls.process.stderr
 
     def test_means_follow_from_the_summaries_of_the_runs(self):
         table, record = pandas.read_csv(os.path.join(self.done, "effects.csv")), read_json(self.done, "study.json")
         self.assertEqual(len(table), 2 * 6 * 3)  # points, key numbers, panels
         peaks = table[(table["discrete/friction"] == 0.6) & (table.quantity == "peak t/s")].set_index("panel")["mean"]
-        summaries = [pandas.read_csv(os.path.join(self.done, folder, "summary.csv")) for folder in record["points"][1]["folders"]]
+        summaries = [pandas.read_csv(os.path.join(self.done, folder, "summary.csv"))
+                     for folder in record["points"][1]["folders"]]
         for panel in ("grains", "continuum", "difference"):
             self.assertAlmostEqual(peaks[panel], sum(s[panel][0] for s in summaries) / 2, places=8)
 
@@ -280,11 +290,14 @@ class Effects(Folder):
 
     def test_wrong_words_are_refused_with_key_value_and_range(self):
         file = write(os.path.join(self.work, "file.json"), json.dumps(STUDY))
-        for words, expected in [([self.scene], "is a scene; give --vary"), ([file, "--vary", "discrete/friction=1"], "is a study file"),
+        for words, expected in [([self.scene], "is a scene; give --vary"),
+                                ([file, "--vary", "discrete/friction=1"], "is a study file"),
                                 ([self.scene, "--vary", "discrete/friction"], "section/key=value,value"),
                                 ([self.scene, "--vary", "discrete/friktion=1,2"], "the nearest is 'discrete/friction'"),
-                                ([self.scene, "--vary", "discrete/friction=1,-2"], "discrete/friction = '-2' is not allowed; give a number from 0"),
-                                ([self.scene, "--vary", "discrete/friction=1,1.0"], "values of discrete/friction: '1' stands there twice"),
+                                ([self.scene, "--vary", "discrete/friction=1,-2"],
+                                 "discrete/friction = '-2' is not allowed; give a number from 0"),
+                                ([self.scene, "--vary", "discrete/friction=1,1.0"],
+                                 "values of discrete/friction: '1' stands there twice"),
                                 ([self.scene, "--vary", "sample/seed=1,2", "--seeds", "1-2"], "sample/seed = 1"),
                                 ([self.scene, "--vary", "loading/axial_strain=0.013"], "every point is refused")]:
             with self.subTest(words=words[1:]):

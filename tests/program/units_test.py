@@ -36,7 +36,8 @@ end
             result = diptych("discrete", path, "--output", folder, "--quiet", cwd="/")
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertAlmostEqual(history(folder)["time"][-1], 1, places=9)
-        missing = diptych("discrete", scene, "--set", "sample/file=data/grains.csv", "--output", self.folder + "2", cwd="/")
+        missing = diptych("discrete", scene, "--set", "sample/file=data/grains.csv", "--output", self.folder + "2",
+                          cwd="/")
         self.assertEqual(missing.returncode, 2)  # an override's from the working directory
         self.assertIn("/data/grains.csv", missing.stderr)
 
@@ -44,13 +45,14 @@ end
 class Units(Folder):
     """Stresses count in P, lengths in d, times in d sqrt(rho/P)."""
 
-    COLUMNS = (("axial_strain", "-"), ("stress_ratio", "-"), ("volumetric_strain", "-"), ("syy", "stress"), ("upper_fy", "force"),
-               ("time", "time"))
+    COLUMNS = (("axial_strain", "-"), ("stress_ratio", "-"), ("volumetric_strain", "-"), ("syy", "stress"),
+               ("upper_fy", "force"), ("time", "time"))
 
     def columns(self, command, scene, words, units):
         """Columns of a run, in units of its own d, rho and P."""
         diameter, density, pressure = units
-        sizes = {"-": 1, "stress": pressure, "force": pressure * diameter, "time": diameter * (density / pressure) ** 0.5}
+        sizes = {"-": 1, "stress": pressure, "force": pressure * diameter,
+                 "time": diameter * (density / pressure) ** 0.5}
         folder = temporary(self)
         result = finished(command, scene, *words, "--output", folder, "--quiet")
         self.assertNotIn("warning", result.stderr)
@@ -67,7 +69,8 @@ class Units(Folder):
         """d = 2^-10, rho = 2^12, P = 2^14, time unit 2^-11: every product rounds alike in thousands of steps."""
         runs = []
         for units, time in (((1, 1, 1), 1), ((2.0**-10, 2.0**12, 2.0**14), 2.0**-11)):
-            words = setting(sample_mean_diameter=units[0], sample_density=units[1], loading_pressure=units[2], discrete_step=0.1 * time)
+            words = setting(sample_mean_diameter=units[0], sample_density=units[1], loading_pressure=units[2],
+                            discrete_step=0.1 * time)
             runs.append(self.columns("discrete", QUICK, FEW + words, units))
         self.expect_same(*runs, 1e-12)
 

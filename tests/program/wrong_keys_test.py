@@ -41,7 +41,8 @@ class WrongKeys(Folder):
                 (setting(discrete_method="imported", discrete_file="no_such.h5"), "no_such.h5", "discrete/file"),
                 (BY_TABLE + setting(sample_radius_table="no_such.csv"), "no_such.csv", "sample/radius_table"),
                 (drive("lower_x", "velocity no_such.csv"), "no_such.csv", "discrete/drive_lower_x"),
-                (drive("upper_y", "sideways 3"), "discrete/drive_upper_y", "'sideways 3'", "auto, velocity V or force F"),
+                (drive("upper_y", "sideways 3"), "discrete/drive_upper_y", "'sideways 3'",
+                 "auto, velocity V or force F"),
                 (drive("upper_x", "velocity 1 2"), "discrete/drive_upper_x", "1 2"),
                 (drive("upper_x", ""), "discrete/drive_upper_x"),
                 (drive("upper_x", "force "), "discrete/drive_upper_x", "'force'"),
@@ -92,7 +93,8 @@ class WrongKeys(Folder):
     def test_meshes_that_do_not_fit_the_command(self):
         write(os.path.join(self.work, "broken.msh"), "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n")
         self.expect_wrong(RECTANGLE, "continuum/mesh", "outline", "diptych continuum", command="run")
-        for words, *texts in ((RECTANGLE + setting(continuum_initial_stress="mapped"), "continuum/initial_stress", "outline"),
+        for words, *texts in ((RECTANGLE + setting(continuum_initial_stress="mapped"), "continuum/initial_stress",
+                               "outline"),
                               (setting(continuum_mesh="rectangle"), "rectangle_width = 0"),
                               (setting(continuum_mesh="no_such.msh"), "continuum/mesh", "no_such.msh"),
                               (setting(continuum_mesh="broken.msh"), "continuum/mesh", "broken.msh"),
@@ -104,13 +106,15 @@ class WrongKeys(Folder):
         words = setting(sample_target_solid_fraction=0.7, sample_seed=2)
         result = diptych("discrete", QUICK, *SMALL, *words, "--output", self.folder)
         self.assertEqual(result.returncode, 2, result.stderr)
-        reach = re.search("sample/target_solid_fraction = 0.7 is out of reach: (0.8[0-9]*) to (0.8[0-9]*)", result.stderr)
+        reach = re.search("sample/target_solid_fraction = 0.7 is out of reach: (0.8[0-9]*) to (0.8[0-9]*)",
+                          result.stderr)
         self.assertTrue(reach, result.stderr)
         self.assertLess(float(reach.group(1)) + 0.02, float(reach.group(2)))
         self.assertEqual(half_files(self.folder), [])
 
     def test_keys_of_the_law_that_contradict_each_other_are_named_with_their_place(self):
-        scene = write(os.path.join(self.work, "mine.prm"), "subsection continuum\n  set friction_angle_residual = 40\nend\n")
+        scene = write(os.path.join(self.work, "mine.prm"), "subsection continuum\n  set friction_angle_residual = "
+                      "40\nend\n")
         result = diptych("continuum", scene, "--output", self.folder)
         self.assertEqual(result.returncode, 2, result.stderr)
         for text in ["mine.prm, line 2: continuum/friction_angle_residual = '40'", "friction_angle_peak"]:

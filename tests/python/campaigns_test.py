@@ -75,7 +75,8 @@ def test_ends_of_the_relative_interval_are_those_of_paired_tests():
 def test_relative_differences_at_their_limits():
     shared = statistics.paired([5, 10, 20, 8], [5.5, 11, 22, 8.8], "relative")  # the scatter of both cancels
     assert shared.difference == pytest.approx((0.1, 0.1, 0.1), abs=1e-6)
-    assert np.isnan(statistics.paired([-2, 2, 0, 1], [1, 1, 1, 1], "relative").difference[1:]).all()  # the mean may be zero
+    # the mean may be zero
+    assert np.isnan(statistics.paired([-2, 2, 0, 1], [1, 1, 1, 1], "relative").difference[1:]).all()
     assert statistics.paired([10], [12], "relative").difference.value == pytest.approx(0.2)
     assert statistics.paired([], [], "relative").n == 0
     assert statistics.paired([math.nan, 1, 2], [1, 2, math.nan]).n == 1
@@ -133,9 +134,11 @@ def test_strength_is_the_ratio_of_the_means():
     assert histories.stress_ratio_of_means(rows, 0, 2) == pytest.approx(4 / 6)
 
 
-# ---- ensembles --------------------------------------------------------------------------------------------------------------
+# ---- ensembles
+# --------------------------------------------------------------------------------------------------------------
 
-MARGINS = {"margin_angle": 3, "margin_thickness": 0.2, "margin_peak_stress_ratio": 0.03, "margin_volumetric_strain": 0.002}
+MARGINS = {"margin_angle": 3, "margin_thickness": 0.2, "margin_peak_stress_ratio": 0.03,
+           "margin_volumetric_strain": 0.002}
 
 
 def band(angle, width):
@@ -147,12 +150,15 @@ def comparison(seed, grains, continuum):
     """A comparison with one stage and one window, as the program writes it."""
     panels = {name: {"stress_ratio": 0.3, "bands": bands, "strips": {"angle_deg": [12]}}
               for name, bands in (("discrete", grains), ("continuum", continuum))}
-    zone = {"name": "zone", "t_over_s": {"value": 0.4}, "interval": {"low": 1, "high": 2}, "s1": 2, "polygon": [[0, 0], [1, 1]]}
+    zone = {"name": "zone", "t_over_s": {"value": 0.4}, "interval": {"low": 1, "high": 2}, "s1": 2,
+            "polygon": [[0, 0], [1, 1]]}
     stage = {"progress": 0.04 * (1 + 1e-9 * seed), "axial_strain": 0.04, "continuum": panels["continuum"],
              "discrete": {**panels["discrete"], "probes": [zone]},
              "difference": {"angle_deg": 3, "offset_d": None, "stress": [{"label": "6 d", "relative_l2": 0.2}]}}
-    return {"seed": seed, "stages": [stage], "windows": [{"from": 0.0, "to": 0.04, **panels}], "cost": {"discrete_cpu_s": 1.5},
-            "discrete_summary": {"peak_stress_ratio": 0.36 + 0.001 * seed, "ns_per_update": seed, "message": "finished"},
+    return {"seed": seed, "stages": [stage], "windows": [{"from": 0.0, "to": 0.04, **panels}],
+            "cost": {"discrete_cpu_s": 1.5},
+            "discrete_summary": {"peak_stress_ratio": 0.36 + 0.001 * seed, "ns_per_update": seed,
+                                 "message": "finished"},
             "continuum_summary": {"peak_stress_ratio": 0.36, "finished": True}}
 
 
@@ -176,8 +182,8 @@ def test_numbers_are_found_by_their_place_and_only_those_that_have_a_mean():
 
 
 def test_only_members_with_a_band_count_for_it():
-    record = ensemble_of(comparison(1, [band(-44, 18), band(40, 9)], [band(-45, 18)]), comparison(2, [], [band(-45, 18)]),
-                         comparison(3, [band(-46, 22)], [band(-45, 18)]))
+    record = ensemble_of(comparison(1, [band(-44, 18), band(40, 9)], [band(-45, 18)]),
+                         comparison(2, [], [band(-45, 18)]), comparison(3, [band(-46, 22)], [band(-45, 18)]))
     width = named(record["quantities"])["window 0-0.04 discrete band width_10_90_d"]
     assert (width["n"], width["mean"]) == (2, 20) and math.isnan(width["values"][1])  # the strongest band is the first
     pairs = {name: one["n"] for name, one in named(record["verdicts"], "quantity").items()}
@@ -189,7 +195,8 @@ def test_only_members_with_a_band_count_for_it():
 
 
 def test_mirror_images_of_a_band_are_folded_together():
-    """Chance decides between left and right: bands at 55 and -55 degrees are the same kind, and their jumps get one sign."""
+    """Chance decides between left and right: bands at 55 and -55 degrees are the same kind, and their jumps get one
+    sign."""
     both = (comparison(1, [band(55, 10)], [band(-54, 10)]), comparison(2, [band(-53, 10)], [band(54, 10)]))
     record = ensemble_of(*both, folded=True)
     found = named(record["quantities"])
@@ -204,7 +211,8 @@ def test_mirror_images_of_a_band_are_folded_together():
 @pytest.mark.parametrize("keys, symmetric", [
     ({}, False), ({"loading/horizontal_over_vertical": 0}, True),
     ({"loading/horizontal_over_vertical": 0, "discrete/gravity_x": 0.1}, False),
-    ({"loading/horizontal_over_vertical": 0, "discrete/lateral": "rigid_walls", "discrete/drive_left_x": "velocity 1"}, False)])
+    ({"loading/horizontal_over_vertical": 0, "discrete/lateral": "rigid_walls", "discrete/drive_left_x": "velocity 1"},
+     False)])
 def test_only_a_vertical_descent_is_its_own_mirror_image(keys, symmetric):
     from diptych import scenes
 
@@ -219,7 +227,8 @@ def test_means_of_curves_need_all_members():
 
 
 def test_profiles_are_averaged_over_the_samples_that_reach_a_strip(tmp_path):
-    """Relative rotation of 41 strips k: k and k + 2 in two samples, the first without the last strip, the third without a band."""
+    """Relative rotation of 41 strips k: k and k + 2 in two samples, the first without the last strip, the third without
+    a band."""
     names = ("relative_rotation", "spin", "couple_stress", "solid_fraction", "velocity_fluctuation")
     for seed, n in enumerate((41, 41, 0)):
         (tmp_path / str(seed)).mkdir()
@@ -231,9 +240,12 @@ def test_profiles_are_averaged_over_the_samples_that_reach_a_strip(tmp_path):
                     group[name].attrs.update(title=np.bytes_(name), unit=np.bytes_("rad"))
                 group["relative_rotation"][40 if n and not seed else n:] = np.nan
     arrays = profile_arrays([str(tmp_path / str(seed)) for seed in range(3)])
-    mean, error, low = (arrays[f"window_0/profile/discrete/relative_rotation/{key}"][0] for key in ("mean", "standard_error", "low"))
-    assert mean[:40] == pytest.approx(np.arange(40) + 1) and error[:40] == pytest.approx(1)  # deviation sqrt(2) / sqrt(2)
-    assert low[:40] == pytest.approx(np.arange(40) + 1 - stats.t.ppf(0.975, 1)) and np.isnan([mean[40], error[40], low[40]]).all()
+    mean, error, low = (arrays[f"window_0/profile/discrete/relative_rotation/{key}"][0]
+                        for key in ("mean", "standard_error", "low"))
+    # deviation sqrt(2) / sqrt(2)
+    assert mean[:40] == pytest.approx(np.arange(40) + 1) and error[:40] == pytest.approx(1)
+    assert low[:40] == pytest.approx(np.arange(40) + 1 - stats.t.ppf(0.975, 1)) and np.isnan([mean[40], error[40],
+                                                                                              low[40]]).all()
 
 
 def test_lists_of_seeds():

@@ -20,14 +20,16 @@ FORMATS = {  # format, files below tests/foreign, options, tolerance of stresses
     "yade": ("yade", ["yade/spheres_*.txt", "yade/contacts_*.txt", "yade/walls_*.txt"], {"thickness": 1.0}, 1e-6),
     "lmgc90": ("lmgc90", ["lmgc90/DATBOX/B*.DAT", "lmgc90/OUTBOX/*"], {}, 1e-6),
     "lmgc90_hdf5": ("lmgc90", ["lmgc90/DATBOX/B*.DAT", "lmgc90_hdf5/*.h5"], {}, 1e-6),
-    "mercurydpm": ("mercurydpm", ["mercurydpm/*.data", "mercurydpm/*.fstat", "mercurydpm/*.ene", "mercurydpm/*.restart.4"], {},
+    "mercurydpm": ("mercurydpm", ["mercurydpm/*.data", "mercurydpm/*.fstat", "mercurydpm/*.ene",
+                                  "mercurydpm/*.restart.4"], {},
                    1e-6),
     "plain_csv": ("csv", ["plain_csv/*.csv"], {}, 1e-4)}
 
 
 @pytest.fixture
 def copy(tmp_path):
-    """A function that copies the files of a set with changes {file name: function of its text, or None to leave it out}."""
+    """A function that copies the files of a set with changes {file name: function of its text, or None to leave it
+    out}."""
     def make(name, changes=()):
         kind, patterns, options, _ = FORMATS[name]
         files = []

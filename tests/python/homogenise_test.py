@@ -19,8 +19,8 @@ COLUMNS, ROWS, ANGLE, WIDTH = 16, 44, 45.0, 3.3  # hexagonal lattice of discs of
 
 
 def write_band(folder):
-    """Tables of two frames: between them a tanh profile across a line through the middle, of the given angle and 10-90 % width.
-    Equal forces 1 along all contacts of a lattice of discs of diameter 1 give the isotropic stress sqrt(3)."""
+    """Tables of two frames: between them a tanh profile across a line through the middle, of the given angle and 10-90
+    % width. Equal forces 1 along all contacts of a lattice of discs of diameter 1 give the isotropic stress sqrt(3)."""
     row, column = (part.ravel() for part in np.mgrid[:ROWS, :COLUMNS])
     start = np.column_stack([column + 0.5 * (row % 2), row * np.sqrt(0.75)])
     first, second = np.nonzero(np.triu(np.abs(np.linalg.norm(start[:, None] - start, axis=2) - 1) < 1e-9))
@@ -29,8 +29,11 @@ def write_band(folder):
     across = (start - start.mean(0)) @ [-along[1], along[0]]
     end = start - 0.4 * along * np.tanh(across / (WIDTH / 2.1972))[:, None]
     for k, x in enumerate((start, end)):
-        pd.DataFrame({"id": range(len(x)), "x": x[:, 0], "y": x[:, 1], "r": 0.5}).to_csv(folder / f"particles_{k}.csv", index=False)
-        pd.DataFrame({"i": first, "j": second, "fx": force[:, 0], "fy": force[:, 1]}).to_csv(folder / f"contacts_{k}.csv", index=False)
+        pd.DataFrame({"id": range(len(x)), "x": x[:, 0], "y": x[:, 1], "r": 0.5}).to_csv(folder / f"particles_{k}.csv",
+                                                                                         index=False)
+        pd.DataFrame({"i": first, "j": second, "fx": force[:, 0], "fy": force[:, 1]}).to_csv(folder
+                                                                                             / f"contacts_{k}.csv",
+                                                                                             index=False)
     return sorted(folder.glob("*_[01].csv"))
 
 
@@ -66,8 +69,8 @@ def test_a_lattice_under_equal_forces_has_its_stress_at_every_width(tmp_path):
     program("import", "csv", *write_band(tmp_path), "--walls-touch", "--output", tmp_path / "in", "--quiet")
     program("homogenise", tmp_path / "in", "--quiet")
     assert len(pd.read_csv(tmp_path / "in_homogenised" / "homogenised.csv")) == 2
-    done = subprocess.run([PROGRAM, "homogenise", tmp_path / "in", "--thickness", "2", "--overwrite"], capture_output=True, text=True,
-                          check=False)
+    done = subprocess.run([PROGRAM, "homogenise", tmp_path / "in", "--thickness", "2", "--overwrite"],
+                          capture_output=True, text=True, check=False)
     assert done.returncode == 2 and "--thickness has no effect on a folder" in done.stderr
     found = diptych.homogenise(diptych.load(tmp_path / "in").discrete.snapshots[:1], grid=4)
     for row in found.resolution_study["kernel"][2:5]:  # w = 1 to 2 d: wider kernels reach the edges
@@ -88,7 +91,8 @@ def test_the_stress_of_another_code_is_that_of_its_files(name, copy, tmp_path): 
     for (_, row), truth in zip(rows.iterrows(), truths):
         stress = -np.array(truth["mean_stress_from_contacts"])
         found = [row.sxx, row.sxy, row.syy]
-        np.testing.assert_allclose(found, [stress[0][0], 0.5 * (stress[0][1] + stress[1][0]), stress[1][1]], atol=1e-4 * np.abs(stress).max())
+        np.testing.assert_allclose(found, [stress[0][0], 0.5 * (stress[0][1] + stress[1][0]), stress[1][1]],
+                                   atol=1e-4 * np.abs(stress).max())
         maps = meshio.vtu.read(tmp_path / "out" / f"fields_{row.frame:04.0f}.vtu").cell_data
         mean = np.average(maps["stress"][0], axis=0, weights=maps["area"][0])  # the map keeps the sum
         np.testing.assert_allclose(mean[[0, 4]], [row.sxx, row.syy], rtol=1e-6)
@@ -105,7 +109,8 @@ def test_one_frame_has_all_but_strain_and_bands(copy, tmp_path):  # noqa: F811
 def test_frames_without_contacts_say_that_their_stress_is_missing(copy, tmp_path):  # noqa: F811
     kind, files, _ = copy("plain_csv", {"contacts_0.csv": None})
     said = program("homogenise", kind, *files, "--output", tmp_path / "out", "--quiet")
-    assert "missing: stress, fabric and contacts at 0: no contact of this frame carries force, or the files hold none" in said
+    assert ("missing: stress, fabric and contacts at 0: no contact of this frame carries force, or the files hold none"
+            in said)
     rows = pd.read_csv(tmp_path / "out" / "homogenised.csv")
     assert np.isnan(rows.t_over_s[0]) and rows.t_over_s[1] > 0.4 and rows.solid_fraction[0] > 0.8
 
@@ -113,7 +118,8 @@ def test_frames_without_contacts_say_that_their_stress_is_missing(copy, tmp_path
 def test_a_folder_without_grains_is_refused(tmp_path):
     (tmp_path / "empty").mkdir()
     for words, message in (([tmp_path / "empty"], "holds no discrete.h5"), (["csv", "nowhere.csv"], "add --output DIR"),
-                           (["csv", "nowhere.csv", "--output", tmp_path / "out"], "nowhere.csv: there is no such file")):
+                           (["csv", "nowhere.csv", "--output", tmp_path / "out"],
+                            "nowhere.csv: there is no such file")):
         done = subprocess.run([PROGRAM, "homogenise", *map(str, words)], capture_output=True, text=True, check=False)
         assert done.returncode == 2 and message in done.stderr
     assert os.listdir(tmp_path) == ["empty"]

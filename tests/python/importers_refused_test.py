@@ -69,12 +69,15 @@ def test_options_without_effect_or_sense_are_refused(name, option, reason, copy)
 
 def test_doubts_are_told(copy):
     def doubts(name, **changes):
-        return " ".join(checked(copy(name, {file.replace("__", "."): change for file, change in changes.items()}))["doubtful"])
-    assert "far from balance" in doubts("plain_csv", contacts_1__csv=once("161,154,-14.748704,-21.2551418", "161,154,0,0"))
+        return " ".join(checked(copy(name, {file.replace("__", "."): change for file,
+                                            change in changes.items()}))["doubtful"])
+    assert "far from balance" in doubts("plain_csv", contacts_1__csv=once("161,154,-14.748704,-21.2551418",
+                                                                          "161,154,0,0"))
     assert "too few contacts" in doubts("plain_csv", contacts_1__csv=lambda text: text[:text.index("434,15,")])
     assert "the radius of grain 1" in doubts("plain_csv", particles_1__csv=once("0.00077969925", "0.00077069925"))
-    assert "off the place where the surfaces meet" in doubts("liggghts", wallcontacts_100000__dump=once("\n0 0.0257691629 0",
-                                                                                                     "\n0 0.0457691629 0"))
+    assert "off the place where the surfaces meet" in doubts("liggghts",
+                                                             wallcontacts_100000__dump=once("\n0 0.0257691629 0",
+                                                                                         "\n0 0.0457691629 0"))
 
 
 @pytest.mark.parametrize("name", FORMATS)
@@ -92,7 +95,8 @@ def test_damaged_files_are_refused_or_doubtful_or_nearly_right(name, copy, tmp_p
         try:
             record = checked((kind, files, options))
             near = len(record["frames"]) == len(whole["frames"]) and all(
-                one["grains"] == other["grains"] and one["solid_fraction"] == pytest.approx(other["solid_fraction"], rel=1e-3)
+                one["grains"] == other["grains"] and one["solid_fraction"]
+                == pytest.approx(other["solid_fraction"], rel=1e-3)
                 for one, other in zip(record["frames"], whole["frames"])) and np.allclose(
                     stresses(record), stresses(whole), rtol=0, atol=0.03 * np.abs(stresses(whole)).max())
             assert near or record["doubtful"], (file, draw)

@@ -1,6 +1,7 @@
 # diptych: samples of other codes against numbers from the same files, and peculiarities that a reader must handle
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Truth: tests/foreign/*/truth.json was computed from the files without this program; tensile stress is positive there."""
+"""Truth: tests/foreign/*/truth.json was computed from the files without this program; tensile stress is positive
+there."""
 
 import gzip
 import json
@@ -14,7 +15,8 @@ import pytest
 import diptych
 from diptych import importers
 from conftest import SOURCE, explained
-from foreign_sets import FOREIGN, FORMATS, PUBLIC, checked, copy, once, refusal, stresses  # noqa: F401  copy is a fixture
+# copy is a fixture
+from foreign_sets import FOREIGN, FORMATS, PUBLIC, checked, copy, once, refusal, stresses  # noqa: F401
 
 
 @pytest.mark.parametrize("name", FORMATS)
@@ -60,8 +62,8 @@ CASES = {"03": ("csv", "*.csv", {}), "18": ("lammps", "*", {}), "20": ("lammps",
 
 @pytest.mark.parametrize("case", CASES)
 def test_one_sample_in_the_spellings_of_public_files(case):
-    """Quoted heads of R; xs ys; a tilt of 0; a section that occurs twice; wall contacts without names for their columns.
-    LMGC90: ax1= for axe1=; the angle of a wall in coo3; numbers of bodies that repeat."""
+    """Quoted heads of R; xs ys; a tilt of 0; a section that occurs twice; wall contacts without names for their
+    columns. LMGC90: ax1= for axe1=; the angle of a wall in coo3; numbers of bodies that repeat."""
     kind, pattern, options = CASES[case]
     record = importers.check(kind, sorted((PUBLIC / case).glob(pattern)), **options)
     first = record["frames"][0]
@@ -77,7 +79,8 @@ def test_data_files_have_velocities_and_other_styles(tmp_path):
     assert plain["velocity"][0] == pytest.approx([0.005191109024, -0.001864127389])
     assert plain["spin"][0] == pytest.approx(-0.001649830208)
     record = importers.check("lammps", [PUBLIC / "28" / "bpm.data"], walls_touch=True)
-    assert record["frames"][0]["mass"] is None and any("its densities were not used" in text for text in record["remarks"])
+    assert record["frames"][0]["mass"] is None and any("its densities were not used" in text
+                                                       for text in record["remarks"])
     record = importers.check("lammps", [PUBLIC / "28" / "bpm.data"], walls_touch=True, density=2.0)
     assert record["frames"][0]["mass"] == pytest.approx(2 * np.pi * np.sum(plain["radius"]**2))
     assert "masses" not in record["lacking"]
@@ -104,7 +107,8 @@ def test_a_static_stack_is_in_balance_with_its_weight(tmp_path):
     assert forces.max() == pytest.approx(5e3 + 3 * 1e3 * np.pi / 4 * 9.81)
     # Without gravity in the files the warning tells it.
     light = shutil.copytree(PUBLIC / "37", tmp_path / "light")
-    (light / "BULK_BEHAV.DAT").write_text((light / "BULK_BEHAV.DAT").read_text().replace("-9.8100000E+00", " 0.0000000E+00"))
+    (light / "BULK_BEHAV.DAT").write_text((light / "BULK_BEHAV.DAT").read_text().replace("-9.8100000E+00",
+                                                                                         " 0.0000000E+00"))
     doubt = importers.check("lmgc90", sorted(light.glob("*")))["doubtful"]
     assert any("--gravity" in text and "-9.81" in text for text in doubt)
     assert importers.check("lmgc90", sorted(light.glob("*")), gravity=(0, -9.81))["frames"] == record["frames"]
@@ -124,8 +128,8 @@ def test_a_restart_of_2015_has_the_normals_of_its_walls():
 
 
 def test_tables_as_spreadsheets_write_them(copy, tmp_path):
-    """Decimal commas with semicolons, byte order marks, UTF-16, capitals, an index without a name, gzip, no last line end,
-    words in a column that is not needed."""
+    """Decimal commas with semicolons, byte order marks, UTF-16, capitals, an index without a name, gzip, no last line
+    end, words in a column that is not needed."""
     plain, (kind, files, _) = stresses(checked(copy("plain_csv"))), copy("plain_csv")
     changed = []
     for k, path in enumerate(files):
@@ -194,7 +198,8 @@ def test_liggghts_rows_may_have_multisphere_ids_and_any_number_of_history_values
         return "\n".join(line.rstrip() + " 7" * columns * (len(line.split()) > 20) for line in text.splitlines())
     changes = {f"contacts_{step}.dump": change for step in (50000, 100000, 150000, 200000)}
     words = ["contacts=pos,id,force,force_normal,force_tangential,contactArea,delta,contactPoint," + extra]
-    assert np.array_equal(stresses(checked(copy("liggghts", changes), columns=words)), stresses(checked(copy("liggghts"))))
+    assert np.array_equal(stresses(checked(copy("liggghts", changes), columns=words)),
+                          stresses(checked(copy("liggghts"))))
 
 
 def test_liggghts_forces_on_plates(copy):
@@ -205,7 +210,8 @@ def test_liggghts_forces_on_plates(copy):
 
 
 def test_the_recorder_of_yade():
-    recorder = importers.check("yade", sorted((FOREIGN / "yade").glob("rec-[si]*.vt?")), thickness=1.0, walls_touch=True)
+    recorder = importers.check("yade", sorted((FOREIGN / "yade").glob("rec-[si]*.vt?")), thickness=1.0,
+                               walls_touch=True)
     assert recorder["frames"][-1]["contacts"] == 600 and any("tangential" in text for text in recorder["lacking"])
     packed, ascii_ = (importers.read("yade", sorted((FOREIGN / "yade").glob(pattern)))[0].contacts["force"]
                       for pattern in ("rec-[si]*.136447.vt?", "rec-ascii-*"))
@@ -243,7 +249,8 @@ def test_forces_on_the_other_body_are_reversed(walls, copy):
 def test_pairs_that_occur_in_two_rows_count_once(copy):
     def change(text):
         rows = [row.split(",") for row in text.splitlines()[1:]]
-        return text + "".join(f"{j},{i},{-float(fx)!r},{-float(fy)!r}\n" for i, j, fx, fy in rows if not j.startswith("-"))
+        return text + "".join(f"{j},{i},{-float(fx)!r},{-float(fy)!r}\n" for i, j, fx,
+                              fy in rows if not j.startswith("-"))
     record = checked(copy("plain_csv", {"contacts_1.csv": change}))
     assert np.array_equal(stresses(record), stresses(checked(copy("plain_csv"))))
 

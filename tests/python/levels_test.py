@@ -66,8 +66,8 @@ def test_numbers_are_the_cheapest():
 
 
 def test_stored_runs_keep_what_the_benchmark_claims(monkeypatch):
-    """Forty samples of dense_biaxial. The mean of 20 with pairs holds brute force in 19 of 20 subsets, at the finest step and in
-    its limit. Its error of 0.5 % takes less than 1 / 2.5 of the CPU time of one level."""
+    """Forty samples of dense_biaxial. The mean of 20 with pairs holds brute force in 19 of 20 subsets, at the finest
+    step and in its limit. Its error of 0.5 % takes less than 1 / 2.5 of the CPU time of one level."""
     folder = os.path.join(benchmarks_dir(), "rigid_limit")
     monkeypatch.syspath_prepend(folder)
     benchmark = SimpleNamespace(**runpy.run_path(os.path.join(folder, "levels.py")))
@@ -107,16 +107,19 @@ def test_wrong_levels_are_refused(wrong):
 
 
 def test_an_ensemble_gets_rows_in_the_limit():
-    """With all samples paired, the limits are means of extrapolated samples, and so is continuum minus grains. The verdict is
-    that of the extrapolated samples, and errors of the continuum take it away."""
+    """With all samples paired, the limits are means of extrapolated samples, and so is continuum minus grains. The
+    verdict is that of the extrapolated samples, and errors of the continuum take it away."""
     x, y = drawn(np.random.default_rng(4), 8, 8)
     continuum = 0.36 + 0.001 * np.arange(8)
-    verdict = {"key": "peak_stress_ratio", "discrete": x.tolist(), "continuum": continuum.tolist(), "n": 8, "relative": True, "margin": 0.0}
+    verdict = {"key": "peak_stress_ratio", "discrete": x.tolist(), "continuum": continuum.tolist(), "n": 8,
+               "relative": True, "margin": 0.0}
     record = {"verdicts": [verdict], "summary": [{"key": "peak_stress_ratio", "continuum": (0.3635, 0.361, 0.366)}],
-              "validation": [{"key": "peak_stress_ratio", "parts": {"mesh": np.nan, "load_step": 0.0}, "u_input": np.nan}],
+              "validation": [{"key": "peak_stress_ratio", "parts": {"mesh": np.nan, "load_step": 0.0},
+                              "u_input": np.nan}],
               "continuum_runs": {"values": []}}
     limit = x - (x - y) / (1 - RATIO)
-    rows = {"quantities": [{"key": "peak_stress_ratio", "quantity": "peak t/s", "unit": "-", "ratio": RATIO, "fine": y.tolist()}]}
+    rows = {"quantities": [{"key": "peak_stress_ratio", "quantity": "peak t/s", "unit": "-", "ratio": RATIO,
+                            "fine": y.tolist()}]}
     ends = paired(limit, continuum, "relative").difference_90
     verdict["margin"] = 1.1 * max(-ends.low, ends.high)  # the order widens the interval by less
     add_summary(record, rows)
@@ -131,8 +134,10 @@ def test_an_ensemble_gets_rows_in_the_limit():
 
 def test_a_study_gives_means_in_the_limit(tmp_path):
     scene = tmp_path / "scene.json"
-    scene.write_text(json.dumps({"sample": {"grains": 100}, "loading": {"axial_strain": 0.01, "inertial_number": 2e-3}}))
-    words = ["study", scene, "--vary", "discrete/friction=0.1,0.6", "--seeds", "1-7", "--panels", "discrete", "--levels", "auto"]
+    scene.write_text(json.dumps({"sample": {"grains": 100}, "loading": {"axial_strain": 0.01,
+                                                                        "inertial_number": 2e-3}}))
+    words = ["study", scene, "--vary", "discrete/friction=0.1,0.6", "--seeds", "1-7", "--panels", "discrete",
+             "--levels", "auto"]
     done = subprocess.run([sys.executable, "-m", "diptych.campaigns", *words, "--output", tmp_path / "out"],
                           capture_output=True, text=True)
     assert done.returncode == 0, done.stderr

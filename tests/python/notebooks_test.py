@@ -26,7 +26,8 @@ def test_notebooks_hold_their_outputs_without_paths_of_a_machine():
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=[os.path.basename(path) for path in NOTEBOOKS])
 def test_a_copied_notebook_runs(path, tmp_path):
     copy, out = shutil.copy(path, tmp_path), tmp_path / "done.ipynb"
-    done = subprocess.run([sys.executable, "-m", "nbconvert", "--to", "notebook", "--execute", copy, "--output", str(out)],
+    done = subprocess.run([sys.executable, "-m", "nbconvert", "--to", "notebook", "--execute", copy, "--output",
+                           str(out)],
                           capture_output=True, text=True, check=False, env={**os.environ, "IPYTHONDIR": str(tmp_path)})
     assert done.returncode == 0, done.stderr[-3000:]
     outputs = [output for cell in json.loads(out.read_text())["cells"] for output in cell.get("outputs", [])]

@@ -94,7 +94,8 @@ def test_bands_of_snapshots_are_those_of_the_comparison(panels, small):
     for panel, field in (("discrete", of_grains), ("continuum", of_nodes)):
         report = diptych.find_bands(**field, seed=small["sample"]["seed"])
         assert report.verdict == window[panel]["band_verdict"], panel
-        np.testing.assert_array_equal(report.bic, np.array(window[panel]["bic_of_0_1_2_bands"], dtype=float))  # None is NaN
+        # None is NaN
+        np.testing.assert_array_equal(report.bic, np.array(window[panel]["bic_of_0_1_2_bands"], dtype=float))
         expected = [band["angle_deg"]["value"] for band in window[panel]["bands"]]
         assert [band.angle_deg for band in report.bands] == expected
 
@@ -144,7 +145,8 @@ def test_an_elastic_law_follows_hooke():
     np.testing.assert_allclose(answer.stress[:, 1, 1], 1 + gain, rtol=1e-12)
     np.testing.assert_allclose(answer.stress[:, 0, 0], 1 + nu / (1 - nu) * gain, rtol=1e-12)
     np.testing.assert_allclose(answer.stress_zz, answer.stress[:, 0, 0], rtol=1e-12)
-    shear = diptych.integrate({"law": "linear_elastic", "youngs_modulus": e, "poisson_ratio": nu}, [[0, 0, 0], [0, 0, 1e-3]])
+    shear = diptych.integrate({"law": "linear_elastic", "youngs_modulus": e, "poisson_ratio": nu},
+                              [[0, 0, 0], [0, 0, 1e-3]])
     assert shear.stress[-1, 0, 1] == pytest.approx(e / (1 + nu) * 1e-3)  # 2 G eps_xy
     tied = diptych.integrate({"law": "linear_elastic", "youngs_modulus": e, "poisson_ratio": nu},
                              {"eyy": strain, "volume": 0, "sxy": 1e-2 * (strain > 0)})
@@ -154,7 +156,8 @@ def test_an_elastic_law_follows_hooke():
 
 def test_mohr_coulomb_has_its_strength_and_its_path_again():
     """t = s sin(phi) + c cos(phi) at a constant lateral stress of 1 = s - t."""
-    law = {"law": "mohr_coulomb", "hardening": "constant", "friction_angle_peak": 30, "dilatancy_angle_peak": 10, "cohesion": 0.1}
+    law = {"law": "mohr_coulomb", "hardening": "constant", "friction_angle_peak": 30, "dilatancy_angle_peak": 10,
+           "cohesion": 0.1}
     path = diptych.biaxial(law, axial_strain=0.05)
     t = (np.sin(np.radians(30)) + 0.1 * np.cos(np.radians(30))) / (1 - np.sin(np.radians(30)))
     assert 0.5 * (path["syy"] - path["sxx"])[-1] == pytest.approx(t, rel=1e-6)
@@ -168,10 +171,11 @@ def test_mohr_coulomb_has_its_strength_and_its_path_again():
 
 
 def test_the_result_says_where_the_law_is_not_exact_and_how_far_a_stress_was_reached():
-    """Equal strains in the plane, nu = 0.2: the stress in the plane grows 2.5 times faster than sigma_zz, t/s -> 0.43 in space.
-    t/s = 0 in the plane, all that cosserat_mohr_coulomb sees. Strength in the second path: s1 = 3 + 0.2 sqrt 3 = 3.3464."""
-    law = {"law": "cosserat_mohr_coulomb", "hardening": "constant", "friction_angle_peak": 20, "dilatancy_angle_peak": 5,
-           "youngs_modulus": 500}
+    """Equal strains in the plane, nu = 0.2: the stress in the plane grows 2.5 times faster than sigma_zz, t/s -> 0.43
+    in space. t/s = 0 in the plane, all that cosserat_mohr_coulomb sees. Strength in the second path: s1 = 3 + 0.2 sqrt
+    3 = 3.3464."""
+    law = {"law": "cosserat_mohr_coulomb", "hardening": "constant", "friction_angle_peak": 20,
+           "dilatancy_angle_peak": 5, "youngs_modulus": 500}
     grown = np.linspace(0, 0.05, 51)
     answer = diptych.integrate(law, {"exx": grown, "eyy": grown, "exy": 0})
     assert answer.reliable[1] and not answer.reliable[-1] and answer.verdict[-1] == "zz_outside"
@@ -184,7 +188,8 @@ def test_the_result_says_where_the_law_is_not_exact_and_how_far_a_stress_was_rea
 
 
 def test_one_contact_is_solved_by_hand():
-    """W = diag(2, 3), q = (-1, 0.5), mu = 0.3: r_n = 0.5; sticking needs r_t = -1/6, more than mu r_n = 0.15: it slips."""
+    """W = diag(2, 3), q = (-1, 0.5), mu = 0.3: r_n = 0.5; sticking needs r_t = -1/6, more than mu r_n = 0.15: it
+    slips."""
     for w in (np.diag([2.0, 3.0]), scipy.sparse.csr_matrix(np.diag([2.0, 3.0]))):
         solution = diptych.solve((w, [-1.0, 0.5], [0.3]))
         np.testing.assert_allclose(solution.r, [[0.5, -0.15]], rtol=1e-12)
@@ -194,7 +199,8 @@ def test_one_contact_is_solved_by_hand():
 
 def test_stored_problems_are_solved_as_by_the_program():
     path = sorted(glob.glob(os.path.join(SOURCE, "tests", "discrete", "contact_problems", "*.h5")))[0]
-    printed = dict(line.split(": ", 1) for line in program("solve", path, "--tolerance", "2e-5").splitlines() if ": " in line)
+    printed = dict(line.split(": ", 1) for line in program("solve", path, "--tolerance", "2e-5").splitlines()
+                   if ": " in line)
     solution = diptych.solve(path)
     assert solution.sweeps == int(printed["sweeps"]) and solution.status == printed["status"]
     assert solution.residual == pytest.approx(float(printed["residual"]), rel=1e-5) and solution.residual <= 2e-5
@@ -203,21 +209,27 @@ def test_stored_problems_are_solved_as_by_the_program():
 
 
 @pytest.mark.parametrize("call, error, message", [
-    (lambda: diptych.map_stress({"position": [[0, 0, 0]], "radius": [1]}, column(2, 1)[1]), ValueError, r"position: .*\(n, 2\)"),
-    (lambda: diptych.map_stress({"position": [[0, 0]], "radius": [-1]}, column(2, 1)[1]), ValueError, "radius: 1 positive numbers"),
+    (lambda: diptych.map_stress({"position": [[0, 0, 0]], "radius": [1]}, column(2, 1)[1]), ValueError,
+     r"position: .*\(n, 2\)"),
+    (lambda: diptych.map_stress({"position": [[0, 0]], "radius": [-1]}, column(2, 1)[1]), ValueError,
+     "radius: 1 positive numbers"),
     (lambda: diptych.map_stress(column(2, 1)[0], {"i": [0]}), ValueError, "'j' is missing"),
-    (lambda: diptych.map_stress(column(1, 1)[0], column(2, 1)[1], diptych.grid((0, 0), (1, 1), 1)), ValueError, "contact 1 joins"),
+    (lambda: diptych.map_stress(column(1, 1)[0], column(2, 1)[1], diptych.grid((0, 0), (1, 1), 1)), ValueError,
+     "contact 1 joins"),
     (lambda: diptych.map_stress(*column(2, 1), method="magic"), diptych.SceneError, "averaging = 'magic'"),
-    (lambda: diptych.map_stress(*column(2, 1), mesh=([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2, 9]])), ValueError, "node 9 of 4"),
+    (lambda: diptych.map_stress(*column(2, 1), mesh=([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2, 9]])), ValueError,
+     "node 9 of 4"),
     (lambda: diptych.find_bands(np.zeros((5, 2)), np.zeros((4, 2)), 1), ValueError, "displacement"),
     (lambda: diptych.find_bands(*band_of(50, 12)[:2], 1.0, max_bands=7), diptych.SceneError, "comparison/max_bands"),
     (lambda: diptych.find_bands(np.full((50, 2), np.nan), np.ones((50, 2)), 1.0), ValueError, "finite"),
     (lambda: diptych.probe(column(2, 1)[0], [(0, 0), (0, 1), (1, 0)], column(2, 1)[1]), ValueError, "anticlockwise"),
     (lambda: diptych.integrate({"law": "rubber"}, [[0, 0, 0]]), diptych.SceneError, "continuum/law"),
     (lambda: diptych.integrate({}, [[[0, 1], [0, 0]]]), ValueError, r"path\[0\] must be finite and symmetric"),
-    (lambda: diptych.integrate({}, {"eyy": [0, 1], "sxx": 2, "exy": 0}), ValueError, r"path\[0\]: column 'sxx' = 2 is not"),
+    (lambda: diptych.integrate({}, {"eyy": [0, 1], "sxx": 2, "exy": 0}), ValueError,
+     r"path\[0\]: column 'sxx' = 2 is not"),
     (lambda: diptych.integrate({}, {"eyy": [0, 1], "sxx": 1}), ValueError, "path has 2 columns"),
-    (lambda: diptych.integrate({}, {"eyy": 0, "szz": 1, "exy": 0}), ValueError, "'szz' is not allowed; give one of exx"),
+    (lambda: diptych.integrate({}, {"eyy": 0, "szz": 1, "exy": 0}), ValueError,
+     "'szz' is not allowed; give one of exx"),
     (lambda: diptych.integrate({}, {"exx": 0, "eyy": [0, 1], "volume": 0}), ValueError, "one follows from the others"),
     (lambda: diptych.biaxial({}, path="undrained"), ValueError, "constant_volume"),
     (lambda: diptych.solve((np.eye(3), [1, 2], [0.3])), ValueError, "must have 2 rows"),

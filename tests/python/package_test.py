@@ -20,7 +20,8 @@ def test_every_public_name_has_a_docstring():
 
 def test_importing_the_package_does_not_load_deal_ii():
     script = "import diptych, sys; diptych.scene({}); print(open('/proc/self/maps').read().count('libdeal_II'))"
-    assert subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout.strip() == "0"
+    assert subprocess.run([sys.executable, "-c", script], capture_output=True, text=True,
+                          check=True).stdout.strip() == "0"
 
 
 def test_shipped_scenes_and_notebooks_are_found_in_the_source_tree():

@@ -14,7 +14,8 @@ import pytest
 import diptych
 from conftest import QUICK
 
-GRAIN_FIELDS = ("position", "displacement", "velocity", "rotation", "spin", "internal_moment", "mean_internal_moment", "rattler")
+GRAIN_FIELDS = ("position", "displacement", "velocity", "rotation", "spin", "internal_moment", "mean_internal_moment",
+                "rattler")
 
 
 def same_history(a, b):
@@ -33,7 +34,8 @@ def same_snapshots(a, b, fields):
 def test_both_panels_have_the_bits_of_the_program(panels, folder, tmp_path):
     left = diptych.load(folder)
     for panel, results, fields in zip(panels, (left.discrete, left.continuum, left.coarse),
-                                      (GRAIN_FIELDS, *2 * (("position", "displacement", "rotation", "stress", "strain", "cells"),))):
+                                      (GRAIN_FIELDS,
+                                       *2 * (("position", "displacement", "rotation", "stress", "strain", "cells"),))):
         same_history(panel.history, results.history)
         same_snapshots(panel.snapshots, results.snapshots, fields)
     panels[0].write(tmp_path)
@@ -174,11 +176,13 @@ def test_a_running_panel_refuses_a_second_call(small):
 
 def test_arrays_share_the_memory_of_their_snapshot_and_outlive_it(panels):
     snapshot = panels[0].snapshots[-1]
-    assert np.shares_memory(snapshot.position, snapshot.position) and np.shares_memory(snapshot.window.force, snapshot.window.force)
+    assert np.shares_memory(snapshot.position, snapshot.position) and np.shares_memory(snapshot.window.force,
+                                                                                       snapshot.window.force)
     assert not snapshot.position.flags.writeable and not snapshot.contacts.force.flags.writeable
     force, kept = panels[0].snapshot().contacts.force, snapshot.contacts.force.copy()
     np.testing.assert_array_equal(force, kept)  # although its snapshot was deleted
-    assert len(snapshot) == 300 and snapshot.position.shape == (300, 2) and snapshot.internal_moment.shape == (300, 2, 2)
+    assert len(snapshot) == 300 and snapshot.position.shape == (300, 2) and snapshot.internal_moment.shape == (300, 2,
+                                                                                                               2)
     with pytest.raises(AttributeError, match="snapshot.window"):
         _ = snapshot.contacts.dissipation
 
@@ -219,7 +223,7 @@ def test_missing_or_impossible_input_of_panels_is_refused(small):
 @pytest.mark.parametrize("before", ["import h5py", "from mpi4py import MPI"])  # these start HDF5 and MPI themselves
 def test_a_process_ends_cleanly_with_panels_alive(before):
     script = (before + "\nimport diptych\n"
-              "p = diptych.ContinuumPanel({'continuum': {'mesh': 'rectangle', 'rectangle_width': 8, 'rectangle_height': 8}})\n"
-              "p.prepare(); print(p.snapshot().area)")
+              "p = diptych.ContinuumPanel({'continuum': {'mesh': 'rectangle', 'rectangle_width': 8, "
+              "'rectangle_height': 8}})\np.prepare(); print(p.snapshot().area)")
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
     assert done.returncode == 0 and float(done.stdout) == pytest.approx(64) and done.stderr == ""

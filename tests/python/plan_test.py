@@ -102,7 +102,8 @@ def grains_plan(accuracy, factor=1.0, scatter=0.04, noise=0.01, file=""):
             return Pilot(failure="springs stay out of this plan")
         a = float(last(task.settings, "discrete/accuracy", "nan"))
         values = [0.3 * (1 + scatter * np.random.default_rng(seed).normal()) *
-                  (1 + noise * np.random.default_rng([seed, int(1e6 * a)]).normal() + factor * a) for seed in task.seeds or [1]]
+                  (1 + noise * np.random.default_rng([seed, int(1e6 * a)]).normal() + factor * a) for seed in task.seeds
+                  or [1]]
         return Pilot(values=[values], cpu_s=0.05 / a, expected_error={"strength": a, "dilation": 1.25 * a})
 
     scene = scenes.read({"sample": {"file": file}} if file else {})
@@ -138,15 +139,16 @@ def test_two_levels_replace_one_if_they_are_cheaper_and_keep_to_the_accuracy(mon
 @pytest.mark.parametrize("method, cpu_s, used", [("penalty", 3, True), ("penalty", 60, False), ("compliant", 1, True),
                                                  ("compliant", 6, False)])
 def test_springs_replace_contact_dynamics_where_they_are_cheaper(method, cpu_s, used):
-    """Eight samples of 10 CPU s each; with springs 1 % of the accuracy of 3 % is taken, and more samples are needed. Implicit
-    springs keep the error of the step, too."""
+    """Eight samples of 10 CPU s each; with springs 1 % of the accuracy of 3 % is taken, and more samples are needed.
+    Implicit springs keep the error of the step, too."""
     asked = [quantity("strength", step_error="strength")]
     plan = PanelPlan(panel="discrete", command="discrete", settings=[planned("discrete/accuracy", 0.01)],
                      seeds=list(range(1, 9)), cpu_s=10.0,
                      quantities=[Budget(name="strength", mean=0.3, scatter=0.02,
                                         parts=[Part(cause="step, tolerance", error=0.01),
                                                Part(cause="samples", error=0.0167)])])
-    try_springs(plan, question(0.03), lambda task: Pilot(values=[[0.3]], sample_cpu_s=[cpu_s], cpu_s=cpu_s), asked, method)
+    try_springs(plan, question(0.03), lambda task: Pilot(values=[[0.3]], sample_cpu_s=[cpu_s], cpu_s=cpu_s), asked,
+                method)
     assert (last(plan.settings, "discrete/method", "") == method) == used
     assert (method, used) != ("compliant", True) or plan.quantities[0].method == pytest.approx(0.02)
     assert plan.quantities[0].total <= 0.03 and plan.total_cpu_s <= 80
@@ -182,7 +184,8 @@ def elements(of_elements=0.002, of_steps=2.0, of_law=0.0, is_local=False, longes
                               for key, usual in (("element_size", "1"), ("max_step", "0.01"), ("tolerance", "1e-5")))
         law = last(task.settings, "continuum/law", "")
         local = is_local and law != "cosserat_mohr_coulomb"
-        value = 0.4 * (1 + (0.05 * math.log2(h) if local else of_elements * h * h)) * (1 + of_steps * min(step, longest))
+        value = 0.4 * (1 + (0.05 * math.log2(h) if local else of_elements * h * h)) * (1 + of_steps
+                                                                                       * min(step, longest))
         value *= (1 + 0.1 * tolerance) * (1 + of_law if law == "mohr_coulomb" else 1)
         return Pilot(values=[[value]], cpu_s=h**-2 / (2 if law == "mohr_coulomb" else 1))
 
@@ -226,4 +229,5 @@ def test_rough_platens_and_perfect_plasticity_are_reported_to_need_small_element
 def test_a_size_without_effect_is_not_convergence():
     """Load steps above 0.002 have no effect, so the first three values are equal and contain no information."""
     plan = continuum_plan("drucker_prager", of_elements=0.0001, of_steps=20, longest=0.002)
-    assert float(last(plan.settings, "continuum/max_step", "nan")) < 0.0005  # 20 x the step is to stay below a fifth of 2 %
+    # 20 x the step is to stay below a fifth of 2 %
+    assert float(last(plan.settings, "continuum/max_step", "nan")) < 0.0005

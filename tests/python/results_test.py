@@ -39,7 +39,8 @@ def test_fields_are_those_of_the_h5_file(folder):
         last = comparison.fields[-1]
         shapes = {what.shape for what in found["discrete_mean_stress"]}
         assert last["discrete_mean_stress"].shape in shapes
-        same = [np.array_equal(what[()], last["discrete_mean_stress"], equal_nan=True) for what in found["discrete_mean_stress"]
+        same = [np.array_equal(what[()], last["discrete_mean_stress"], equal_nan=True)
+                for what in found["discrete_mean_stress"]
                 if what.shape == last["discrete_mean_stress"].shape]
         assert any(same)
     assert comparison.mesh().polygons.shape == (len(last["cells"]), 4, 2)
@@ -51,7 +52,8 @@ def test_a_history_is_a_frame_with_units(folder):
     frame = history.frame()
     assert isinstance(frame, pandas.DataFrame) and list(frame.columns) == list(history)
     assert frame.attrs["unit"]["sxx"] == "pressure" and "t/s" in history.meaning["stress_ratio"]
-    np.testing.assert_array_equal(frame["stress_ratio"], pandas.read_csv(folder / "discrete.csv", float_precision="round_trip")["stress_ratio"])
+    np.testing.assert_array_equal(frame["stress_ratio"], pandas.read_csv(folder / "discrete.csv",
+                                                                         float_precision="round_trip")["stress_ratio"])
 
 
 def test_what_a_user_prints_is_one_short_line(folder, tmp_path):
@@ -61,8 +63,10 @@ def test_what_a_user_prints_is_one_short_line(folder, tmp_path):
     bands = diptych.find_bands(**moved)
     (tmp_path / "plan.json").write_text("{}")
     frame = importers.Frame("1", {"id": np.arange(5)})
-    shown = [results, results.discrete, results.continuum, results.discrete.history, start, results.continuum.snapshots[-1],
-             end.contacts, stress, stress.mesh, moved, bands, *bands.bands, diptych.compare(results), diptych.biaxial({}),
+    shown = [results, results.discrete, results.continuum, results.discrete.history, start,
+             results.continuum.snapshots[-1],
+             end.contacts, stress, stress.mesh, moved, bands, *bands.bands, diptych.compare(results),
+             diptych.biaxial({}),
              frame, diptych.probe(end, [(5, 5), (15, 5), (15, 15), (5, 15)]), diptych.PlanResult.load(tmp_path)]
     for one in shown:
         assert len(str(one)) <= 200 and "\n" not in str(one) and " object at " not in str(one), str(one)

@@ -74,7 +74,8 @@ def wrong_values(allowed):
 def test_every_key_refuses_what_it_does_not_allow():
     free = []  # checked in use
     for key, (_, allowed, _) in diptych.keys().items():
-        if allowed in ("any text", "auto or any text") or key == "loading/path" or (allowed.endswith("file") and "auto" not in allowed):
+        if allowed in ("any text", "auto or any text") or key == "loading/path" or (allowed.endswith("file") and "auto"
+                                                                                    not in allowed):
             free.append(key)
             continue
         section, name = key.split("/")

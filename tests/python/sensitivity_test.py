@@ -89,7 +89,8 @@ def test_a_study_with_ranges_ranks_the_parameters_of_the_continuum(tmp_path):
     assert table.total["peak t/s"].idxmax() == "continuum/friction_angle_peak"
     assert table.total["volumetric strain at the end"].idxmax() == "continuum/dilatancy_angle_peak"
     assert (table.used == 24).all() and "10-90 % width of the band" in table.index
-    assert list(found.table["continuum/friction_angle_start"] <= found.table["continuum/friction_angle_peak"]) == [True] * 24
+    assert list(found.table["continuum/friction_angle_start"]
+                <= found.table["continuum/friction_angle_peak"]) == [True] * 24
     expect_explained(found)
 
 

@@ -151,7 +151,8 @@ def change(values, **changes):
 
 
 def test_an_effect_on_every_sample_is_resolved_although_the_samples_scatter_more():
-    """The samples differ by 0.05, the points by 0.01. With two points the interval is Student's of the paired differences."""
+    """The samples differ by 0.05, the points by 0.01. With two points the interval is Student's of the paired
+    differences."""
     samples, other = np.array([0.38, 0.40, 0.41, 0.43]), np.array([1, -1, 2, -1]) * 1e-3
     found = change([samples, samples + 0.01 + other])
     assert (found["verdict"], found["smallest_at"], found["largest_at"], found["samples"]) == ("resolved", "0", "1", 4)
@@ -159,7 +160,8 @@ def test_an_effect_on_every_sample_is_resolved_although_the_samples_scatter_more
 
 
 def test_an_absent_effect_looks_resolved_in_one_study_of_twenty():
-    """Five points that differ by scatter alone. Student's interval of the two extreme points would call 18 % resolved."""
+    """Five points that differ by scatter alone. Student's interval of the two extreme points would call 18 %
+    resolved."""
     random = np.random.default_rng(1)
     found = [effects.change_between(random.normal(size=(5, 4)))[0].low > 0 for _ in range(2000)]
     assert 0.035 < np.mean(found) < 0.065
@@ -245,9 +247,11 @@ def test_contradictory_settings_refuse_only_their_point(read):
     ({"quantities": [{"strength": [0.02, 0.01]}]}, ["ascending"]),
     ({"quantities": [{"last": True, "largest": True, "column": "time"}]}, ["exactly one of"]),
     ({"quantities": []}, ["quantities", "missing or empty"]),
-    ({"reference": None, "quantities": [{"strength": [0, 1], "limit": {"relative": 1}}]}, ["limit", "'reference' is missing"]),
+    ({"reference": None, "quantities": [{"strength": [0, 1], "limit": {"relative": 1}}]},
+     ["limit", "'reference' is missing"]),
     ({"quantities": [{"of": "continuum", "strength": [0.005, 0.02]}]}, ["discrete does not write", "continuum"]),
-    ({"reference": {"loading/axial_strain": 0.013, "loading/stage_strain": 0.005}}, ["the reference is refused", "0.013"]),
+    ({"reference": {"loading/axial_strain": 0.013, "loading/stage_strain": 0.005}},
+     ["the reference is refused", "0.013"]),
     ({"command": "run", "quantities": [{"number": "window 0-0.01 discrete band width"}]}, ["'width'", "nearest"]),
     ({"command": "run", "quantities": [{"number": "band angle"}]}, ["'band angle'", "'angle_deg'", "ensemble.csv"]),
     ({"cost": ["discret"]}, ["'discret'", "'discrete'"])])

@@ -15,7 +15,8 @@ from diptych.campaigns.runs.input_file import settings_of
 from diptych.campaigns.runs.members import Member
 from diptych.campaigns.runs.statistics import paired
 
-MARGINS = {"margin_angle": 3, "margin_thickness": 0.2, "margin_peak_stress_ratio": 0.005, "margin_volumetric_strain": 0.002}
+MARGINS = {"margin_angle": 3, "margin_thickness": 0.2, "margin_peak_stress_ratio": 0.005,
+           "margin_volumetric_strain": 0.002}
 NAMES = ("discrete_summary peak_stress_ratio", "continuum_summary peak_stress_ratio")
 
 
@@ -32,8 +33,8 @@ def peak(members, *responses):
 
 @pytest.mark.parametrize("kind, n", [("absolute", 4), ("relative", 4), ("absolute", 16)])
 def test_intervals_hold_the_true_error_in_92_to_96_of_100_ensembles(kind, n):
-    """Grains of mean 1 scatter by 0.04; their step adds 0.02 as expected, the mesh an error of deviation 0.01, the parameters one
-    of 0.015, known from 12 draws. The form of the law is wrong by 0.05."""
+    """Grains of mean 1 scatter by 0.04; their step adds 0.02 as expected, the mesh an error of deviation 0.01, the
+    parameters one of 0.015, known from 12 draws. The form of the law is wrong by 0.05."""
     random, hits, runs = np.random.default_rng(1), 0, 2000
     for _ in range(runs):
         grains = random.normal(1.02, 0.04, n)
@@ -46,7 +47,8 @@ def test_intervals_hold_the_true_error_in_92_to_96_of_100_ensembles(kind, n):
 
 
 def test_a_bias_within_u_num_is_no_verdict_different():
-    """The grains' step adds 1.5 % of strength, as its rule of at most 2 % expects. The scatter alone tells the panels apart."""
+    """The grains' step adds 1.5 % of strength, as its rule of at most 2 % expects. The scatter alone tells the panels
+    apart."""
     grains = 0.4 * 1.015 + 0.0004 * np.array([-1.0, 0, 1, 0])
     members = members_of(grains, [0.4] * 4)
     assert peak(members)[0]["verdict"] == "different"
@@ -66,10 +68,12 @@ def test_without_known_parts_the_interval_is_that_of_the_samples_and_the_parts_a
 
 
 def test_parts_follow_from_the_runs_of_the_continuum():
-    """Errors of order 1: 0.03 h of the mesh, at h = 1 and 2, and 0.02 k of the load step k = 1. The draws deviate by 0.01."""
+    """Errors of order 1: 0.03 h of the mesh, at h = 1 and 2, and 0.02 k of the load step k = 1. The draws deviate by
+    0.01."""
     fine = [0.43] * 4
     responses = validation.Responses(coarse=[{NAMES[1]: 0.46}] * 4, size_ratio=2.0, base={NAMES[1]: 0.46},
-                                     half_step={NAMES[1]: 0.45}, draws=[{NAMES[1]: 0.4 + x} for x in (-0.01, 0, 0.01)] + [{}])
+                                     half_step={NAMES[1]: 0.45},
+                                     draws=[{NAMES[1]: 0.4 + x} for x in (-0.01, 0, 0.01)] + [{}])
     row = peak(members_of([0.4, 0.41, 0.39, 0.4], fine, expected_strength_error=1e-9), responses)[1]
     assert row["parts"]["mesh"] == pytest.approx(validation.SAFETY / 2 * 0.03)
     assert row["parts"]["load_step"] == pytest.approx(validation.SAFETY / 2 * 0.02)
@@ -89,10 +93,12 @@ def test_an_ensemble_with_a_posterior_knows_all_parts_of_its_strength(tmp_path, 
     wrong = write_posterior(tmp_path, "internal_lenght\n2\n")
     with pytest.raises(diptych.SceneError, match="posterior.csv: continuum/internal_lenght is not a key"):
         validation.variations(QUICK, settings_of([], [wrong]), validation.draws_of([wrong], []))
-    file = write_posterior(tmp_path, "friction_angle_peak,internal_length,friction_angle_start (other)\n27,2,9\n29,2,9\n28,3,9\n")
+    file = write_posterior(tmp_path, "friction_angle_peak,internal_length,friction_angle_start "
+                           "(other)\n27,2,9\n29,2,9\n28,3,9\n")
     assert [[one.key for one in draw] for draw in validation.draws_of([file], ["continuum/internal_length=2"])] == [
         ["friction_angle_peak"]] * 3
-    assert len(validation.draws_of([write_posterior(tmp_path, "internal_length\n" + "2\n" * 400)], [])) == validation.DRAWS
+    assert len(validation.draws_of([write_posterior(tmp_path, "internal_length\n" + "2\n" * 400)],
+                                   [])) == validation.DRAWS
     write_posterior(tmp_path, "friction_angle_peak,internal_length\n27,2\n29,2\n28,3\n")
     words = options({**SMALL, "sample": {"grains": 200}})
     line = ["run", QUICK, *words, "--set-file", file, "--seeds", "1-2", "--output", "out", "--quiet"]

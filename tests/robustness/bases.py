@@ -72,8 +72,8 @@ def done(folder, *words):
 def stopped(command, words, checkpoint):
     """Makes a base: a run that is interrupted at its fourth checkpoint."""
     def make(folder):
-        process = subprocess.Popen([PROGRAM, command, QUICK, *words, "--output", "out", "--quiet"], env=ENVIRONMENT, cwd=folder,
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        process = subprocess.Popen([PROGRAM, command, QUICK, *words, "--output", "out", "--quiet"], env=ENVIRONMENT,
+                                   cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         path, seen = os.path.join(folder, "out", checkpoint), set()
         while process.poll() is None and len(seen) < 4:
             with contextlib.suppress(FileNotFoundError):
@@ -90,7 +90,8 @@ def make_grains(folder):
     done(folder, "discrete", QUICK, *TINY, "--output", "out", "--quiet")
     with h5py.File(os.path.join(folder, "out", "discrete.h5"), "r") as file:
         grains = file["stage_0000/grains"]
-        rows = [f"{x!r},{y!r},{r!r}" for (x, y, _), r in zip(grains["position"][()].tolist(), grains["radius"][()].tolist())]
+        rows = [f"{x!r},{y!r},{r!r}" for (x, y, _), r in zip(grains["position"][()].tolist(),
+                                                             grains["radius"][()].tolist())]
     for name, lines in {"grains.csv": ["x,y,r", *rows], "speed.csv": ["time,velocity", "0,0", "0.5,-0.001", "1,-0.001"],
                         "radii.csv": ["radius,passing", "0.3,0", "0.4,0.3", "0.5,0.6", "0.7,1"]}.items():
         write(os.path.join(folder, name), "\n".join(lines) + "\n")
@@ -111,7 +112,8 @@ def run_of(*words):
 def foreign(kind):
     """The files of a format in the order of their names."""
     found = [os.path.join(top, name) for top, _, names in os.walk(FOREIGN) for name in names]
-    return sorted((path for path in found if re.match(FORMATS[kind][1], os.path.relpath(path, FOREIGN))), key=os.path.basename)
+    return sorted((path for path in found if re.match(FORMATS[kind][1], os.path.relpath(path, FOREIGN))),
+                  key=os.path.basename)
 
 
 SEEDS = ["--seeds", "1-2", "--jobs", "1"]

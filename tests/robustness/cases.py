@@ -23,7 +23,8 @@ SEEDS = 100000  # from the first seed of a run of the harness to that of the nex
 
 
 def limit(memory=MEMORY, **limits):
-    """For preexec_fn. The signals end a program also under nohup. Address sanitizer maps more addresses than any limit leaves."""
+    """For preexec_fn. The signals end a program also under nohup. Address sanitizer maps more addresses than any limit
+    leaves."""
     for one in (signal.SIGHUP, signal.SIGINT):
         signal.signal(one, signal.SIG_DFL)
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
@@ -83,7 +84,8 @@ class Case:
 
     def start(self, *words, preexec=limit):
         self.log.append(" ".join(map(repr, words)))
-        process = subprocess.Popen([PROGRAM, *words], env=ENVIRONMENT, cwd=self.work, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+        process = subprocess.Popen([PROGRAM, *words], env=ENVIRONMENT, cwd=self.work, stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE, pipesize=1 << 20, preexec_fn=preexec, start_new_session=True)
         process.sent = 0
         return process
@@ -105,7 +107,8 @@ class Case:
         is_hung = self.finish(process, patience)
         out, errors = text_of(process.stdout), text_of(process.stderr)
         self.log.append(f"exit code {process.returncode}\n{out[-3000:]}{errors[-3000:]}")
-        outcome = judge.Outcome(code=process.returncode, out=out, errors=errors, before=before, after=judge.digest(self.work), output=output,
+        outcome = judge.Outcome(code=process.returncode, out=out, errors=errors, before=before,
+                                after=judge.digest(self.work), output=output,
                                 root=self.work, is_hung=is_hung, sent=process.sent)
         self.codes.append(outcome.code)
         self.violations += judge.judge(outcome, judge.Expected(**expected))
@@ -117,7 +120,8 @@ class Case:
 
     def expect_same(self, whole, found, without=()):
         """Compares the results of two folders bit by bit."""
-        wrong = [name for name in same.differences(same.results(whole), same.results(found, without)) if not name.startswith(tuple(without))]
+        wrong = [name for name in same.differences(same.results(whole), same.results(found, without))
+                 if not name.startswith(tuple(without))]
         if wrong:
             self.violations.append("other results than with undamaged files: " + "; ".join(wrong[:4]))
 
@@ -145,4 +149,5 @@ def run_case(kind, function, seed, keep):
     function(case)
     case.close()
     ended = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return Made(case.violations, case.codes, case.log, ended.ru_utime + ended.ru_stime - began.ru_utime - began.ru_stime)
+    return Made(case.violations, case.codes, case.log, ended.ru_utime + ended.ru_stime - began.ru_utime
+                - began.ru_stime)

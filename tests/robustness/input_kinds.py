@@ -18,7 +18,8 @@ from running import bits, setting
 @functools.lru_cache(maxsize=None)
 def explained_keys():
     """(section/key, allowed values) of all keys."""
-    return tuple((f"{key['section']}/{key['key']}", key["allowed"]) for key in json.loads(bases.printed("explain", "--json"))["keys"])
+    return tuple((f"{key['section']}/{key['key']}", key["allowed"])
+                 for key in json.loads(bases.printed("explain", "--json"))["keys"])
 
 
 def key_names():
@@ -49,7 +50,8 @@ def values_of(allowed):
 @functools.lru_cache(maxsize=None)
 def all_values():
     """(key, value, whether the program must refuse it) in a fixed order, so that consecutive seeds cover all keys."""
-    found = [(name, value, k == 1) for name, allowed in explained_keys() for k, values in enumerate(values_of(allowed)) for value in values]
+    found = [(name, value, k == 1) for name, allowed in explained_keys() for k,
+             values in enumerate(values_of(allowed)) for value in values]
     random.Random("keys").shuffle(found)
     return tuple(found)
 
@@ -62,7 +64,8 @@ CONTEXT = (  # the keys without which other keys have no effect
     ("continuum/refinement_", setting(continuum_refinement="adaptive")),
     ("continuum/weak_spot_", setting(continuum_weak_spot_strain=0.1)),
     ("comparison/averaging_", setting(comparison_averaging="kernel")),
-    ("continuum/(critical_|strength_by|dilatancy_ratio|elastic_stress|.*_start)", setting(continuum_hardening="kinematic", continuum_solid_fraction_start=0.82)),
+    ("continuum/(critical_|strength_by|dilatancy_ratio|elastic_stress|.*_start)",
+     setting(continuum_hardening="kinematic", continuum_solid_fraction_start=0.82)),
 )
 
 
@@ -79,7 +82,8 @@ def keys(case):
 
 
 def as_prm(sections):
-    return "".join(f"subsection {section}\n" + "".join(f"  set {key} = {value}\n" for key, value in items.items()) + "end\n"
+    return "".join(f"subsection {section}\n" + "".join(f"  set {key} = {value}\n" for key, value in items.items())
+                   + "end\n"
                    for section, items in sections.items())
 
 
@@ -87,17 +91,21 @@ def scene_text(case, name):
     sections = {}
     for word in NODES[1::2]:
         section, key, value = re.fullmatch(r"(\w+)/(\w+)=(.*)", word).groups()
-        sections.setdefault(section, {})[key] = value if name.endswith(".prm") or not re.fullmatch(r"[\d.e-]+", value) else float(value)
+        is_text = name.endswith(".prm") or not re.fullmatch(r"[\d.e-]+", value)
+        sections.setdefault(section, {})[key] = value if is_text else float(value)
     deep = case.dice.choice([60000, 300000])
     if name.endswith(".json") and case.dice.random() < 0.3:
-        return case.dice.choice(["[" * deep + "]" * deep, '{"a":' * deep + "1" + "}" * deep, "[" * deep, '{"sample": {"grains": ' + "[" * deep]).encode()
-    return damage.damage_text(case.dice, (as_prm(sections) if name.endswith(".prm") else json.dumps(sections, indent=1)).encode())
+        return case.dice.choice(["[" * deep + "]" * deep, '{"a":' * deep + "1" + "}" * deep, "[" * deep,
+                                 '{"sample": {"grains": ' + "[" * deep]).encode()
+    return damage.damage_text(case.dice,
+                              (as_prm(sections) if name.endswith(".prm") else json.dumps(sections, indent=1)).encode())
 
 
 def scenes(case):
     """A scene that is damaged, or a folder or device in its place."""
     name, out = case.dice.choice(["scene.prm", "scene.prm", "scene.json"]), case.path("out")
-    place = case.dice.choice([".", name, "/dev/zero", "/dev/null", os.path.join(case.base("grains"), "out", "discrete.h5")])
+    place = case.dice.choice([".", name, "/dev/zero", "/dev/null",
+                              os.path.join(case.base("grains"), "out", "discrete.h5")])
     if case.dice.random() < 0.06:
         os.symlink(place, case.path(name))
     else:
@@ -111,7 +119,8 @@ def csv(case):
     name, words = case.dice.choice([
         ("grains.csv", setting(sample_file="grains.csv")), ("grains.csv", setting(sample_file="grains.csv")),
         ("speed.csv", TIMES + ["--set", "discrete/drive_upper_y=velocity speed.csv"]),
-        ("radii.csv", setting(sample_radius_distribution="table", sample_radius_table="radii.csv", sample_radius_min=0.3, sample_radius_max=0.7))])
+        ("radii.csv", setting(sample_radius_distribution="table", sample_radius_table="radii.csv",
+                              sample_radius_min=0.3, sample_radius_max=0.7))])
     case.write(name, damage.damage_text(case.dice, read(os.path.join(case.base("grains"), name))))
     out = case.path("out")
     case.run("discrete", QUICK, *TINY, *words, "--output", out, "--quiet", output=out, names=(name, *key_names()))
@@ -133,7 +142,8 @@ def snapshots(case):
     words = ["discrete", QUICK, *TINY, "--quiet"]
     outcome = case.run(*words, *setting(sample_file=name), "--output", out, output=out, names=(name,))
     if outcome.code == 0 and is_plain:
-        case.expect_same(bases.whole(case.keep, "snapshots", lambda to: [*words, *setting(sample_file=whole), "--output", to]), out)
+        case.expect_same(bases.whole(case.keep, "snapshots",
+                                     lambda to: [*words, *setting(sample_file=whole), "--output", to]), out)
 
 
 def problems(case):
@@ -143,7 +153,8 @@ def problems(case):
     is_plain = damage_hdf5(case, name, "fclib|nscd")
     words = ["--form", case.dice.choice(["local", "body"]), "--max-sweeps", "20000", "--output"]
     outcome = case.run("solve", name, *words, out, output=out, names=(name,))
-    if outcome.code == 0 and is_plain and ": group" not in case.log[0]:  # without one group it is a whole problem in the other form
+    # without one group it is a whole problem in the other form
+    if outcome.code == 0 and is_plain and ": group" not in case.log[0]:
         whole = bases.whole(case.keep, "problem_" + words[1], lambda to: ["solve", PROBLEM, *words, to])
         if any(bits(whole)[key] != bits(out)[key] for key in ("solution/r", "solution/u")):
             case.violations.append("another solution than that of the undamaged problem")
@@ -163,10 +174,12 @@ def imports(case):
     elif not is_whole:
         case.write(names[0], damage.damage_text(case.dice, read(case.path(names[0]))))
     case.dice.shuffle(names)
-    outcome = case.run("import", form, *names, *words, "--output", out, "--quiet", output=out, names=(*names, "the files", "--", "import " + form),
+    outcome = case.run("import", form, *names, *words, "--output", out, "--quiet", output=out,
+                       names=(*names, "the files", "--", "import " + form),
                        codes=(0,) if is_whole else (0, 2, 3, 4), patience=20, has_numbers=False)
     if outcome.code == 0 and (is_plain or is_whole) and "warning" not in outcome.errors:
-        case.expect_same(bases.whole(case.keep, kind, lambda to: ["import", form, *bases.foreign(kind), *words, "--output", to, "--quiet"]), out)
+        case.expect_same(bases.whole(case.keep, kind, lambda to: ["import", form, *bases.foreign(kind), *words,
+                                                                  "--output", to, "--quiet"]), out)
 
 
 KINDS = {"scenes": scenes, "keys": keys, "csv": csv, "snapshots": snapshots, "problems": problems, "imports": imports}

@@ -45,7 +45,8 @@ def kills(case, base=""):
             length *= 0.7
     case.run(*line, output=case.work, codes=(0,), patience=120, has_numbers=base != "imported")
     case.expect_same(os.path.join(case.base(base), "out"), case.path("out"))
-    left = [name for name in judge.digest(case.path("out")) if name.endswith(".part") or judge.LOCK.search(os.path.basename(name))]
+    left = [name for name in judge.digest(case.path("out")) if name.endswith(".part")
+            or judge.LOCK.search(os.path.basename(name))]
     if left:
         case.violations.append("left after the last run: " + ", ".join(left))
 
@@ -63,7 +64,8 @@ def killed_once(case, line, seconds, number):
 
 def two_writers(case):
     """Two runs into one folder at once: the folder holds the complete results of one of them."""
-    command, words, base = case.dice.choice([("discrete", LONG, "long_grains"), ("discrete", TINY, "grains"), ("run", BOTH, "both")])
+    command, words, base = case.dice.choice([("discrete", LONG, "long_grains"), ("discrete", TINY, "grains"),
+                                             ("run", BOTH, "both")])
     out, more = case.path("out"), case.dice.choice([[], [], ["--resume"], ["--overwrite"]])
     before = judge.digest(case.work)
     first = case.start(command, QUICK, *words, "--output", "out", "--quiet")
@@ -72,14 +74,18 @@ def two_writers(case):
     for process in (first, second):
         process.wait(cases.HANG)
     after = judge.digest(case.work)
-    outcomes = [case.end(process, before if process.returncode == 0 else after, case.work, codes=(0, 2, 4), names=(out, "out")) for process in (first, second)]
+    outcomes = [case.end(process, before if process.returncode == 0 else after, case.work, codes=(0, 2, 4),
+                         names=(out, "out")) for process in (first, second)]
     if all(outcome.code != 0 for outcome in outcomes):
         case.violations.append("both runs were refused")
         return
     wholes = {name: same.results(os.path.join(case.base(name), "out")) for name in (base, "other_" + base)}
     folders = [name for name in ("out", "out.1") if os.path.isdir(case.path(name))]
-    found = [[name for name, whole in wholes.items() if not same.differences(whole, same.results(case.path(folder)))] for folder in folders]
-    if [] in found or len(folders) != sum(outcome.code == 0 for outcome in outcomes) or len({name for names in found for name in names}) != len(folders):
+    found = [[name for name, whole in wholes.items() if not same.differences(whole, same.results(case.path(folder)))]
+             for folder in folders]
+    if [] in found or len(folders) != sum(outcome.code == 0
+                                          for outcome in outcomes) or len({name for names in found
+                                                                           for name in names}) != len(folders):
         case.violations.append(f"the folders {folders} hold the whole results of {found}")
 
 

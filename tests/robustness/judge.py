@@ -16,8 +16,10 @@ import numpy
 
 CODES = (0, 2, 3, 4)
 # Texts of libraries that tell the user nothing.
-NEVER = ("Traceback (most recent call last)", "terminate called", "what():", "HDF5-DIAG", "Segmentation fault", "AddressSanitizer", "runtime error: ",
-         "std::bad_alloc", "bad_array_new_length", "std::exception", "basic_filebuf", "basic_ios::clear", "cannot create std::", "std::length_error",
+NEVER = ("Traceback (most recent call last)", "terminate called", "what():", "HDF5-DIAG", "Segmentation fault",
+         "AddressSanitizer", "runtime error: ",
+         "std::bad_alloc", "bad_array_new_length", "std::exception", "basic_filebuf", "basic_ios::clear",
+         "cannot create std::", "std::length_error",
          "vector::_M_", "basic_string::_M_", "basic_string: ", "_M_range_check")
 NOT_ALONE = ("[json.exception", "regex_error", "stoi", "stod")  # allowed beside the name of a file or key
 OWN_STATE = ("checkpoint.h5", "continuum_checkpoint.h5")  # no results
@@ -25,7 +27,7 @@ LOCK = re.compile(r"(^|[._-])lock$")
 # "FILE NAME" of arrays and columns that may hold nan or inf.
 NO_NUMBER = re.compile(r"""
     discrete[.]h5\ .*(stress_change|stress_error|error_over_residual|left_x|right_x)   # not estimated, or no wall
-  | comparison[.]h5\ (histories/.*_mean|.*(cells|grid|profile)/.*|.*discrete/stress_.*)        # no window, grain, force or rotation
+  | comparison[.]h5\ (histories/.*_mean|.*(cells|grid|profile)/.*|.*discrete/stress_.*)  # no window, grain or force
   | (discrete|continuum)[.](csv|h5)\ .*stress_ratio                                    # no stress
   | (ensemble|study)[.]h5\ .*                                                          # curves of different lengths
 """, re.VERBOSE)
@@ -65,7 +67,8 @@ def digest(root):
         for name in names + files:
             path = os.path.join(folder, name)
             try:
-                found[os.path.relpath(path, root)] = "-> " + os.readlink(path) if os.path.islink(path) else "folder" if os.path.isdir(
+                is_link, place = os.path.islink(path), os.path.relpath(path, root)
+                found[place] = "-> " + os.readlink(path) if is_link else "folder" if os.path.isdir(
                     path) else hashlib.blake2b(read(path), digest_size=16).hexdigest()
             except FileNotFoundError:
                 if not LOCK.search(name):  # a worker of a killed run removes its lock while it ends
@@ -74,14 +77,16 @@ def digest(root):
 
 
 def changes(outcome):
-    return [name for name in sorted(set(outcome.before) | set(outcome.after)) if outcome.before.get(name) != outcome.after.get(name)]
+    return [name for name in sorted(set(outcome.before) | set(outcome.after))
+            if outcome.before.get(name) != outcome.after.get(name)]
 
 
 def ends_by_itself(outcome, _):
     if outcome.is_hung:
         return ["it hung" + (" after SIGTERM" if outcome.sent else "")]
     if outcome.code < 0 and -outcome.code != outcome.sent or outcome.code in (134, 135, 136, 137, 139):
-        return ["it died of a signal: " + (signal.Signals(-outcome.code).name if outcome.code < 0 else str(outcome.code))]
+        return ["it died of a signal: " + (signal.Signals(-outcome.code).name if outcome.code < 0
+                                           else str(outcome.code))]
     return []
 
 
@@ -117,14 +122,16 @@ def nothing_beside_the_output_changes(outcome, expected):
     inside = os.path.relpath(outcome.output, outcome.root)
 
     def own(name):
-        return name in expected.may_change or name == inside or name.startswith(inside + os.sep) or inside.startswith(name + os.sep) or inside == "."
+        return (name in expected.may_change or inside in (name, ".") or name.startswith(inside + os.sep)
+                or inside.startswith(name + os.sep))
     changed = [name for name in changes(outcome) if not own(name)]
     return ["changed beside the output: " + ", ".join(changed[:6])] if changed else []
 
 
 def message_says_what_is_kept(outcome, expected):
     found, written = [], set(changes(outcome)) - set(expected.may_change)
-    if outcome.code in (3, 4) and written and not re.search(r"\bkept\b|nothing was written|status: ", outcome.errors + outcome.out):
+    if outcome.code in (3, 4) and written and not re.search(r"\bkept\b|nothing was written|status: ",
+                                                            outcome.errors + outcome.out):
         found.append(f"exit code {outcome.code} does not say what is kept")
     if outcome.code == 4 and "/" not in outcome.errors and not any(name in outcome.errors for name in expected.names):
         found.append("exit code 4 names nothing")
@@ -201,8 +208,10 @@ def results_hold_numbers(outcome, expected):
     return found
 
 
-RULES = (ends_by_itself, code_is_allowed, message_is_the_programs_own, wrong_input_is_named, wrong_input_changes_nothing,
-         nothing_beside_the_output_changes, message_says_what_is_kept, no_temporary_file_is_left, nothing_is_lost, results_hold_numbers)
+RULES = (ends_by_itself, code_is_allowed, message_is_the_programs_own, wrong_input_is_named,
+         wrong_input_changes_nothing,
+         nothing_beside_the_output_changes, message_says_what_is_kept, no_temporary_file_is_left, nothing_is_lost,
+         results_hold_numbers)
 
 
 def judge(outcome, expected):

@@ -41,31 +41,42 @@ class Judged(unittest.TestCase):
         return "\n".join(case.violations)
 
     def test_right_programs(self):
-        for script in ('mkdir $1; printf "axial_strain,stress_ratio\\n0,0.1\\n" > $1/discrete.csv; printf "{}" > $1/a.json',
-                       'mkdir $1; touch $1/blocks', 'echo "sample/grains = 5" >&2; exit 2', 'mkdir $1; echo "stopped; kept in $1: scene.prm" >&2; exit 3',
-                       'echo "/x cannot be made" >&2; exit 4', 'echo "scene.prm: stod" >&2; exit 2', 'mv $1 $1.1; mkdir $1'):
+        for script in ('mkdir $1; printf "axial_strain,stress_ratio\\n0,0.1\\n" > $1/discrete.csv; printf "{}" > '
+                       '$1/a.json',
+                       'mkdir $1; touch $1/blocks', 'echo "sample/grains = 5" >&2; exit 2',
+                       'mkdir $1; echo "stopped; kept in $1: scene.prm" >&2; exit 3',
+                       'echo "/x cannot be made" >&2; exit 4', 'echo "scene.prm: stod" >&2; exit 2',
+                       'mv $1 $1.1; mkdir $1'):
             keeps = ("out/discrete.csv",) if "mv" in script else ()
-            said = self.judged(script, old="mv" in script, names=("sample/grains", "scene.prm"), keeps=keeps, may_change=("out.1", "out.1/discrete.csv"))
+            said = self.judged(script, old="mv" in script, names=("sample/grains", "scene.prm"), keeps=keeps,
+                               may_change=("out.1", "out.1/discrete.csv"))
             self.assertEqual(said, "")
-        self.assertEqual(self.judged('trap "echo nothing was kept >&2; exit 3" TERM; while :; do sleep 0.1; done', patience=0.5, codes=(0,)), "")
+        self.assertEqual(self.judged('trap "echo nothing was kept >&2; exit 3" TERM; while :; do sleep 0.1; done',
+                                     patience=0.5, codes=(0,)), "")
 
     def test_every_rule(self):
         for sentence, script, expected in (
                 ("died of a signal: SIGSEGV", "kill -SEGV $$", {}), ("died of a signal", "exit 139", {}),
-                ("exit code 1, not one of", "exit 1", {"codes": (0, 1)}), ("exit code 0, not one of [2]", "exit 0", {"codes": (2,)}),
-                ("standard error holds", 'echo "/x: std::bad_alloc" >&2', {}), ("standard error holds", 'echo "stod" >&2', {"names": ("scene.prm",)}),
+                ("exit code 1, not one of", "exit 1", {"codes": (0, 1)}),
+                ("exit code 0, not one of [2]", "exit 0", {"codes": (2,)}),
+                ("standard error holds", 'echo "/x: std::bad_alloc" >&2', {}),
+                ("standard error holds", 'echo "stod" >&2', {"names": ("scene.prm",)}),
                 ("standard error holds", 'echo Traceback "(most recent call last)" >&2', {}),
-                ("names none of", 'echo "wrong" >&2; exit 2', {"names": ("sample/grains",)}), ("without a message", "exit 2", {}),
+                ("names none of", 'echo "wrong" >&2; exit 2', {"names": ("sample/grains",)}),
+                ("without a message", "exit 2", {}),
                 ("exit code 2, but changed: out", 'mkdir $1; echo "key" >&2; exit 2', {}),
                 ("does not say what is kept", 'mkdir $1; echo "/x failed" >&2; exit 3', {}),
                 ("exit code 2, but changed: out", 'echo new > $1/discrete.csv; echo "key" >&2; exit 2', {"old": True}),
                 ("names nothing", 'echo failed >&2; exit 4', {}), ("changed beside the output: mine", "touch mine", {}),
-                ("left behind: out/a.h5.part", "mkdir $1; touch $1/a.h5.part", {}), ("left behind: out/.diptych.lock", "mkdir $1; touch $1/.diptych.lock", {}),
+                ("left behind: out/a.h5.part", "mkdir $1; touch $1/a.h5.part", {}),
+                ("left behind: out/.diptych.lock", "mkdir $1; touch $1/.diptych.lock", {}),
                 ("lost: out/discrete.csv", "rm $1/discrete.csv", {"old": True, "keeps": ("out/discrete.csv",)}),
                 ("no numbers in out/a.csv: x", 'mkdir $1; printf "x\\nnan\\n" > $1/a.csv', {}),
                 ("no numbers in out/a.json", 'mkdir $1; printf "[1e999]" > $1/a.json', {}),
-                ("no numbers in out/a.json", 'mkdir $1; printf "{" > $1/a.json', {}), ("no numbers in out/a.h5", "mkdir $1; echo no > $1/a.h5", {}),
-                ("out/a.h5: g/x", f"mkdir $1; {sys.executable} -c \"import h5py; h5py.File('$1/a.h5', 'w')['g/x'] = float('inf')\"", {})):
+                ("no numbers in out/a.json", 'mkdir $1; printf "{" > $1/a.json', {}),
+                ("no numbers in out/a.h5", "mkdir $1; echo no > $1/a.h5", {}),
+                ("out/a.h5: g/x", f"mkdir $1; {sys.executable} -c \"import h5py; h5py.File('$1/a.h5', 'w')['g/x'] = "
+                 "float('inf')\"", {})):
             with self.subTest(script=script):
                 self.assertIn(sentence, self.judged(script, **expected))
 
@@ -80,7 +91,8 @@ class Harness(unittest.TestCase):
             one, same_one, other = (cases.Case("scenes", seed, keep).dice.random() for seed in (12, 12, 13))
         self.assertEqual(one, same_one)
         self.assertNotEqual(one, other)
-        self.assertEqual(robustness.schedule(300, 1, list(robustness.KINDS)), robustness.schedule(300, 1, list(robustness.KINDS)))
+        self.assertEqual(robustness.schedule(300, 1, list(robustness.KINDS)),
+                         robustness.schedule(300, 1, list(robustness.KINDS)))
 
     def test_every_key_is_tried_at_its_bounds(self):
         self.assertGreater(len(input_kinds.explained_keys()), 100)

@@ -16,8 +16,10 @@ from running import setting
 
 COMMANDS = {"discrete": [QUICK, *TINY], "run": [QUICK, *BOTH], "continuum": [QUICK, *NODES]}
 REPLACING = (  # commands on a folder with results of both panels, and the files that they do not compute anew
-    (["compare", "OUT"], ("discrete.", "continuum.")), (["report", "OUT"], ("discrete.", "continuum.", "comparison.", "scene.prm")),
-    (["run", QUICK, *BOTH, *setting(comparison_max_bands=1), "--resume", "--output", "OUT"], ("discrete.", "continuum.")),
+    (["compare", "OUT"], ("discrete.", "continuum.")), (["report", "OUT"],
+                                                        ("discrete.", "continuum.", "comparison.", "scene.prm")),
+    (["run", QUICK, *BOTH, *setting(comparison_max_bands=1), "--resume", "--output", "OUT"],
+     ("discrete.", "continuum.")),
     (["run", QUICK, *BOTH, *setting(continuum_friction_angle_peak=30), "--resume", "--output", "OUT"], ("discrete.",)),
     (["continuum", QUICK, *BOTH, *setting(continuum_friction_angle_peak=30), "--output", "OUT"], ("discrete.",)),
     (["run", QUICK, *BOTH, "--overwrite", "--output", "OUT"], ("discrete.", "continuum.", "comparison.", "scene.prm")),
@@ -32,13 +34,15 @@ def called(*words):
 def can_mount():
     """Root can, in a name space of this process: its mounts end with it."""
     new_mounts = 0x00020000  # CLONE_NEWNS
-    return (os.geteuid() == 0 and bool(shutil.which("mount")) and hasattr(ctypes.CDLL(None), "unshare") and ctypes.CDLL(None).unshare(new_mounts) == 0
+    return (os.geteuid() == 0 and bool(shutil.which("mount")) and hasattr(ctypes.CDLL(None), "unshare")
+            and ctypes.CDLL(None).unshare(new_mounts) == 0
             and called("mount", "--make-rprivate", "/"))
 
 
 @contextlib.contextmanager
 def small_disk(case):
-    """A file system of 16 MB at `disk`, replaced in the end by a folder with the same files. Yields whether it could be mounted."""
+    """A file system of 16 MB at `disk`, replaced in the end by a folder with the same files. Yields whether it could be
+    mounted."""
     folder = case.path("disk")
     os.mkdir(folder)
     is_one = can_mount() and called("mount", "-t", "tmpfs", "-o", "size=16000k", "none", folder)
@@ -74,15 +78,21 @@ def disk(case):
         elif way == "replace":
             shutil.copytree(os.path.join(case.base("both"), "out"), out)
             line, kept = dice.choice(REPLACING)
-            line, keeps = [out if word == "OUT" else word for word in line], tuple("disk/out/" + name for name in os.listdir(out) if name.startswith(kept))
+            line, keeps = [out if word == "OUT" else word for word in line], tuple("disk/out/" + name
+                                                                                   for name in os.listdir(out)
+                                                                                   if name.startswith(kept))
         else:
             line = dice.choice([["import", "csv", *bases.foreign("csv"), "--output", out],
-                                ["export", os.path.join(case.base("both"), "out"), "--format", dice.choice(["csv", "lammps"]), "--output", out]])
-        filler = threading.Timer(dice.choice([0, 0, dice.uniform(0, 0.3), dice.uniform(0, 1.5)]), fill, (case.path("disk"), room))
+                                ["export", os.path.join(case.base("both"), "out"), "--format",
+                                 dice.choice(["csv", "lammps"]), "--output", out]])
+        filler = threading.Timer(dice.choice([0, 0, dice.uniform(0, 0.3), dice.uniform(0, 1.5)]), fill,
+                                 (case.path("disk"), room))
         if is_one:
             filler.start()
-        case.run(*line, "--quiet", output=case.path("disk"), names=(out, "TMPDIR"), codes=(0, 4), keeps=keeps, may_change=("disk/fill",), patience=30,
-                 has_numbers=way != "other", preexec=limit if is_one else functools.partial(limit, RLIMIT_FSIZE=1024 * room))
+        case.run(*line, "--quiet", output=case.path("disk"), names=(out, "TMPDIR"), codes=(0, 4), keeps=keeps,
+                 may_change=("disk/fill",), patience=30,
+                 has_numbers=way != "other", preexec=limit if is_one
+                 else functools.partial(limit, RLIMIT_FSIZE=1024 * room))
         if is_one:
             filler.join()
 
@@ -91,7 +101,8 @@ def memory(case):
     """Little memory. Below 400 MB the libraries do not load."""
     command, out = case.dice.choice(sorted(COMMANDS)), case.path("out")
     words = ["--threads", case.dice.choice(["1", "2", "64", "1024"])] if command != "continuum" else []
-    case.run(command, *COMMANDS[command], *words, "--output", out, "--quiet", output=out, names=(out, "memory", "TMPDIR", "--threads"), codes=(0, 3, 4),
+    case.run(command, *COMMANDS[command], *words, "--output", out, "--quiet", output=out,
+             names=(out, "memory", "TMPDIR", "--threads"), codes=(0, 3, 4),
              patience=30, preexec=functools.partial(limit, memory=case.dice.randrange(400, 1500) << 20))
 
 

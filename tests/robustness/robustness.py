@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # diptych: random damaged files, full disks, kills and competing runs: nothing is lost, nothing silently wrong
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: robustness.py PROGRAM SOURCE_DIR [--cases N] [--seed S] [--kinds a,b] [--jobs J] [--keep DIR] [--case KIND:SEED]"""
+"""Usage: robustness.py PROGRAM SOURCE_DIR [--cases N] [--seed S] [--kinds a,b] [--jobs J] [--keep DIR] [--case
+KIND:SEED]"""
 
 import argparse
 import collections
@@ -24,8 +25,8 @@ import result_kinds  # noqa: E402
 
 KINDS = {**input_kinds.KINDS, **result_kinds.KINDS, **machine_kinds.KINDS, **interruption_kinds.KINDS}
 ALL = {**KINDS, **interruption_kinds.EACH}
-WEIGHTS = {"scenes": 20, "keys": 22, "csv": 6, "snapshots": 6, "problems": 6, "imports": 8, "checkpoints": 6, "results": 9, "disk": 8, "memory": 1,
-           "kills": 4, "two_writers": 3}
+WEIGHTS = {"scenes": 20, "keys": 22, "csv": 6, "snapshots": 6, "problems": 6, "imports": 8, "checkpoints": 6,
+           "results": 9, "disk": 8, "memory": 1, "kills": 4, "two_writers": 3}
 
 
 def schedule(n_cases, seed, kinds):
@@ -68,7 +69,8 @@ def arguments():
     parser.add_argument("source")
     parser.add_argument("--cases", type=int, default=100)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--kinds", default=",".join(KINDS), help="with commas between; kills_BASE kills one sort of run")
+    parser.add_argument("--kinds", default=",".join(KINDS),
+                        help="with commas between; kills_BASE kills one sort of run")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--keep", help="folder for violated cases (default: a temporary one)")
     parser.add_argument("--case", action="append", metavar="KIND:SEED", help="runs this case; may be repeated")
@@ -91,7 +93,8 @@ def main():
         counted[kind].update({"cases": 1, "violations": int(bool(made.violations)), "CPU s": made.seconds})
         counted[kind].update(str(code) if code >= 0 else "signal" for code in made.codes)
         if made.violations:
-            print("\n    ".join([f"--case {kind}:{seed}  in {keep}/{kind}_{seed}", *made.violations, *made.log]), flush=True)
+            print("\n    ".join([f"--case {kind}:{seed}  in {keep}/{kind}_{seed}", *made.violations, *made.log]),
+                  flush=True)
         if n % max(20, len(plan) // 50) == 0:
             print(f"{n} of {len(plan)} cases", file=sys.stderr, flush=True)
     table(counted)

@@ -21,7 +21,8 @@ def without_clocks(item):
     if isinstance(item, dict):
         return {key: without_clocks(value) for key, value in item.items() if not is_of_clock(key)}
     if isinstance(item, list):  # in comparison.csv, a row is a number
-        return [without_clocks(one) for one in item if not (isinstance(one, dict) and is_of_clock(one.get("quantity", "")))]
+        return [without_clocks(one) for one in item if not (isinstance(one, dict)
+                                                            and is_of_clock(one.get("quantity", "")))]
     return item
 
 
@@ -33,11 +34,13 @@ def content_of(path):
 
 
 def results(folder, without=()):
-    """The contents of all files by their relative path. `without`: damaged files that need not be readable. Folders NAME.1 hold
-    what a repeated run has set aside."""
+    """The contents of all files by their relative path. `without`: damaged files that need not be readable. Folders
+    NAME.1 hold what a repeated run has set aside."""
     paths = [os.path.join(root, name) for root, _, names in os.walk(folder) for name in names
-             if not root.endswith(".1") and name.endswith((".h5", ".csv", ".json")) and name not in OWN_STATE + NOT_COMPARED]
-    return {os.path.relpath(path, folder): content_of(path) for path in paths if os.path.relpath(path, folder) not in without}
+             if not root.endswith(".1") and name.endswith((".h5", ".csv", ".json")) and name not in OWN_STATE
+             + NOT_COMPARED]
+    return {os.path.relpath(path, folder): content_of(path) for path in paths if os.path.relpath(path, folder)
+            not in without}
 
 
 def differences(one, other):
@@ -48,6 +51,7 @@ def differences(one, other):
         if a is None or b is None:
             found.append(name + (" is missing" if b is None else " is new"))
         elif a != b:
-            parts = [part for part in sorted(set(a) | set(b)) if a.get(part) != b.get(part)] if isinstance(a, dict) else []
+            parts = [part for part in sorted(set(a) | set(b)) if a.get(part) != b.get(part)] if isinstance(a,
+                                                                                                           dict) else []
             found.append(name + (": " + ", ".join(map(str, parts[:4])) if parts else ""))
     return found

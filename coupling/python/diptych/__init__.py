@@ -1,13 +1,14 @@
 # diptych: the Python package
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Diptych: a granular sample as discs (contact dynamics) and as an elasto-plastic continuum, and the operators that compare both.
+"""Diptych: a granular sample as discs (contact dynamics) and as an elasto-plastic continuum, and the operators that
+compare both.
 
-Scenes are nested dicts or paths, checked like scene files (scene, keys). Panels are objects (DiscretePanel, ContinuumPanel). Result
-folders of the program load as arrays (load, compare). Operators take arrays from any source: map_stress, find_bands, strips,
-shear_strain, probe, integrate, biaxial, solve.
+Scenes are nested dicts or paths, checked like scene files (scene, keys). Panels are objects (DiscretePanel,
+ContinuumPanel). Result folders of the program load as arrays (load, compare). Operators take arrays from any source:
+map_stress, find_bands, strips, shear_strain, probe, integrate, biaxial, solve.
 
-Two dimensions, unit thickness, any consistent units. Stress and strain are positive in compression, dilation is a negative volumetric
-strain, angles are degrees from the horizontal, forces act on the first body.
+Two dimensions, unit thickness, any consistent units. Stress and strain are positive in compression, dilation is a
+negative volumetric strain, angles are degrees from the horizontal, forces act on the first body.
 """
 
 import sys
@@ -15,7 +16,8 @@ import sys
 try:
     from ._diptych import Contacts, ContinuumSnapshot, DiscreteSnapshot, __version__
 except ImportError as error:
-    raise ImportError(f"diptych does not load in {sys.executable}: {error}. Use the Python of the build (Debian: /usr/bin/python3).") \
+    raise ImportError(f"diptych does not load in {sys.executable}: {error}. Use the Python of the build (Debian: "
+                      "/usr/bin/python3).") \
         from error
 from .arrays import Band, BandReport, History, Interval, Mesh, Record, StressMap
 from .errors import NotConverged, SceneError, SceneWarning, Stopped
@@ -43,8 +45,12 @@ def __getattr__(name: str) -> object:
 
 
 __all__ = [
-    "Band", "BandReport", "CalibrationResult", "Campaign", "Comparison", "Contacts", "ContinuumPanel", "ContinuumSnapshot", "DiscretePanel",
-    "DiscreteSnapshot", "History", "Homogenised", "Interval", "Mesh", "NotConverged", "PanelResults", "PlanResult", "Record", "Results", "SceneError", "SceneWarning", "Stopped", "StressMap",
-    "__version__", "benchmarks_dir", "biaxial", "calibrate", "compare", "contacts", "displacement_gradient", "ensemble", "find_bands", "grid", "homogenise", "increment", "integrate",
-    "keys", "load", "map_stress", "notebooks_dir", "plan", "principal", "probe", "scene", "shear_strain", "solve", "strips", "study", "theory_lines",
+    "Band", "BandReport", "CalibrationResult", "Campaign", "Comparison", "Contacts", "ContinuumPanel",
+    "ContinuumSnapshot", "DiscretePanel",
+    "DiscreteSnapshot", "History", "Homogenised", "Interval", "Mesh", "NotConverged", "PanelResults", "PlanResult",
+    "Record", "Results", "SceneError", "SceneWarning", "Stopped", "StressMap",
+    "__version__", "benchmarks_dir", "biaxial", "calibrate", "compare", "contacts", "displacement_gradient", "ensemble",
+    "find_bands", "grid", "homogenise", "increment", "integrate",
+    "keys", "load", "map_stress", "notebooks_dir", "plan", "principal", "probe", "scene", "shear_strain", "solve",
+    "strips", "study", "theory_lines",
 ]

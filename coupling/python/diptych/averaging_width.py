@@ -20,7 +20,8 @@ PLATEAU, LEAST_RATIO, LEAST_T_OVER_S = 0.05, 2.0, 0.1  # as in coupling/fields/r
 
 
 def _plateau(rows: Sequence[dict[str, Any]]) -> list[float] | None:
-    """The widest range of widths, by ratio, in which s and t/s of every place stay within 5 % of their mean over the range."""
+    """The widest range of widths, by ratio, in which s and t/s of every place stay within 5 % of their mean over the
+    range."""
     value = np.array([[[point["s"], point["t_over_s"]] for point in row["points"]] for row in rows])
     width = np.array([row["width_d"] for row in rows])
     found = []
@@ -37,20 +38,27 @@ def _plateau(rows: Sequence[dict[str, Any]]) -> list[float] | None:
 def _verdict(rows: Sequence[dict[str, Any]], plateau: list[float] | None) -> str:
     first, last = rows[0], rows[-1]
     scatter = [f"{100 * row['scatter_s']:.0f}" for row in (first, last)]
-    text = (f"From w = {first['width_d']:g} to {last['width_d']:g} d the scatter of s over the sample goes from {scatter[0]} to "
-            f"{scatter[1]} % of its mean: narrow kernels show single force chains, wide ones only the mean of the sample.")
+    text = (f"From w = {first['width_d']:g} to {last['width_d']:g} d the scatter of s over the sample goes from "
+            f"{scatter[0]} to "
+            f"{scatter[1]} % of its mean: narrow kernels show single force chains, wide ones only the mean of the "
+            "sample.")
     if plateau:
         return text + (f" From w = {plateau[0]:g} to {plateau[1]:g} d, s and t/s at {len(PLACES)} places stay within "
-                       f"{100 * PLATEAU:g} % of their means (plateau): a local stress hardly depends on a width in this range.")
-    return text + (f" There is no plateau: no range of w of a factor of {LEAST_RATIO:g} keeps s and t/s at {len(PLACES)} places "
-                   f"within {100 * PLATEAU:g} %. A local stress depends on w; state w with it. Means over the sample do not depend on w.")
+                       f"{100 * PLATEAU:g} % of their means (plateau): a local stress hardly depends on a width in "
+                       "this range.")
+    return text + (f" There is no plateau: no range of w of a factor of {LEAST_RATIO:g} keeps s and t/s at "
+                   f"{len(PLACES)} places "
+                   f"within {100 * PLATEAU:g} %. A local stress depends on w; state w with it. Means over the sample "
+                   "do not depend on w.")
 
 
 def width_scan(snapshot: Any) -> dict[str, Any]:
-    """Local stress at three places, and its scatter over the sample, for kernels of several widths (Gauss, standard deviation w).
+    """Local stress at three places, and its scatter over the sample, for kernels of several widths (Gauss, standard
+    deviation w).
 
-    The moments are cut by cells of d/4 (method `segments`), smoothed and divided by the smoothed area of the outline. The variance of a
-    cell is taken from that of the kernel. Keys as `resolution_study` in comparison.json; {} for a sample narrower than 3 d."""
+    The moments are cut by cells of d/4 (method `segments`), smoothed and divided by the smoothed area of the outline.
+    The variance of a cell is taken from that of the kernel. Keys as `resolution_study` in comparison.json; {} for a
+    sample narrower than 3 d."""
     d, outline = snapshot.mean_diameter, outline_of(snapshot, 1, 64)
     low, high = snapshot.position.min(0) - 0.6 * d, snapshot.position.max(0) + 0.6 * d
     if snapshot.cell_width:
@@ -75,7 +83,8 @@ def width_scan(snapshot: Any) -> dict[str, Any]:
                       for a, b in ((0, 0), (1, 1), (0, 1)))
         s, t = 0.5 * (xx + yy), np.hypot(0.5 * (xx - yy), xy)
         points = [{"name": name, "s": s.flat[k], "t_over_s": t.flat[k] / s.flat[k]} for name, k in places.items()]
-        scatter = {"scatter_" + name: field[inside].std() / field[inside].mean() for name, field in (("s", s), ("t", t))}
+        scatter = {"scatter_" + name: field[inside].std() / field[inside].mean() for name,
+                   field in (("s", s), ("t", t))}
         rows.append({"width_d": width, **scatter, "points": points})
     if len(rows) < 2:
         return {}

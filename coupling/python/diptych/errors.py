@@ -6,8 +6,8 @@ from __future__ import annotations
 
 
 class SceneError(ValueError):
-    """A scene is wrong. Attributes, as far as they are known: `file` and `line` (0: none), `key` ("sample/grains", or a section;
-    None: unknown), `value`, `allowed` and `hint`."""
+    """A scene is wrong. Attributes, as far as they are known: `file` and `line` (0: none), `key` ("sample/grains", or a
+    section; None: unknown), `value`, `allowed` and `hint`."""
 
     file: str = ""
     line: int = 0
@@ -25,7 +25,8 @@ class InputError(ValueError):
 
 
 class NotConverged(RuntimeError):
-    """A panel or a law did not converge. The panel keeps the results so far. `reached`: those of a law; None for a panel."""
+    """A panel or a law did not converge. The panel keeps the results so far. `reached`: those of a law; None for a
+    panel."""
 
     def __init__(self, text: str, reached: object = None) -> None:
         super().__init__(text)

@@ -27,7 +27,8 @@ class Homogenised:
     """Grains as fields. Stress and strain are positive in compression, angles degrees from the horizontal."""
 
     frames: list[dict[str, Any]]  # means of the sample, one dict per frame; an Interval has 95 % ends
-    increments: list[dict[str, Any]]  # mean strain and bands between successive frames, last from the first to the last frame
+    # mean strain and bands between successive frames, last from the first to the last frame
+    increments: list[dict[str, Any]]
     meshes: list[Mesh]  # cells over the outline of the sample, the same number in every frame
     maps: list[dict[str, Array]]  # name -> (k), or (k, 2, 2) of tensors; NaN: unknown
     resolution_study: dict[str, Any]  # the local stress of the last frame with forces, over the width of a kernel
@@ -37,8 +38,8 @@ class Homogenised:
     walk: str  # axial_strain, shear_strain or time: what `progress` is
 
     def table(self) -> pd.DataFrame:
-        """One row per frame; an interval takes three columns: NAME, NAME_low, NAME_high. The strain and the strongest band are those
-        since the frame before."""
+        """One row per frame; an interval takes three columns: NAME, NAME_low, NAME_high. The strain and the strongest
+        band are those since the frame before."""
         rows = []
         for k, frame in enumerate(self.frames):
             since = self.increments[k - 1] if k else {}
@@ -47,10 +48,12 @@ class Homogenised:
             strongest = {"band_" + name: value for name, value in (bands or [{}])[0].items() if name != "middle"}
             rows.append(_flat({**frame, **known, **({"bands": len(bands)} if k else {}), **strongest}))
         table = pd.DataFrame(rows)
-        return table.astype({name: "Int64" for name in ("contacts", "rattlers", "bands") if name in table})  # some may be missing
+        # some may be missing
+        return table.astype({name: "Int64" for name in ("contacts", "rattlers", "bands") if name in table})
 
     def __repr__(self) -> str:
-        return f"Homogenised({len(self.frames)} frames of {self.frames[0]['grains']} grains, {len(self.meshes[0].cells)} cells)"
+        return (f"Homogenised({len(self.frames)} frames of {self.frames[0]['grains']} grains, "
+                f"{len(self.meshes[0].cells)} cells)")
 
 
 def _flat(numbers: dict[str, Any]) -> dict[str, Any]:
@@ -106,7 +109,8 @@ def _means(snapshot: Any, first: Any) -> dict[str, Any]:
     row |= {"contacts": int(acts.sum()), "coordination_number": (acts.sum() + np.sum(contacts.j[acts] < n)) / n,
             "rattlers": int(np.sum(snapshot.rattler)), "sxx": stress[0, 0], "syy": stress[1, 1],
             "sxy": 0.5 * (stress[0, 1] + stress[1, 0]), "s": 0.5 * (s1 + s2), "t": 0.5 * (s1 - s2)}
-    return row | {name: whole.interval[name] for name in ("t_over_s", "direction_deg", "anisotropy", "fabric_direction_deg")}
+    return row | {name: whole.interval[name] for name in ("t_over_s", "direction_deg", "anisotropy",
+                                                          "fabric_direction_deg")}
 
 
 def _stress_maps(snapshot: Any, sheet: Sheet) -> dict[str, Array]:
@@ -120,9 +124,10 @@ def _stress_maps(snapshot: Any, sheet: Sheet) -> dict[str, Array]:
     count = np.bincount(cell, minlength=len(mesh.cells))
     fabric = np.full((len(count), 2, 2), np.nan)
     for a, b in np.ndindex(2, 2):
-        np.divide(np.bincount(cell, normal[:, a] * normal[:, b], len(count)), count, out=fabric[:, a, b], where=count > 0)
-    maps |= {"stress": mapped.symmetric, "s": mapped.s, "t_over_s": mapped.t_over_s, "contacts": count, "fabric": fabric,
-             "anisotropy": 2 * _shear(fabric)}
+        np.divide(np.bincount(cell, normal[:, a] * normal[:, b], len(count)), count, out=fabric[:, a, b],
+                  where=count > 0)
+    maps |= {"stress": mapped.symmetric, "s": mapped.s, "t_over_s": mapped.t_over_s, "contacts": count,
+             "fabric": fabric, "anisotropy": 2 * _shear(fabric)}
     for name in ("stress", "s", "t_over_s", "fabric", "anisotropy"):
         maps[name] = np.where(mapped.covered.reshape(-1, *[1] * (maps[name].ndim - 1)), maps[name], np.nan)
     return maps
@@ -172,8 +177,9 @@ def homogenise(grains: Any, grid: float = 3.0) -> Homogenised:
     grains  a result folder with discrete.h5 (of `diptych run`, `discrete` or `import`), or snapshots of the same grains
     grid    size of the cells over the outline of the sample [mean diameters]
 
-    One snapshot gives all but strain and bands. Stresses of runs are means over the stage that ends at the frame. Those of
-    imported frames hold at their instant. Raises FileNotFoundError for a folder without grains, ValueError for an empty list.
+    One snapshot gives all but strain and bands. Stresses of runs are means over the stage that ends at the frame. Those
+    of imported frames hold at their instant. Raises FileNotFoundError for a folder without grains, ValueError for an
+    empty list.
     """
     if isinstance(grains, (str, os.PathLike)):
         results = load(grains).discrete
@@ -197,7 +203,8 @@ def homogenise(grains: Any, grid: float = 3.0) -> Homogenised:
     if scan:
         scan["frame"] = scanned[-1]
     elif scanned:
-        missing.append({"quantity": "averaging width", "reason": "the sample is too narrow for kernels of different widths"})
+        missing.append({"quantity": "averaging width", "reason": "the sample is too narrow for kernels of different "
+                        "widths"})
     means = [_means(frame, first) for frame in frames]
     return Homogenised(frames=means, increments=increments, meshes=[sheet.mesh for sheet in sheets], maps=maps,
                        resolution_study=scan, missing=missing, mean_diameter=first.mean_diameter, grid=grid,

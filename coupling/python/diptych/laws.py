@@ -43,25 +43,28 @@ def _tensors(rows: Mapping[str, Any], letter: str) -> Array:
 def integrate(law: Any, path: Any, stress: Any = None, pressure: float = 1.0, time: Any = None) -> Record:
     """Drives a law along prescribed strains and stresses, in plane strain, positive in compression.
 
-    law       keys of the section continuum: {"law": "mohr_coulomb", "friction_angle_peak": 30, ...}, or a scene (dict or path)
+    law       keys of the section continuum: {"law": "mohr_coulomb", "friction_angle_peak": 30, ...}, or a scene (dict
+              or path)
     path      three columns by name, numbers or (n), such as {"eyy": numpy.linspace(0, 0.04, 81), "sxx": 1, "exy": 0}.
-              Strains: exx, eyy, exy, volume (exx + eyy); stresses [pressure]: sxx, syy, sxy, mean_stress ((sxx + syy)/2).
-              Also strains alone: (n, 2, 2), or (n, 3) with xx, yy, xy. The first row is the start; every row is one step.
-              Strains are total; exy is the tensor's component. The law takes the increments as given: use logarithmic strain
-              for finite deformation.
+              Strains: exx, eyy, exy, volume (exx + eyy); stresses [pressure]: sxx, syy, sxy, mean_stress ((sxx +
+              syy)/2). Also strains alone: (n, 2, 2), or (n, 3) with xx, yy, xy. The first row is the start; every row
+              is one step. Strains are total; exy is the tensor's component. The law takes the increments as given: use
+              logarithmic strain for finite deformation.
     stress    (2, 2) at the start; default: the isotropic `pressure`, also out of the plane
     pressure  unit of the law's moduli and cohesion [pressure]
     time      (n) ascending, or a column "progress" of the path; only for laws with viscosity; default: rate independent
 
     Returns stress (n, 2, 2) [pressure], stress_zz (n), strain (n, 2, 2) since the start, equivalent_plastic_strain (n),
     dissipation (n) [pressure], verdict (n texts) and reliable (n), verdict == "reliable". "zz_outside": the law ignores
-    sigma_zz, which lies beyond the yield surface; "unreliable": softening is too fast. Raises NotConverged, whose `reached` is
-    the result so far, if there is no such stress or strain, SceneError for a wrong law, ValueError for a wrong path.
+    sigma_zz, which lies beyond the yield surface; "unreliable": softening is too fast. Raises NotConverged, whose
+    `reached` is the result so far, if there is no such stress or strain, SceneError for a wrong law, ValueError for a
+    wrong path.
     """
     columns = _columns(path)
     time = columns.pop("progress", time)
     if len(columns) != 3:
-        raise ValueError(f"path has {len(columns)} columns ({', '.join(columns)}); give three, for example eyy, sxx, exy")
+        raise ValueError(f"path has {len(columns)} columns ({', '.join(columns)}); give three, for example eyy, sxx, "
+                         "exy")
     arrays = np.broadcast_arrays(*(np.asarray(column, dtype=float) for column in columns.values()))
     start = (pressure * np.eye(2) if stress is None else np.asarray(stress, dtype=float), pressure)
     compiled = continuum("a law")
@@ -75,17 +78,18 @@ def integrate(law: Any, path: Any, stress: Any = None, pressure: float = 1.0, ti
     return result
 
 
-def biaxial(law: Any, axial_strain: float = 0.1, pressure: float = 1.0, step: float = 1e-3, path: str = "drained") -> History:
-    """Drives a law along a named path from an isotropic stress, in plane strain. The axial strain grows in equal steps to
-    `axial_strain`. Newton's iteration finds the other strains to 1e-10 of the pressure.
+def biaxial(law: Any, axial_strain: float = 0.1, pressure: float = 1.0, step: float = 1e-3,
+            path: str = "drained") -> History:
+    """Drives a law along a named path from an isotropic stress, in plane strain. The axial strain grows in equal steps
+    to `axial_strain`. Newton's iteration finds the other strains to 1e-10 of the pressure.
 
     law   as in integrate()
     path  "drained": the lateral stress stays at `pressure` (the biaxial test); "constant_volume" (undrained);
-          "constant_mean_stress": (sxx + syy)/2; "simple_shear": 2 exy grows in place of the axial strain, syy and the width
-          are constant
+          "constant_mean_stress": (sxx + syy)/2; "simple_shear": 2 exy grows in place of the axial strain, syy and the
+          width are constant
 
-    Returns the columns of material_point.csv (axial_strain, volumetric_strain, stress_ratio, ...). Raises NotConverged, whose
-    `reached` is the result so far, if there is no such stress or strain, SceneError, ValueError.
+    Returns the columns of material_point.csv (axial_strain, volumetric_strain, stress_ratio, ...). Raises NotConverged,
+    whose `reached` is the result so far, if there is no such stress or strain, SceneError, ValueError.
     """
     compiled = continuum("a law")
     columns, failure = compiled.named_path(_law_scene(law, pressure), path, axial_strain, step)
@@ -96,7 +100,8 @@ def biaxial(law: Any, axial_strain: float = 0.1, pressure: float = 1.0, step: fl
 
 
 def principal(stress: Any) -> tuple[Array, Array, Array]:
-    """Principal stresses s1 >= s2 of the symmetric part of (..., 2, 2), and the direction of s1 from the horizontal [degrees]."""
+    """Principal stresses s1 >= s2 of the symmetric part of (..., 2, 2), and the direction of s1 from the horizontal
+    [degrees]."""
     stress = np.asarray(stress, dtype=float)
     half = 0.5 * (stress[..., 0, 0] - stress[..., 1, 1])
     shear = 0.5 * (stress[..., 0, 1] + stress[..., 1, 0])

@@ -48,7 +48,8 @@ def _contacts(contacts: Any, grains: Any) -> dict[str, Any]:
     given = {name: _column(contacts, name) for name in _CONTACT}
     for name in _CONTACT[:4]:
         if given[name] is None:
-            raise ValueError(f"contacts: '{name}' is missing; diptych.contacts() computes points from grains, walls and forces")
+            raise ValueError(f"contacts: '{name}' is missing; diptych.contacts() computes points from grains, walls "
+                             "and forces")
     return given
 
 
@@ -62,23 +63,25 @@ def _mesh(mesh: Any) -> Mesh:
 
 
 def grid(lower: Any, upper: Any, size: float) -> Mesh:
-    """A mesh of equal rectangles over the box from `lower` (2) to `upper` (2) [length], with sides of about `size` [length]."""
+    """A mesh of equal rectangles over the box from `lower` (2) to `upper` (2) [length], with sides of about `size`
+    [length]."""
     return Mesh(**_diptych.grid(lower, upper, size))
 
 
 def contacts(grains: Any, i: Any, j: Any, force: Any, *, ids: Any = None,
              walls: Mapping[int, tuple[Any, Any]] | None = None) -> Record:
-    """Completes contacts of discs with the contact points, which many codes do not write: on the line of centres, or the foot on a
-    wall.
+    """Completes contacts of discs with the contact points, which many codes do not write: on the line of centres, or
+    the foot on a wall.
 
     grains  position (n, 2), or x and y, and radius (or r) [length]: a dict, a DataFrame or a snapshot
     i, j    (c): numbers of the bodies, as in `ids` if given, else counted from 0
     force   (c, 2): force ON i from j
     ids     (n): numbers of the grains, in any order, gaps allowed
-    walls   number -> (a point on it (2), its inward normal (2)); the result numbers them after the grains, in this order
+    walls   number -> (a point on it (2), its inward normal (2)); the result numbers them after the grains, in this
+            order
 
-    Returns i, j, point, normal, force for map_stress() and probe(). If `force` has the wrong sign, the mean stress is negative.
-    Raises ValueError with the number of a missing body.
+    Returns i, j, point, normal, force for map_stress() and probe(). If `force` has the wrong sign, the mean stress is
+    negative. Raises ValueError with the number of a missing body.
     """
     given, walls = _grains(grains), walls or {}
     position, radius = given["position"], given["radius"]
@@ -111,20 +114,23 @@ def contacts(grains: Any, i: Any, j: Any, force: Any, *, ids: Any = None,
 
 def map_stress(grains: Any, contacts: Any = None, mesh: Any = None, method: str = "segments", *,
                period: float | None = None, **options: Any) -> StressMap:
-    """Maps contact forces to stress on the cells of a mesh. Conservative: the sum over the cells equals the sum over the contacts.
+    """Maps contact forces to stress on the cells of a mesh. Conservative: the sum over the cells equals the sum over
+    the contacts.
 
-    grains    snapshot of a DiscretePanel, or position (n, 2), or x and y, and radius (or r) [length] in a dict or a DataFrame
-    contacts  i, j (c), point (c, 2) [length], force (c, 2) ON i from j [pressure length]; i is a grain, j a grain or (from n on) a
-              wall; shift (c) of a periodic image of j; couple (c) ON i [pressure length^2]. Default for a snapshot: the mean forces over the stage, or before the first
-              stage those of the instant.
-    mesh      (nodes (m, 2), cells (k, 4) anticlockwise), grid(...), a continuum snapshot; default: grid over the grains' box, 3 d
+    grains    snapshot of a DiscretePanel, or position (n, 2), or x and y, and radius (or r) [length] in a dict or a
+              DataFrame
+    contacts  i, j (c), point (c, 2) [length], force (c, 2) ON i from j [pressure length]; i is a grain, j a grain or
+              (from n on) a wall; shift (c) of a periodic image of j; couple (c) ON i [pressure length^2]. Default for a
+              snapshot: the mean forces over the stage, or before the first stage those of the instant.
+    mesh      (nodes (m, 2), cells (k, 4) anticlockwise), grid(...), a continuum snapshot; default: grid over the
+              grains' box, 3 d
     method    segments (branches cut by the cells), centroid, laguerre, kernel, projection
     period    width of a periodic cell [length], 0: none; default: that of the snapshot
     options   averaging_kernel, averaging_width [mean diameters]: as in the section comparison of a scene
 
-    Returns a StressMap: stress (k, 2, 2) positive in compression, row index = component of the force, and couple_stress (k, 2). The spin term, small in slow
-    flow, is not added. Source: coupling/averaging (branches: Drescher & de Josselin de Jong 1972; Bagi 1996). Raises SceneError for a
-    wrong option, ValueError for a wrong array.
+    Returns a StressMap: stress (k, 2, 2) positive in compression, row index = component of the force, and couple_stress
+    (k, 2). The spin term, small in slow flow, is not added. Source: coupling/averaging (branches: Drescher & de
+    Josselin de Jong 1972; Bagi 1996). Raises SceneError for a wrong option, ValueError for a wrong array.
     """
     given = _grains(grains)
     pairs = _contacts(contacts, grains)
@@ -142,9 +148,9 @@ def map_stress(grains: Any, contacts: Any = None, mesh: Any = None, method: str 
 def increment(start: Any, end: Any) -> Record:
     """Displacements between two snapshots of one panel, for find_bands(**increment(a, b)).
 
-    Returns points (n, 2) at the later instant, displacement (n, 2), and weight (n): the area of a node or a grain, 0 for rattlers.
-    For grains it also returns mean_diameter, platen_increment, and centre, width, height of the outline. Raises ValueError for
-    snapshots of different grains."""
+    Returns points (n, 2) at the later instant, displacement (n, 2), and weight (n): the area of a node or a grain, 0
+    for rattlers. For grains it also returns mean_diameter, platen_increment, and centre, width, height of the outline.
+    Raises ValueError for snapshots of different grains."""
     return Record(_diptych.increment(start, end))
 
 
@@ -163,11 +169,13 @@ def _field(points: Any, displacement: Any, weight: Any) -> dict[str, Array]:
     if not (np.all(np.isfinite(points)) and np.all(np.isfinite(displacement))):
         raise ValueError("points and displacement: all must be finite; leave out the others")
     if points.ndim != 2 or points.shape[1:] != (2,) or points.shape != displacement.shape or len(points) == 0:
-        raise ValueError(f"points and displacement: (n, 2) each are needed, they have {points.shape} and {displacement.shape}")
+        raise ValueError(f"points and displacement: (n, 2) each are needed, they have {points.shape} and "
+                         f"{displacement.shape}")
     return {"position": points, "increment": displacement, "weight": np.ones(len(points)) if weight is None else weight}
 
 
-def find_bands(points: Any, displacement: Any, mean_diameter: float, *, weight: Any = None, platen_increment: Any = None,
+def find_bands(points: Any, displacement: Any, mean_diameter: float, *, weight: Any = None,
+               platen_increment: Any = None,
                centre: Any = None, width: float | None = None, height: float | None = None, seed: int = 1,
                **options: Any) -> BandReport:
     """Finds shear bands in a displacement field of grains, nodes or image correlation.
@@ -176,16 +184,17 @@ def find_bands(points: Any, displacement: Any, mean_diameter: float, *, weight: 
     displacement      (n, 2) [length]
     mean_diameter     of the grains [length]: unit of widths and correlation lengths
     weight            (n): area of each point, 0 leaves it out; default: equal
-    platen_increment  (2) [length]: unit of the jumps; default: mean displacement within 2 d of the uppermost point minus that within
-                      2 d of the lowest
+    platen_increment  (2) [length]: unit of the jumps; default: mean displacement within 2 d of the uppermost point
+                      minus that within 2 d of the lowest
     centre, width, height  of the sample [length]; default: of the box of the points
     seed              for the random blocks of the intervals
-    options           max_bands, huber_threshold, correlation_length, minimum_jump, residual_floor, band_resamples: as in the section
-                      comparison of a scene
+    options           max_bands, huber_threshold, correlation_length, minimum_jump, residual_floor, band_resamples: as
+                      in the section comparison of a scene
 
-    Fits no, one and two tanh profiles with Huber loss and chooses their number by BIC (coupling/bands). Returns a BandReport: angles
-    in degrees from the horizontal, lengths in the unit of the points, 95 % intervals by block bootstrap. Raises SceneError for a wrong
-    option, ValueError for fewer than 30 points with weight or a platen increment of zero.
+    Fits no, one and two tanh profiles with Huber loss and chooses their number by BIC (coupling/bands). Returns a
+    BandReport: angles in degrees from the horizontal, lengths in the unit of the points, 95 % intervals by block
+    bootstrap. Raises SceneError for a wrong option, ValueError for fewer than 30 points with weight or a platen
+    increment of zero.
     """
     field = _field(points, displacement, weight)
     frame = _frame(field["position"], field["increment"], mean_diameter,
@@ -203,11 +212,12 @@ def strips(points: Any, displacement: Any, mean_diameter: float, band: Any = 45.
     """Mean displacement along a band in strips parallel to it (Moreau 1997).
 
     points, displacement, mean_diameter, weight, platen_increment  as in find_bands()
-    band    a Band, or an angle from the horizontal [degrees] with the `offset` of its middle from the centre of the points [length]
+    band    a Band, or an angle from the horizontal [degrees] with the `offset` of its middle from the centre of the
+            points [length]
     n       number of strips; they reach 30 mean diameters to both sides, or to the edge of the sample
 
-    Returns edges (n + 1) along the normal from the centre [length]; mean and deviation (n) over |platen increment|, NaN in an empty
-    strip; count (n); angle_deg.
+    Returns edges (n + 1) along the normal from the centre [length]; mean and deviation (n) over |platen increment|, NaN
+    in an empty strip; count (n); angle_deg.
     """
     field = _field(points, displacement, weight)
     frame = _frame(field["position"], field["increment"], mean_diameter, {"platen_increment": platen_increment})
@@ -226,8 +236,8 @@ def displacement_gradient(points: Any, displacement: Any, at: Any = None, *, rad
 
 
 def shear_strain(points: Any, displacement: Any, at: Any = None, *, radius: float, weight: Any = None) -> Array:
-    """(m): eps_1 - eps_2 >= 0 at the places `at` (m, 2); default: at the points. The displacement gradient is fitted to the points
-    within `radius` [length]; the comparison uses 2.5 mean diameters. NaN for fewer than 4 points."""
+    """(m): eps_1 - eps_2 >= 0 at the places `at` (m, 2); default: at the points. The displacement gradient is fitted to
+    the points within `radius` [length]; the comparison uses 2.5 mean diameters. NaN for fewer than 4 points."""
     field = _field(points, displacement, weight)
     return _diptych.shear_strain(field, field["position"] if at is None else at, radius)
 
@@ -236,17 +246,17 @@ def probe(sample: Any, where: Any, contacts: Any = None, *, angle_deg: float = 0
           resamples: int = 400, seed: int = 1) -> Record:
     """Mean stress and fabric in a polygon or circle, with 95 % intervals (Moreau 1997).
 
-    sample     a snapshot (means over the stage with the spin term, as in the comparison); or grains with `contacts` as in
-               map_stress(), without the spin term; or a StressMap, whose cells are averaged
+    sample     a snapshot (means over the stage with the spin term, as in the comparison); or grains with `contacts` as
+               in map_stress(), without the spin term; or a StressMap, whose cells are averaged
     where      (m, 2): corners of a polygon, anticlockwise; or (x, y, radius) of a circle, only for grains
     angle_deg  direction of the bootstrap blocks [degrees]
     block      smallest side of the blocks [length]; default: 5 mean diameters
     resamples  number of bootstrap samples; fewer than 40: no intervals
 
-    Returns stress (2, 2) positive in compression, s1 >= s2, t_over_s and direction_deg of s1. For a polygon of grains also fabric
-    (2, 2), anisotropy, fabric_direction_deg, contacts, solid_fraction, count, and interval: name -> (value, low, high). For a circle
-    also the tractions on its diameters (angles_deg, normal, tangential) and those predicted by the mean stress. Raises ValueError
-    with the name of the argument.
+    Returns stress (2, 2) positive in compression, s1 >= s2, t_over_s and direction_deg of s1. For a polygon of grains
+    also fabric (2, 2), anisotropy, fabric_direction_deg, contacts, solid_fraction, count, and interval: name -> (value,
+    low, high). For a circle also the tractions on its diameters (angles_deg, normal, tangential) and those predicted by
+    the mean stress. Raises ValueError with the name of the argument.
     """
     if isinstance(sample, StressMap):
         return Record(_diptych.probe_cells(sample.mesh._asdict(), sample.stress, np.asarray(where, dtype=float)))

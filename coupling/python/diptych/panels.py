@@ -17,8 +17,10 @@ from .errors import NotConverged
 
 OnStep = Optional[Callable[[dict[str, Any]], Any]]
 
-_diptych.DiscreteSnapshot.__repr__ = lambda s: f"<DiscreteSnapshot: {len(s.position)} grains, progress {s.progress:.4g}>"
-_diptych.ContinuumSnapshot.__repr__ = lambda s: f"<ContinuumSnapshot: {len(s.position)} nodes, progress {s.progress:.4g}>"
+_diptych.DiscreteSnapshot.__repr__ = (
+    lambda s: f"<DiscreteSnapshot: {len(s.position)} grains, progress {s.progress:.4g}>")
+_diptych.ContinuumSnapshot.__repr__ = (
+    lambda s: f"<ContinuumSnapshot: {len(s.position)} nodes, progress {s.progress:.4g}>")
 _diptych.Contacts.__repr__ = lambda contacts: f"<Contacts: {len(contacts)}>"
 
 
@@ -64,8 +66,8 @@ class _Panel:
         return self._panel.snapshot()
 
     def prepare(self) -> str:
-        """Prepares the sample and keeps its snapshot. Returns "finished". Raises NotConverged. After an interruption the next call
-        starts the preparation again."""
+        """Prepares the sample and keeps its snapshot. Returns "finished". Raises NotConverged. After an interruption
+        the next call starts the preparation again."""
         if self._prepared:
             raise RuntimeError("the sample is prepared already")
         if self.status != "new":
@@ -77,12 +79,12 @@ class _Panel:
         return status
 
     def advance(self, stage: int | None = None) -> str:
-        """Loads the sample up to a stage (1, 2, ...; default: the next one) and keeps a snapshot of each stage on the way. Prepares
-        the sample first if necessary.
+        """Loads the sample up to a stage (1, 2, ...; default: the next one) and keeps a snapshot of each stage on the
+        way. Prepares the sample first if necessary.
 
-        Returns "finished", or "stopped" if on_step returned False. Another advance() then continues, with the same bits as a run
-        without the stop. Raises NotConverged. Exceptions of on_step and KeyboardInterrupt are raised after the present step; the
-        panel can continue."""
+        Returns "finished", or "stopped" if on_step returned False. Another advance() then continues, with the same bits
+        as a run without the stop. Raises NotConverged. Exceptions of on_step and KeyboardInterrupt are raised after the
+        present step; the panel can continue."""
         last = self.stage + 1 if stage is None else stage
         if not 1 <= last <= len(self.stages):
             raise ValueError(f"stage = {last}: the loading has stages 1 ... {len(self.stages)}")
@@ -104,8 +106,8 @@ class _Panel:
         return self.advance(len(self.stages))
 
     def write(self, folder: str | os.PathLike[str]) -> None:
-        """Writes snapshots and history like the program (.h5, .pvd, .csv). Raises FileNotFoundError if the folder does not exist.
-        Raises FileExistsError for a result folder of the program, whose files have checksums."""
+        """Writes snapshots and history like the program (.h5, .pvd, .csv). Raises FileNotFoundError if the folder does
+        not exist. Raises FileExistsError for a result folder of the program, whose files have checksums."""
         if not os.path.isdir(folder):
             raise FileNotFoundError(f"{os.fspath(folder)}: no such folder")
         for name in ("scene.prm", "ensemble.prm", "study_input.json", "calibration_input.json"):
@@ -130,13 +132,14 @@ class DiscretePanel(_Panel):
     """A sample of grains loaded through the stages of a scene (Non-Smooth Contact Dynamics, Moreau 1988; Jean 1999).
 
     scene    dict or path, see scene()
-    on_step  called with every row of the history, a dict with the columns of discrete.csv: one row per step, for springs one per
-             discrete/history_interval. Return False to stop. The GIL is released during the steps. The callback may call
-             snapshot() but not advance().
-    grains   {"position": (n, 2) [length], "radius": (n) [length]}: replaces the prepared sample; platens and sides are placed as for
-             a sample from a file
+    on_step  called with every row of the history, a dict with the columns of discrete.csv: one row per step, for
+             springs one per discrete/history_interval. Return False to stop. The GIL is released during the steps. The
+             callback may call snapshot() but not advance().
+    grains   {"position": (n, 2) [length], "radius": (n) [length]}: replaces the prepared sample; platens and sides are
+             placed as for a sample from a file
 
-    Raises SceneError, and ValueError for options that contradict each other. The numbers are bit by bit those of the program.
+    Raises SceneError, and ValueError for options that contradict each other. The numbers are bit by bit those of the
+    program.
 
     >>> panel = DiscretePanel({"sample": {"grains": 200}, "loading": {"axial_strain": 0.01, "stage_strain": 0.005}})
     >>> panel.run()
@@ -146,7 +149,8 @@ class DiscretePanel(_Panel):
     _columns = staticmethod(_diptych.discrete_columns)
     _save = staticmethod(_diptych.write_grains)
 
-    def __init__(self, scene: scenes.SceneLike, on_step: OnStep = None, grains: Mapping[str, Any] | None = None) -> None:
+    def __init__(self, scene: scenes.SceneLike, on_step: OnStep = None,
+                 grains: Mapping[str, Any] | None = None) -> None:
         read = scenes.read(scene)
         own = (None, None) if grains is None else (grains["position"], grains["radius"])
         super().__init__(read, lambda: _diptych.GrainPanel(read, *own), on_step)
@@ -156,8 +160,8 @@ class ContinuumPanel(_Panel):
     """The same sample as an elasto-plastic continuum on a mesh (deal.II), loaded through the same stages.
 
     scene    dict or path, see scene()
-    grains   snapshot of the prepared grains (DiscretePanel.snapshots[0]). continuum/mesh = outline, the default, needs it: its outline
-             is meshed, and its stress and solid fraction are mapped if the scene asks for that.
+    grains   snapshot of the prepared grains (DiscretePanel.snapshots[0]). continuum/mesh = outline, the default, needs
+             it: its outline is meshed, and its stress and solid fraction are mapped if the scene asks for that.
     on_step  called with every row of the history, a dict with the columns of continuum.csv; return False to stop
 
     The first panel starts MPI, unless mpi4py did; the end of the process ends it. Raises SceneError and ValueError.

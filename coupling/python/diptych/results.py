@@ -48,8 +48,8 @@ class Results:
     coarse: PanelResults | None
 
     def summary(self) -> "pandas.DataFrame":
-        """The numbers that a user asks for first, a row each: grains, continuum, difference (with ends of 95 % intervals where one
-        sample gives them) and verdict. Raises FileNotFoundError without a comparison."""
+        """The numbers that a user asks for first, a row each: grains, continuum, difference (with ends of 95 %
+        intervals where one sample gives them) and verdict. Raises FileNotFoundError without a comparison."""
         import pandas
 
         return pandas.read_csv(os.path.join(self.folder, "summary.csv"), index_col="quantity")
@@ -74,10 +74,12 @@ class Results:
 
 @dataclass(repr=False)
 class Comparison:
-    """The comparison of both panels: numbers as in comparison.json, fields of every stage with the names of comparison.h5."""
+    """The comparison of both panels: numbers as in comparison.json, fields of every stage with the names of
+    comparison.h5."""
 
     numbers: dict[str, Any]
-    fields: list[dict[str, Any]]  # on the mesh of the continuum: name -> (k), (k, 2) or (k, 2, 2); nodes (m, 2), cells (k, 4)
+    # on the mesh of the continuum: name -> (k), (k, 2) or (k, 2, 2); nodes (m, 2), cells (k, 4)
+    fields: list[dict[str, Any]]
     grid: list[dict[str, Any]]  # the same on the regular grid
 
     def mesh(self, stage: int = -1) -> Mesh:
@@ -88,7 +90,8 @@ class Comparison:
         return f"<Comparison: {len(self.numbers['stages'])} stages, {len(self.numbers['windows'])} windows>"
 
 
-_CAMPAIGNS = {"ensemble.json": "Campaign", "study.json": "Campaign", "calibration.json": "CalibrationResult", "plan.json": "PlanResult"}
+_CAMPAIGNS = {"ensemble.json": "Campaign", "study.json": "Campaign", "calibration.json": "CalibrationResult",
+              "plan.json": "PlanResult"}
 
 
 def _panel(folder: str, name: str) -> PanelResults | None:
@@ -102,8 +105,8 @@ def _panel(folder: str, name: str) -> PanelResults | None:
 def load(folder: str | os.PathLike[str]) -> Results:
     """Reads a result folder of `diptych run`, `discrete` or `continuum`: scene, snapshots and histories.
 
-    Raises FileNotFoundError if there are no results. Raises ValueError, with file and array, if an array is damaged or a file does not
-    have the checksum of provenance.json. Warns if provenance.json has no checksum for a file.
+    Raises FileNotFoundError if there are no results. Raises ValueError, with file and array, if an array is damaged or
+    a file does not have the checksum of provenance.json. Warns if provenance.json has no checksum for a file.
     """
     folder = os.fspath(folder)
     prm = os.path.join(folder, "scene.prm")
@@ -119,7 +122,8 @@ def load(folder: str | os.PathLike[str]) -> Results:
 
 
 def compare(folder: str | os.PathLike[str] | Results | None = None, *, scene: Any = None,
-            discrete: DiscretePanel | PanelResults | None = None, continuum: ContinuumPanel | PanelResults | None = None,
+            discrete: DiscretePanel | PanelResults | None = None,
+            continuum: ContinuumPanel | PanelResults | None = None,
             coarse: ContinuumPanel | PanelResults | None = None) -> Comparison:
     """Compares both panels at the same instants with the same operators: mapping, bands, strips, probes, intervals.
 
@@ -127,8 +131,8 @@ def compare(folder: str | os.PathLike[str] | Results | None = None, *, scene: An
     folder  a result folder, or the Results that load() returned; or, for panels of this process,
     scene, discrete, continuum, coarse  a dict or path, and the panels (`coarse`: on the coarse mesh, optional)
 
-    Raises ValueError if the panels have no common stage after the start. For panels of this process, numbers that only the program
-    measures (CPU time) are missing or zero.
+    Raises ValueError if the panels have no common stage after the start. For panels of this process, numbers that only
+    the program measures (CPU time) are missing or zero.
     """
     place = ""
     if folder is not None:

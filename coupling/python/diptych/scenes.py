@@ -43,7 +43,8 @@ def changes(sections: Mapping[str, Any]) -> Iterator[Change]:
             yield name, key, text_of(keys)
         elif isinstance(keys, Mapping):
             if section not in _diptych.section_names():
-                raise SceneError(f"scene: unknown section '{section}'; there are {', '.join(_diptych.section_names())}", section)
+                raise SceneError(f"scene: unknown section '{section}'; there are {', '.join(_diptych.section_names())}",
+                                 section)
             for key, value in keys.items():
                 yield section, key, text_of(value)
         else:
@@ -68,14 +69,14 @@ def read(scene: SceneLike, overrides: Mapping[str, Any] = {}, compares: bool = F
 def scene(scene: SceneLike, compares: bool = False, **overrides: Any) -> dict[str, dict[str, Any]]:
     """Checks a scene like a file and returns it with every key.
 
-    scene      nested dict {"sample": {"grains": 500}}, or the path of a .prm or .json file. Missing keys take their defaults. Values
-               are numbers, True, False, texts or lists of numbers; None is "auto". Paths in a dict are relative to the working
-               directory.
+    scene      nested dict {"sample": {"grains": 500}}, or the path of a .prm or .json file. Missing keys take their
+               defaults. Values are numbers, True, False, texts or lists of numbers; None is "auto". Paths in a dict are
+               relative to the working directory.
     compares   True if both panels will be compared: the edges of the windows must then be stages
     overrides  sections with keys to change: scene(path, sample={"seed": 2}), or **{"sample/seed": 2}
 
-    Returns a dict of all sections and keys. Raises SceneError with the key, its value and what is allowed. Doubtful values give a
-    SceneWarning.
+    Returns a dict of all sections and keys. Raises SceneError with the key, its value and what is allowed. Doubtful
+    values give a SceneWarning.
 
     >>> scene({"sample": {"grains": 500}})["sample"]["grains"]
     500
@@ -85,4 +86,5 @@ def scene(scene: SceneLike, compares: bool = False, **overrides: Any) -> dict[st
 
 def keys(section: str = "") -> dict[str, tuple[str, str, str]]:
     """"section/key" -> (unit, allowed values, meaning), for all keys or for one section."""
-    return {name: described for name, described in _diptych.described_keys().items() if name.startswith(section and section + "/")}
+    return {name: described for name, described in _diptych.described_keys().items()
+            if name.startswith(section and section + "/")}

@@ -19,7 +19,8 @@ def _shipped(installed: str, source: str) -> str:
 
 
 def benchmarks_dir() -> str:
-    """Folder of the shipped scenes: benchmarks_dir() + "/moreau_quick/scene.prm". Raises FileNotFoundError if there is none."""
+    """Folder of the shipped scenes: benchmarks_dir() + "/moreau_quick/scene.prm". Raises FileNotFoundError if there is
+    none."""
     return _shipped("benchmarks", os.path.join("..", "..", "..", "benchmarks"))
 
 

@@ -72,23 +72,26 @@ class Campaign(CampaignResult):
         if self.numbers.get("changes"):
             raise AttributeError("a study without a reference has no errors; use .effects, .changes or .table")
         names = [quantity["name"] for quantity in self.numbers["quantities"]]
-        return pd.DataFrame([{"family": point["family"], "settings": "; ".join(point["settings"]), "class": point["class"],
-                              "certain": point["certain"],
+        return pd.DataFrame([{"family": point["family"], "settings": "; ".join(point["settings"]),
+                              "class": point["class"], "certain": point["certain"],
                               **{name: one["error"]["value"] for name, one in zip(names, point["quantities"])}}
                              for point in self.numbers["points"]])
 
     def summary(self) -> pd.DataFrame:
-        """An ensemble: the rows and columns of Results.summary(), with means over the samples and their 95 % intervals."""
+        """An ensemble: the rows and columns of Results.summary(), with means over the samples and their 95 %
+        intervals."""
         if "summary" not in self.numbers:
             raise AttributeError("a study has no summary; use .points or .table")
-        table = pd.json_normalize(self.numbers["summary"], sep="_").rename(columns=lambda name: name.removesuffix("_value"))
+        table = pd.json_normalize(self.numbers["summary"],
+                                  sep="_").rename(columns=lambda name: name.removesuffix("_value"))
         numbers = [of + end for of in ("grains", "continuum", "difference") for end in ("", "_low", "_high")]
         return table.set_index("quantity")[["unit", *numbers, "verdict"]].astype(dict.fromkeys(numbers, float))
 
     @property
     def effects(self) -> pd.DataFrame:
-        """A study without a reference, effects.csv: a row per point, quantity and panel. The values of the parameters come first,
-        then quantity, panel, unit, n, mean, low and high (95 % interval), deviation (standard deviation of one sample)."""
+        """A study without a reference, effects.csv: a row per point, quantity and panel. The values of the parameters
+        come first, then quantity, panel, unit, n, mean, low and high (95 % interval), deviation (standard deviation of
+        one sample)."""
         path = os.path.join(self.folder, "effects.csv")
         if not self.numbers.get("changes"):
             raise AttributeError("no effects of parameters here; a study has them if it has no reference")
@@ -96,16 +99,16 @@ class Campaign(CampaignResult):
 
     @property
     def sensitivity(self) -> pd.DataFrame:
-        """A study with ranges, sensitivity.csv: a row per quantity, panel and parameter with first and total index, the ends of
-        their 95 % intervals, q2 and the number of points used."""
+        """A study with ranges, sensitivity.csv: a row per quantity, panel and parameter with first and total index, the
+        ends of their 95 % intervals, q2 and the number of points used."""
         if "sensitivity" not in self.numbers:
             raise AttributeError("no sensitivity indices here; a study has them if its file has ranges")
         return pd.read_csv(os.path.join(self.folder, "sensitivity.csv"), float_precision="round_trip")
 
     @property
     def changes(self) -> pd.DataFrame:
-        """The same study: a row per parameter, quantity and panel with change.value, change.low, change.high, verdict and
-        samples_needed."""
+        """The same study: a row per parameter, quantity and panel with change.value, change.low, change.high, verdict
+        and samples_needed."""
         return pd.json_normalize(self.numbers.get("changes", []))
 
     @property
@@ -162,8 +165,8 @@ class PlanResult(CampaignResult):
 
 @contextmanager
 def _file_of(command: str, holds_scene: bool, contents: Mapping[str, Any] | PathLike, output: str) -> Iterator[str]:
-    """A path as it is. A dict is a file during the call, called like the output folder, in the working directory: its paths
-    begin there."""
+    """A path as it is. A dict is a file during the call, called like the output folder, in the working directory: its
+    paths begin there."""
     if not isinstance(contents, Mapping):
         yield os.fspath(contents)
         return
@@ -186,8 +189,8 @@ def _file_of(command: str, holds_scene: bool, contents: Mapping[str, Any] | Path
 def _seeds(seeds: Any) -> str:
     """Seeds as on the command line. Refuses a number, which could be one seed or a number of samples."""
     if isinstance(seeds, Integral):
-        raise SceneError(f"seeds = {seeds} is not allowed; give range(1, {seeds + 1}) for {seeds} samples, [{seeds}] for the "
-                         f"sample with seed {seeds}", "seeds")
+        raise SceneError(f"seeds = {seeds} is not allowed; give range(1, {seeds + 1}) for {seeds} samples, [{seeds}] "
+                         "for the " f"sample with seed {seeds}", "seeds")
     return text_of(seeds).replace(" ", "")
 
 
@@ -222,15 +225,15 @@ def study(contents: Mapping[str, Any] | PathLike, output: PathLike, **options: A
               Seeds are a text such as "1-8", a list or a range
     output    folder of the results
     options   those of `diptych study`: jobs=2, threads=1, resume=True, overwrite=True, set={"section/key": value}
-              With vary={"discrete/friction": [0.2, 0.3]} the contents are a scene: a path, or a dict as in diptych.scene().
-              seeds=range(1, 4) are then the samples of each point, panels="discrete" runs one panel
+              With vary={"discrete/friction": [0.2, 0.3]} the contents are a scene: a path, or a dict as in
+              diptych.scene(). seeds=range(1, 4) are then the samples of each point, panels="discrete" runs one panel
               levels="auto" adds means of the grains in the limit of short steps
 
-    A dict is a file of the working directory during the call, OUTPUT.json; messages name it with its lines. They also name
-    the options of the command line: for --resume add resume=True to the same call.
+    A dict is a file of the working directory during the call, OUTPUT.json; messages name it with its lines. They also
+    name the options of the command line: for --resume add resume=True to the same call.
 
-    Raises SceneError for wrong input, Stopped on Ctrl-C (resume=True then goes on), NotConverged if runs were stopped or the
-    system ended them, RuntimeError for failures of the system.
+    Raises SceneError for wrong input, Stopped on Ctrl-C (resume=True then goes on), NotConverged if runs were stopped
+    or the system ended them, RuntimeError for failures of the system.
     """
     if isinstance(contents, Mapping) and "seeds" in contents:
         contents = {**contents, "seeds": _seeds(contents["seeds"])}
@@ -249,7 +252,8 @@ def ensemble(scene: SceneLike, seeds: str | Iterable[int], output: PathLike, **o
 
 
 def calibrate(contents: Mapping[str, Any] | PathLike, output: PathLike, **options: Any) -> CalibrationResult:
-    """Runs a calibration file, or its contents as a dict, and returns its results. Options and errors are as in study().
+    """Runs a calibration file, or its contents as a dict, and returns its results. Options and errors are as in
+    study().
 
     A scene file (.prm) with seeds=range(1, 5) takes the standard parameters."""
     if "seeds" in options:

@@ -113,8 +113,8 @@ def _vector(text: str) -> tuple[float, float]:
 
 def _add_import_options(parser: Parser) -> None:
     parser.add_argument("--columns", metavar="KIND=NAMES", action="append", default=[],
-                        help="KIND=NAME,NAME,...: names of columns that the files do not name; KIND: particles, contacts "
-                        "or walls; may be repeated")
+                        help="KIND=NAME,NAME,...: names of columns that the files do not name; KIND: particles, "
+                        "contacts or walls; may be repeated")
     for name, meaning in (
             ("thickness", "thickness of a layer of spheres; divides forces and masses; 1 keeps forces per length"),
             ("timestep", "time step, for codes that count steps"),

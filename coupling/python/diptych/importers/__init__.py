@@ -12,5 +12,5 @@ from .tables import Table, grains_of
 from .text import read_lines
 from .walls import sorted_files
 
-__all__ = ["Frame", "Options", "Table", "Wall", "check", "check_frames", "contacts_of", "grains_of", "read", "read_lines",
-           "read_table", "refused", "register", "sorted_files"]
+__all__ = ["Frame", "Options", "Table", "Wall", "check", "check_frames", "contacts_of", "grains_of", "read",
+           "read_lines", "read_table", "refused", "register", "sorted_files"]

@@ -49,7 +49,8 @@ class Section:
 
 
 def _box(path: str, lines: list[str], k: int) -> tuple[np.ndarray, list[bool]]:
-    """'ITEM: BOX BOUNDS ff ff pp' and three lines; a tilted box has the words xy xz yz and a third number in each line."""
+    """'ITEM: BOX BOUNDS ff ff pp' and three lines; a tilted box has the words xy xz yz and a third number in each
+    line."""
     words = lines[k].split()
     if words[:3] != ["ITEM:", "BOX", "BOUNDS"]:
         raise refused(path, "expected 'ITEM: BOX BOUNDS'", k + 1)
@@ -123,7 +124,8 @@ def require_same_steps(found: dict[str, dict[int, Section]], options: Options) -
         for step in steps[1:] if found[kind] else []:
             if step not in found[kind]:
                 other = next(iter(found[kind].values())).table.path
-                raise refused(found["grains"][step].table.path, f"step {step} is not in {other}: the frames do not match")
+                raise refused(found["grains"][step].table.path,
+                              f"step {step} is not in {other}: the frames do not match")
         unused = [step for step in found[kind] if step not in found["grains"]]
         if unused:
             options.note(f"{len(unused)} sections of {kind} belong to steps without grains and were not used")

@@ -1,6 +1,7 @@
 # diptych: what a reader of foreign files returns, and the options that it gets
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Frames of grains, contacts and walls, in the units of the files. Forces and masses are those of the whole thickness."""
+"""Frames of grains, contacts and walls, in the units of the files. Forces and masses are those of the whole
+thickness."""
 
 import math
 from dataclasses import KW_ONLY, dataclass, field
@@ -11,7 +12,8 @@ import numpy as np
 from ..errors import SceneError
 
 # Names of the arrays -> number of their axes; those of two axes are vectors.
-GRAINS = {"id": 1, "position": 2, "radius": 1, "mass": 1, "velocity": 2, "spin": 1, "rotation": 1, "resultant": 2, "line": 1}
+GRAINS = {"id": 1, "position": 2, "radius": 1, "mass": 1, "velocity": 2, "spin": 1, "rotation": 1, "resultant": 2,
+          "line": 1}
 CONTACTS = {"first": 1, "second": 1, "wall": 1, "force": 2, "point": 2, "overlap": 1, "slides": 1, "line": 1}
 REQUIRED = {"grains": ("id", "position", "radius"), "contacts": ("first", "second", "wall", "force")}
 
@@ -52,10 +54,11 @@ class Frame:
     """One instant. Arrays have one row per grain (n) or contact (m).
 
     name      a name that no other frame has
-    grains    "id" (n), "position" (n, 2), "radius" (n); if known "mass" (n), "velocity" (n, 2), "spin" and "rotation" (n,
-              counter-clockwise), "resultant" (n, 2: of all forces, as the code summed them up), "line" (n, of the file)
-    contacts  "first", "second" (m, ids), "wall" (m, index in `walls`, -1: two grains), "force" (m, 2, on `first`); if known
-              "point" (m, 2), "overlap" (m), "slides" (m, 0 or 1), "line" (m). None: the files hold no contacts
+    grains    "id" (n), "position" (n, 2), "radius" (n); if known "mass" (n), "velocity" (n, 2), "spin" and "rotation"
+              (n, counter-clockwise), "resultant" (n, 2: of all forces, as the code summed them up), "line" (n, of the
+              file)
+    contacts  "first", "second" (m, ids), "wall" (m, index in `walls`, -1: two grains), "force" (m, 2, on `first`); if
+              known "point" (m, 2), "overlap" (m), "slides" (m, 0 or 1), "line" (m). None: the files hold no contacts
     walls     list of Wall
     gravity   acceleration of every grain; None: unknown
     time      of the instant; None: unknown. step: its number
@@ -103,7 +106,8 @@ class Options:
     wall_tables: list[Any] = field(default_factory=list)  # Tables that a reader found among its files
 
     def columns_of(self, kind: str, width: int | None = None) -> list[str] | None:
-        """Names that the user gave for the columns of "particles", "contacts" or "walls"; `width`: only if they are so many."""
+        """Names that the user gave for the columns of "particles", "contacts" or "walls"; `width`: only if they are so
+        many."""
         for text in self.columns:
             names = text.partition("=")[2].split(",")
             if text.startswith(kind + "=") and width in (None, len(names)):
@@ -137,7 +141,8 @@ def completed(frame: Frame, kind: str) -> dict[str, np.ndarray]:
     for name, n_axes in axes.items():
         values = np.asarray(given.get(name, np.full(shape[:n_axes], 0 if name == "line" else np.nan)), dtype=float)
         if values.shape != shape[:n_axes]:
-            raise ValueError(f"{what}['{name}']: an array of shape {shape[:n_axes]} is needed, this one has {values.shape}")
+            raise ValueError(f"{what}['{name}']: an array of shape {shape[:n_axes]} is needed, this one has "
+                             f"{values.shape}")
         full[name] = values
     if "force" in full:
         refuse_where(frame.contact_file, ~np.isfinite(full["force"]).all(axis=1), full["line"],

@@ -27,7 +27,8 @@ def _kinds_of(section: Section, options: Options) -> list[str]:
     table = section.table
     for axis in (0, 1):
         if section.periodic[axis]:
-            raise refused(table.path, f"the box is periodic along {'xy'[axis]}; the files do not show contacts across its edge")
+            raise refused(table.path, f"the box is periodic along {'xy'[axis]}; the files do not show contacts across "
+                          "its edge")
     if section.kind == "ENTRIES":
         return ["contacts"]
     names = None if _walls_in(table) else options.columns_of("particles", len(table.columns))
@@ -36,8 +37,8 @@ def _kinds_of(section: Section, options: Options) -> list[str]:
     is_grains = section.has_places() and table.find(*RADIUS, *DIAMETER) is not None
     if not is_grains and not _walls_in(table):
         raise refused(table.path,
-                      f"step {section.step}: grains need the columns id, x y (or xs ys, xu yu) and radius or diameter, wall "
-                      f"contacts f_NAME[2] ...; its columns are {', '.join(table.columns)}; name others with "
+                      f"step {section.step}: grains need the columns id, x y (or xs ys, xu yu) and radius or diameter, "
+                      "wall " f"contacts f_NAME[2] ...; its columns are {', '.join(table.columns)}; name others with "
                       "--columns particles=...", section.head())
     return ["grains"] * is_grains + ["walls"] * bool(_walls_in(table))
 
@@ -53,7 +54,8 @@ def _contacts(table: Table, frame: Frame, options: Options) -> dict[str, np.ndar
     if table.has("p1", "p2"):
         force = force + table.vectors("p1", "p2")
     else:
-        frame.lacking = ["tangential forces (fx, fy of compute pair/local are the normal part, p1, p2 the tangential part)"]
+        frame.lacking = ["tangential forces (fx, fy of compute pair/local are the normal part, p1, p2 the tangential "
+                         "part)"]
     return acting(contacts_of(first, second, force, line=table.lines))
 
 
@@ -64,8 +66,8 @@ def _verify(table: Table, frame: Frame, first: np.ndarray, second: np.ndarray, f
     branch, size = position[a] - position[b], np.linalg.norm(force, axis=1)
     across = abs(branch[:, 0] * force[:, 1] - branch[:, 1] * force[:, 0])
     table.refuse((across > 1e-4 * np.linalg.norm(branch, axis=1) * size) & (a >= 0) & (b >= 0),
-                 lambda _: "fx, fy are not parallel to the line of the centres; do the columns have another meaning (--columns "
-                 "contacts=index,patom1,patom2,dist,...)?")
+                 lambda _: "fx, fy are not parallel to the line of the centres; do the columns have another meaning "
+                 "(--columns contacts=index,patom1,patom2,dist,...)?")
 
 
 def _wall_contacts(table: Table, frame: Frame) -> list[dict[str, np.ndarray]]:

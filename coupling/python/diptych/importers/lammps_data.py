@@ -13,7 +13,8 @@ from .text import floats_of, int_of, read_lines
 STYLES = {"sphere": ["id", "type", "diameter", "density", "x", "y", "z"],
           "bpm/sphere": ["id", "molecule", "type", "diameter", "density", "x", "y", "z"]}
 OWN = {"sphere": ["diameter", "density"], "bpm/sphere": ["molecule", "diameter", "density"], "bond": ["molecule"],
-       "molecular": ["molecule"], "charge": ["q"], "atomic": []}  # columns of a style in hybrid, behind id, type, x, y, z
+       # columns of a style in hybrid, behind id, type, x, y, z
+       "molecular": ["molecule"], "charge": ["q"], "atomic": []}
 
 
 def is_data_file(path: str) -> bool:
@@ -29,8 +30,8 @@ def _columns(path: str, line: int, styles: list[str], width: int, options: Optio
         wanted = ["id", "type", "x", "y", "z", *(name for other in others for name in OWN[other])]
     if wanted is None or "diameter" not in wanted and "radius" not in wanted:
         raise refused(path,
-                      f"the columns of atom_style {' '.join(styles)} are not known here, or have no radii; name them with "
-                      "--columns particles=id,type,x,y,z,diameter,...", line)
+                      f"the columns of atom_style {' '.join(styles)} are not known here, or have no radii; name them "
+                      "with --columns particles=id,type,x,y,z,diameter,...", line)
     if width not in (len(wanted), len(wanted) + 3):
         raise refused(path, f"rows have {width} columns instead of {len(wanted)} ({','.join(wanted)}); name them with "
                       "--columns particles=...", line)
@@ -57,12 +58,13 @@ def read_data(path: str, options: Options) -> Frame:
             table = _section(path, lines, k, count, lambda width: _columns(path, k + 1, words[2:], width, options))
             grains = grains_of(table, options)
             if table.has("density") and options.density is None:
-                options.note(f"{path}: its densities were not used, because the script decides whether they are those of "
-                             "spheres or of discs (set ... density/disc); --density gives the discs a mass per area")
+                options.note(f"{path}: its densities were not used, because the script decides whether they are those "
+                             "of spheres or of discs (set ... density/disc); --density gives the discs a mass per area")
         elif words[:1] == ["Velocities"] and grains:
             table = _section(path, lines, k, count, lambda width: ["id", "vx", "vy", "vz", "wx", "wy", "wz"][:width])
             order = rows_of(table.whole("id"), grains["id"])
-            refuse_where(path, order < 0, np.full(len(order), k + 1), lambda row: f"grain {grains['id'][row]} has no velocity")
+            refuse_where(path, order < 0, np.full(len(order), k + 1),
+                         lambda row: f"grain {grains['id'][row]} has no velocity")
             grains["velocity"] = table.vectors("vx", "vy")[order]
             if table.has("wz"):
                 grains["spin"] = table.numbers("wz")[order]

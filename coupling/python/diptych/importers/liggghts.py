@@ -16,7 +16,8 @@ from .walls import sorted_files, wall_of
 WIDTHS = {"pos": 6, "vel": 6, "id": 3, "ms_id": 2, "contactPoint": 3, "contactArea": 1, "delta": 1, "heatFlux": 1,
           **dict.fromkeys(["force", "force_normal", "force_tangential"], 3),
           **dict.fromkeys(["torque", "torque_normal", "torque_tangential", "torque_n", "torque_t"], 3)}
-USUAL = {"contacts": [["pos", "id", "force", "force_normal", "force_tangential", "contactArea", "delta", "contactPoint"],
+USUAL = {"contacts": [["pos", "id", "force", "force_normal", "force_tangential", "contactArea", "delta",
+                       "contactPoint"],
                       ["pos", "id", "force"]],
          "walls": [["pos", "id", "force", "contactPoint"], ["pos", "id", "force"]]}
 
@@ -25,7 +26,8 @@ def _expanded(keywords: list[str], width: int) -> list[str] | None:
     """pos.1 ... pos.6, id.1 ...: names of the columns; None if keywords and width do not agree."""
     unknown = [keyword for keyword in keywords if keyword not in WIDTHS and keyword != "history"]
     if unknown:
-        raise refused("--columns", f"'{unknown[0]}' is no keyword of the computes; known are {', '.join(WIDTHS)}, history")
+        raise refused("--columns", f"'{unknown[0]}' is no keyword of the computes; known are {', '.join(WIDTHS)}, "
+                      "history")
     left = width - sum(WIDTHS.get(keyword, 0) for keyword in keywords)
     if left < 0 or (left > 0) != ("history" in keywords):
         return None
@@ -72,8 +74,10 @@ def _kinds_of(sections: list[Section], frames: dict[int, Frame], options: Option
             continue
         fitting = [kind for kind in USUAL if _fits(_named(section, kind, options), kind, frame)]
         if not fitting:
-            raise refused(table.path, f"step {section.step}: {len(table.columns)} columns are neither contacts nor wall "
-                          "contacts; give the compute's keywords: --columns contacts=pos,id,... or walls=pos,id,...", section.head() + 1)
+            raise refused(table.path, f"step {section.step}: {len(table.columns)} columns are neither contacts nor "
+                          "wall "
+                          "contacts; give the compute's keywords: --columns contacts=pos,id,... or walls=pos,id,...",
+                          section.head() + 1)
         kinds[group] = next((kind for kind in fitting if kind not in kinds.values()), fitting[0])
     return kinds
 
@@ -140,7 +144,8 @@ def read(options: Options) -> list[Frame]:
     require_same_steps(found, options)
     plates = {number_in_name(path): path for path in files["stl"]}
     for step, frame in frames.items():
-        parts = [(_contacts if kind == "contacts" else _wall_contacts)(_named(found[kind][step], kind, options), frame, options)
+        parts = [(_contacts if kind == "contacts" else _wall_contacts)(_named(found[kind][step], kind, options), frame,
+                                                                       options)
                  for kind in ("contacts", "walls") if step in found[kind]]
         frame.contacts = joined(*parts) if parts else None
         if step in plates:

@@ -40,7 +40,8 @@ def _contacts(path: str, frame: Frame, bodies: Bodies) -> None:
     lines = read_lines(path)
     step, time = _instant(path, lines)
     if step != frame.step or abs(time - frame.time) > 1e-9 * abs(frame.time):
-        raise refused(path, f"step {step} differs from that of {frame.grain_file} ({frame.step}): the frames do not match")
+        raise refused(path, f"step {step} differs from that of {frame.grain_file} ({frame.step}): the frames do not "
+                      "match")
     numbers, values = [], []
     for k, line in enumerate(lines):
         if not line.startswith("$icdan"):
@@ -52,7 +53,8 @@ def _contacts(path: str, frame: Frame, bodies: Bodies) -> None:
             raise refused(path, "expected RBDY2 N DISKx K law RBDY2 N DISKx or JONCx K status", k + 3)
         numbers.append([int_of(path, k + 3, words[1], "the candidate"), int_of(path, k + 3, words[6], "the antagonist"),
                         words[9].startswith("sl"), k + 3])
-        fields = ((3, "rlt/H"), (3, "rln/H"), (5, "gapTT"), (6, r"n\(1\)="), (6, r"n\(2\)="), (7, "coo1="), (7, "coo2="))
+        fields = ((3, "rlt/H"), (3, "rln/H"), (5, "gapTT"), (6, r"n\(1\)="), (6, r"n\(2\)="), (7, "coo1="),
+                  (7, "coo2="))
         values.append([field(path, k + row + 1, lines[k + row], name) for row, name in fields])
     numbers, values = np.array(numbers, dtype=int).reshape(-1, 4), np.array(values).reshape(-1, 7)
     frame.contact_file = path
@@ -77,9 +79,11 @@ def _hdf5_frames(path: str, bodies: Bodies, gravity: tuple[float, float] | None)
             for name, group in file["Evolution"].items():
                 frame = Frame(name, {}, gravity=gravity, grain_file=path, contact_file=path)
                 frame.time, frame.step = float(np.ravel(group["TPS"][()])[0]), int(np.ravel(group["NStep"][()])[0])
-                motion, real, whole = (group[table][()] for table in ("RBDY2/rdata", "VlocRloc/rdata", "VlocRloc/idata"))
+                motion, real, whole = (group[table][()] for table in ("RBDY2/rdata", "VlocRloc/rdata",
+                                                                      "VlocRloc/idata"))
                 if not np.all(np.isfinite(motion)) or not np.all(np.isfinite(real)) or len(real) != len(whole):
-                    raise refused(path, f"Evolution/{name} has a number that is not finite, or tables of different lengths")
+                    raise refused(path, f"Evolution/{name} has a number that is not finite, or tables of different "
+                                  "lengths")
                 place_bodies(frame, bodies, *(motion[:, _columns(file, path, "RBDY2/rdata/" + q, 3)] for q in "XV"))
                 parts = [("rl", 2), ("gapTT", 1), ("uc", 2), ("coor", 2)]
                 values = np.column_stack([real[:, _columns(file, path, "VlocRloc/rdata/" + q, n)] for q, n in parts])

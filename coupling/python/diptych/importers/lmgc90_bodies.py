@@ -25,7 +25,8 @@ class Bodies:
 
 
 def field(path: str, number: int, line: str, name: str) -> float:
-    """The number behind a name (a regular expression). Columns are fixed and may touch, so that it has up to 14 characters."""
+    """The number behind a name (a regular expression). Columns are fixed and may touch, so that it has up to 14
+    characters."""
     found = re.search(name, line)
     if not found:
         raise refused(path, "expected '" + name.replace("\\", "").replace("?", "") + "'", number)
@@ -48,7 +49,8 @@ def read_bulk(path: str) -> tuple[dict[str, float], tuple[float, float] | None]:
 
 
 def read_bodies(path: str, densities: dict[str, float], options: Options) -> Bodies:
-    """Reads BODIES.DAT. LMGC90 counts bodies in the order of the file, whatever numbers stand there. Raises SceneError."""
+    """Reads BODIES.DAT. LMGC90 counts bodies in the order of the file, whatever numbers stand there. Raises
+    SceneError."""
     blocks: list[dict[str, Any]] = []
     for k, line in enumerate(read_lines(path), 1):
         words = line.split()
@@ -72,8 +74,8 @@ def read_bodies(path: str, densities: dict[str, float], options: Options) -> Bod
         raise refused(path, "contains no body RBDY2")
     for number, block in enumerate(blocks, 1):
         if "place" not in block or "size" not in block:
-            raise refused(path, f"body {number} has no position (coo1, coo2), nor the radius of a disc (byrd) nor the half "
-                          "axes of a wall (axe1, axe2); is the file truncated?", block["line"])
+            raise refused(path, f"body {number} has no position (coo1, coo2), nor the radius of a disc (byrd) nor the "
+                          "half axes of a wall (axe1, axe2); is the file truncated?", block["line"])
     if [block["number"] for block in blocks] != [str(k) for k in range(1, len(blocks) + 1)]:
         options.note(f"{path}: bodies are counted in the order of the file, because their numbers are not 1, 2, 3, ...")
     is_wall, size = np.array([block["is_wall"] for block in blocks]), np.array([block["size"] for block in blocks])
@@ -84,19 +86,20 @@ def read_bodies(path: str, densities: dict[str, float], options: Options) -> Bod
 
 
 def place_bodies(frame: Frame, bodies: Bodies, x: np.ndarray, v: np.ndarray) -> None:
-    """Adds grains and walls. `x`, `v` (n, 3): displacement from the reference, velocity. The angle of a wall is coo3 + X(3)."""
+    """Adds grains and walls. `x`, `v` (n, 3): displacement from the reference, velocity. The angle of a wall is coo3 +
+    X(3)."""
     if len(x) != len(bodies.mass):
         raise refused(frame.grain_file, f"has {len(x)} bodies, but {bodies.path} has {len(bodies.mass)}")
     place, grain = bodies.place + x, np.flatnonzero(~bodies.is_wall)
-    frame.grains = {"id": grain + 1, "position": place[grain, :2], "radius": bodies.size[grain], "velocity": v[grain, :2],
-                    "spin": v[grain, 2], "rotation": x[grain, 2], "mass": bodies.mass[grain]}
+    frame.grains = {"id": grain + 1, "position": place[grain, :2], "radius": bodies.size[grain],
+                    "velocity": v[grain, :2], "spin": v[grain, 2], "rotation": x[grain, 2], "mass": bodies.mass[grain]}
     middle = place[grain, :2].mean(axis=0) if len(grain) else np.zeros(2)
     for k in np.flatnonzero(bodies.is_wall):
         turn = abs(math.sin(place[k, 2]))
         if 1e-4 < turn < 1 - 1e-8:
             raise refused(frame.grain_file,
-                          f"wall body {k + 1} is inclined (coo3 + X(3) = {place[k, 2]:.6g}); only horizontal and vertical "
-                          "walls are supported")
+                          f"wall body {k + 1} is inclined (coo3 + X(3) = {place[k, 2]:.6g}); only horizontal and "
+                          "vertical walls are supported")
         axis = 0 if turn > 0.5 else 1  # normal to the wall
         before = bool(place[k, axis] < middle[axis])
         side = (("right", "left") if axis == 0 else ("upper", "lower"))[before]

@@ -52,14 +52,16 @@ class _Rows:
 
 
 def _side(wall: _Rows) -> str:
-    """The normal points out of the sample: `normal` in files of 2015, else the x axis turned by a quaternion (w, x, y, z)."""
+    """The normal points out of the sample: `normal` in files of 2015, else the x axis turned by a quaternion (w, x, y,
+    z)."""
     if wall.having("normal").rows:
         nx, ny, _ = wall.after("normal", 3)[0]
     else:
         w, x, y, z = wall.after("orientation", 4)[0]
         nx, ny = w * w + x * x - y * y - z * z, 2 * (x * y + w * z)
     if max(abs(nx), abs(ny)) < 0.99:
-        raise refused(wall.path, f"the normal of this wall, ({nx:g}, {ny:g}), is neither along x nor along y", wall.lines()[0])
+        raise refused(wall.path, f"the normal of this wall, ({nx:g}, {ny:g}), is neither along x nor along y",
+                      wall.lines()[0])
     return ("left" if nx < 0 else "right") if abs(nx) > abs(ny) else "lower" if ny < 0 else "upper"
 
 
@@ -107,11 +109,13 @@ def read_restart(path: str) -> Restart:
     head = _Rows(path, rows[:next((k for k, (_, words) in enumerate(rows) if words[:1] == ["Particles"]), 0)])
     time = head.having("timeStep").after("time")
     if not len(time) or not sections["Particles"].rows:
-        raise refused(path, "the file ends without particles or without a time; is it a restart file, and complete?", len(rows))
+        raise refused(path, "the file ends without particles or without a time; is it a restart file, and complete?",
+                      len(rows))
     gravity, density = head.having("gravity").after("gravity", 3), head.having("density").after("density")
-    frame = Frame(f"time {time[0, 0]:.10g}", {}, time=time[0, 0], gravity=tuple(gravity[0, :2]) if len(gravity) else None,
-                  spheres=bool(np.any(head.having("particleDimensions").after("particleDimensions") == 3)), grain_file=path,
-                  contact_file=path)
+    frame = Frame(f"time {time[0, 0]:.10g}", {}, time=time[0, 0],
+                  gravity=tuple(gravity[0, :2]) if len(gravity) else None,
+                  spheres=bool(np.any(head.having("particleDimensions").after("particleDimensions") == 3)),
+                  grain_file=path, contact_file=path)
     restart = Restart(frame, density[0, 0] if len(density) else math.nan)
     walls = dict(_wall(_Rows(path, [row])) for row in sections["Walls"].rows)
     frame.walls = list(walls.values())

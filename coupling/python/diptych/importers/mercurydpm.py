@@ -54,7 +54,8 @@ def _add_fstat(path: str, frames: list[Frame]) -> None:
                 near = [n for n, frame in enumerate(frames) if abs(frame.time - time) <= SAME_TIME * abs(time)]
                 if not near:
                     raise refused(path,
-                                  "expected '# TIME 1' with the time of a frame of the .data file; the frames do not match", k)
+                                  "expected '# TIME 1' with the time of a frame of the .data file; the frames do not "
+                                  "match", k)
                 index, done = near[0], near[0] in found  # runs that were chained write a frame again
                 found.setdefault(index, ([], []))
         elif words and not done:
@@ -70,7 +71,8 @@ def _take_rows(table: Table, frame: Frame) -> None:
     """Wall k is j = -k-1; the force acts on it."""
     time, second, overlap = table.numbers("time"), table.whole("j"), table.numbers("overlap")
     normal, point = table.vectors("nx", "ny"), table.vectors("cx", "cy")
-    table.refuse(abs(time - frame.time) > SAME_TIME * abs(time), lambda k: "the time differs from that of the frame's head")
+    table.refuse(abs(time - frame.time) > SAME_TIME * abs(time),
+                 lambda k: "the time differs from that of the frame's head")
     table.refuse(abs(np.sum(normal**2, axis=1) - 1) > 1e-5, lambda k: f"nx, ny are not a unit normal: {normal[k]}")
     force = table.numbers("fn")[:, None] * normal + table.numbers("ft")[:, None] * table.vectors("tx", "ty")
     wall = np.full(len(second), -1)
@@ -81,10 +83,11 @@ def _take_rows(table: Table, frame: Frame) -> None:
         # The face lies half an overlap before the contact point.
         place = np.mean(point[of, axis] - 0.5 * overlap[of] * normal[of, axis])
         wall[of] = len(frame.walls)
-        frame.walls.append(Wall(f"wall {-number - 1}", (("left", "right"), ("lower", "upper"))[axis][outward], float(place)))
+        frame.walls.append(Wall(f"wall {-number - 1}", (("left", "right"), ("lower", "upper"))[axis][outward],
+                                float(place)))
     frame.contact_file = table.path
-    frame.contacts = contacts_of(table.whole("i"), second, np.where(wall[:, None] >= 0, -force, force), wall, point=point,
-                                 overlap=overlap, line=table.lines)
+    frame.contacts = contacts_of(table.whole("i"), second, np.where(wall[:, None] >= 0, -force, force), wall,
+                                 point=point, overlap=overlap, line=table.lines)
 
 
 def _require_both_halves(frame: Frame) -> None:
@@ -94,8 +97,8 @@ def _require_both_halves(frame: Frame) -> None:
     found, times = np.unique(ends, axis=0, return_counts=True)
     for (first, second), count in zip(found[times != 2], times[times != 2]):
         raise refused(frame.contact_file,
-                      f"frame {frame.name}: the contact of {first} and {second} occurs {count} times, not twice; is the "
-                      "file truncated? (With fixed grains, add the .restart file.)")
+                      f"frame {frame.name}: the contact of {first} and {second} occurs {count} times, not twice; is "
+                      "the file truncated? (With fixed grains, add the .restart file.)")
 
 
 def _check_counts(path: str, frames: list[Frame]) -> None:

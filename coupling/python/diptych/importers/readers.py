@@ -44,7 +44,8 @@ def _selected(frames: list[Frame], text: str) -> list[Frame]:
     for part in text.split(","):
         low, _, high = part.partition("-")
         if not low.isdigit() or not (high or low).isdigit() or not int(low) <= int(high or low) < len(frames):
-            raise SceneError(f"--frames {text}: '{part}' is not allowed; give numbers as 10-20,30 from 0 to {len(frames) - 1}")
+            raise SceneError(f"--frames {text}: '{part}' is not allowed; give numbers as 10-20,30 from 0 to "
+                             f"{len(frames) - 1}")
         wanted |= set(range(int(low), int(high or low) + 1))
     return [frames[k] for k in sorted(wanted)]
 
@@ -55,8 +56,8 @@ def _refuse_unused(format: str, options: Options) -> None:
         raise SceneError(f"import {format}: --timestep would have no effect: these files contain times, or no steps")
     for text in options.columns:
         if text not in options.used:
-            raise SceneError(f"import {format}: --columns {text} would have no effect: no such file has so many columns, or "
-                             "the files name them")
+            raise SceneError(f"import {format}: --columns {text} would have no effect: no such file has so many "
+                             "columns, or the files name them")
 
 
 def _refuse_unknown(frame: Frame) -> None:

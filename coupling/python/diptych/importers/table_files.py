@@ -28,7 +28,8 @@ def _is_names(words: list[str]) -> bool:
     """Column names, of which the first may be empty (the index of pandas and R)."""
     if not words[0]:
         words = words[1:]
-    return bool(words) and all(re.match(r"[A-Za-z_]", word) and word.lower() not in ("nan", "inf", "na") for word in words)
+    return bool(words) and all(re.match(r"[A-Za-z_]", word) and word.lower() not in ("nan", "inf", "na")
+                               for word in words)
 
 
 def _expanded(names: list[str]) -> list[str]:
@@ -42,7 +43,8 @@ def _expanded(names: list[str]) -> list[str]:
 
 
 def head_of(lines: Sequence[str]) -> tuple[list[str], int]:
-    """Column names above the first row of numbers, perhaps behind a '#', and the index of that row. Without names: []."""
+    """Column names above the first row of numbers, perhaps behind a '#', and the index of that row. Without names:
+    []."""
     names: list[str] = []
     marked = True
     for k, line in enumerate(lines):
@@ -104,7 +106,8 @@ def table_of_kind(path: str, options: Options, kinds: dict[str, Callable[[set[st
 def by_frame(options: Options, kind_of: Callable[[str], tuple[str, Table]]) -> dict[int, dict[str, Table]]:
     """Tables by frame, ascending, and kind. The last number in a file's name is the frame, or the column `frame`.
 
-    Tables of walls are kept in the options. Raises SceneError for two tables of one kind and frame, and without particles.
+    Tables of walls are kept in the options. Raises SceneError for two tables of one kind and frame, and without
+    particles.
     """
     found: dict[int, dict[str, Table]] = {}
     for path in options.files:

@@ -1,6 +1,7 @@
 # diptych: tables of numbers with named columns, and the grains in them
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Tables with named columns. Cells are converted when a column is used, so that other columns may hold text or nothing."""
+"""Tables with named columns. Cells are converted when a column is used, so that other columns may hold text or
+nothing."""
 
 from typing import Any, Callable, Sequence
 
@@ -37,7 +38,8 @@ class Table:
         refuse_where(self.path, bad, self.lines, text)
 
     def numbers(self, *names: str) -> np.ndarray:
-        """(n) finite numbers of the first of these columns that exists. Raises SceneError with file, line and column."""
+        """(n) finite numbers of the first of these columns that exists. Raises SceneError with file, line and
+        column."""
         k = self.find(*names)
         if k is None:
             raise refused(self.path, f"lacks a column {' or '.join(names)}; its columns are {', '.join(self.columns)}")
@@ -93,15 +95,16 @@ def rows_below(path: str, lines: Sequence[str], start: int, count: int, columns:
     rows = [line.split() for line in lines[start:start + count]]
     for k, row in enumerate(rows, 1):
         if len(row) != len(columns):
-            raise refused(path, f"row {k} of {count} has {len(row)} entries instead of {len(columns)} ({' '.join(columns)}); "
-                          "is the number of rows in the head right?", start + k)
+            raise refused(path, f"row {k} of {count} has {len(row)} entries instead of {len(columns)} "
+                          f"({' '.join(columns)}); " "is the number of rows in the head right?", start + k)
     if len(rows) < count:
         raise refused(path, f"the file ends after {len(rows)} of {count} rows; is it truncated?", len(lines))
     return Table(path, columns, rows, np.arange(count) + start + 1)
 
 
 def grains_of(table: Table, options: Options, position: np.ndarray | None = None) -> dict[str, np.ndarray]:
-    """The grains of a frame from columns id, x, y, radius or diameter; if present mass, vx, vy, omega, rotation, fx, fy.
+    """The grains of a frame from columns id, x, y, radius or diameter; if present mass, vx, vy, omega, rotation, fx,
+    fy.
 
     `position` (n, 2) replaces x and y. Without ids, rows count from 0.
     """
@@ -114,8 +117,8 @@ def grains_of(table: Table, options: Options, position: np.ndarray | None = None
     for name, values in (("radius", radius), ("mass", mass)):
         if values is not None:
             table.refuse(values <= 0, lambda k: f"a {name} of {values[k]:g} must be positive")
-    grains = {"id": table.whole("id") if table.has("id") else np.arange(len(table.rows)), "radius": radius, "mass": mass,
-              "position": table.vectors("x", "y") if position is None else position, "line": table.lines,
+    grains = {"id": table.whole("id") if table.has("id") else np.arange(len(table.rows)), "radius": radius,
+              "mass": mass, "position": table.vectors("x", "y") if position is None else position, "line": table.lines,
               "velocity": table.optional_vectors(options, ("vx", "vel_x"), ("vy", "vel_y")),
               "spin": table.optional(options, "omegaz", "omega", "wz", "angVel_z", "spin"),
               "rotation": table.optional(options, "rotation", "angle", "theta"),

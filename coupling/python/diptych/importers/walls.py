@@ -1,6 +1,7 @@
 # diptych: places and forces of walls from a table beside another code's files
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Tables of walls, one row a frame: step, time or frame; width and height, or some of left_x, right_x, lower_y, upper_y."""
+"""Tables of walls, one row a frame: step, time or frame; width and height, or some of left_x, right_x, lower_y,
+upper_y."""
 
 from typing import Callable
 
@@ -20,7 +21,8 @@ def is_wall_columns(columns: set[str]) -> bool:
 
 
 def sorted_files(options: Options, **kinds: Callable[[str], bool]) -> dict[str, list[str]]:
-    """The files by the first kind whose function accepts them; wall tables are kept in the options. Raises SceneError."""
+    """The files by the first kind whose function accepts them; wall tables are kept in the options. Raises
+    SceneError."""
     found: dict[str, list[str]] = {kind: [] for kind in kinds}
     for path in options.files:
         kind = next((kind for kind, is_kind in kinds.items() if is_kind(path)), None)
@@ -28,7 +30,8 @@ def sorted_files(options: Options, **kinds: Callable[[str], bool]) -> dict[str, 
             found[kind].append(path)
         else:
             others = " or ".join(kinds).replace("_", " ")
-            options.wall_tables.append(table_of_kind(path, options, {"walls": is_wall_columns}, f"is no {others} and ")[1])
+            options.wall_tables.append(table_of_kind(path, options, {"walls": is_wall_columns},
+                                                     f"is no {others} and ")[1])
     return found
 
 
@@ -90,7 +93,8 @@ def add_wall_tables(frames: list[Frame], options: Options) -> None:
         if not rows and (options.frames or not len(frame.grains["id"])):
             continue  # this frame may be left out
         if not rows:
-            raise refused(options.wall_tables[0].path, f"has no row for frame {frame.name} (column step, time or frame)")
+            raise refused(options.wall_tables[0].path,
+                          f"has no row for frame {frame.name} (column step, time or frame)")
         first, at = rows[0]
         known = dict(zip(first.columns, first.rows[at]))
         for table, row in rows[1:]:

@@ -15,7 +15,8 @@ from .walls import is_wall_columns
 # Rows of 15 numbers without names.
 CONTACTS = ["id1", "id2", *(name + axis for name in ("contactPoint_", "normal_", "normalForce_", "shearForce_")
                             for axis in "xyz"), "penetrationDepth"]
-BODIES = ["name", "id", "axis", "position_x", "position_y", "force_x", "force_y"]  # of walls; the force acts on the wall
+# of walls; the force acts on the wall
+BODIES = ["name", "id", "axis", "position_x", "position_y", "force_x", "force_y"]
 KINDS = {"walls": is_wall_columns, "contacts": {"id1", "id2"}.issubset, "wall bodies": {"id", "axis"}.issubset,
          "particles": {"x", "y", "r"}.issubset}
 
@@ -51,7 +52,8 @@ def _add_walls(table: Table, frame: Frame) -> dict[int, int]:
 def _add_interactions(table: Table, of_id: dict[int, int], frame: Frame, options: Options) -> None:
     """normalForce + shearForce acts on id2. A body that is no sphere is a wall and always id1."""
     other, grain = table.whole("id1"), table.whole("id2")
-    table.refuse(rows_of(frame.grains["id"], grain) < 0, lambda k: f"id2 = {grain[k]} is not a sphere of {frame.grain_file}")
+    table.refuse(rows_of(frame.grains["id"], grain) < 0, lambda k: f"id2 = {grain[k]} is not a sphere of "
+                 f"{frame.grain_file}")
     is_wall = rows_of(frame.grains["id"], other) < 0
     for number in dict.fromkeys(other[is_wall].tolist()):
         if number not in of_id:
@@ -71,8 +73,8 @@ def _frame(number: int, tables: dict[str, Table], options: Options) -> Frame:
     spheres, contacts = tables["particles"], tables.get("contacts")
     if contacts and not spheres.has("id"):
         raise refused(spheres.path,
-                      f"has no ids (export.text renumbers the spheres), but {contacts.path} refers to grains by id; use "
-                      "export.textExt with format='x_y_z_r_attrs' and attrs=['b.id', ...]")
+                      f"has no ids (export.text renumbers the spheres), but {contacts.path} refers to grains by id; "
+                      "use export.textExt with format='x_y_z_r_attrs' and attrs=['b.id', ...]")
     frame = Frame(f"_{number}", grains_of(spheres, options), spheres=True, grain_file=spheres.path)
     of_id = _add_walls(tables["wall bodies"], frame) if "wall bodies" in tables else {}
     if contacts:

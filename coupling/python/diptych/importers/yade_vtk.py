@@ -17,7 +17,8 @@ LACKING = ["tangential forces (VTKRecorder keeps absolute components without dir
 
 
 def _put_in_place(root: Any) -> None:
-    """Moves the appended arrays into their elements: meshio decodes appended text to its end, which Python 3.13 refuses."""
+    """Moves the appended arrays into their elements: meshio decodes appended text to its end, which Python 3.13
+    refuses."""
     appended = root.find("AppendedData")
     if appended is None:
         return
@@ -69,7 +70,8 @@ def _spheres(path: str) -> dict[str, np.ndarray]:
 
 
 def _interactions(path: str, frame: Frame) -> dict[str, np.ndarray]:
-    """Lines join points, which are bodies in the order of their ids, including walls. Grains are found by their positions."""
+    """Lines join points, which are bodies in the order of their ids, including walls. Grains are found by their
+    positions."""
     mesh = _mesh(path)
     ends = np.concatenate([block.data for block in mesh.cells])
     if "forceN" not in mesh.cell_data:
@@ -78,8 +80,8 @@ def _interactions(path: str, frame: Frame) -> dict[str, np.ndarray]:
     row_at = {tuple(place): row for row, place in enumerate(frame.grains["position"].tolist())}
     rows = np.array([row_at.get(tuple(place), -1) for place in mesh.points[:, :2].tolist()])[ends]
     if np.any(rows < 0):
-        raise refused(path, f"line {np.flatnonzero(np.any(rows < 0, axis=1))[0]} (counted from 0) does not end at a sphere of "
-                      f"{frame.grain_file}: the frames do not match")
+        raise refused(path, f"line {np.flatnonzero(np.any(rows < 0, axis=1))[0]} (counted from 0) does not end at a "
+                      "sphere of " f"{frame.grain_file}: the frames do not match")
     branch = frame.grains["position"][rows[:, 0]] - frame.grains["position"][rows[:, 1]]
     normal = branch / np.linalg.norm(branch, axis=1)[:, None]
     return contacts_of(frame.grains["id"][rows[:, 0]], frame.grains["id"][rows[:, 1]], force[:, None] * normal)

@@ -1,7 +1,7 @@
 # diptych: the command calibrate: parameters of a continuum from grains or curves, or of grains from curves
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Four phases: reading.py checks and takes the data, trials.py searches, posterior.py samples the posterior of the parameters,
-findings.py computes the effect of load steps half as long and predictions on paths that were not fitted."""
+"""Four phases: reading.py checks and takes the data, trials.py searches, posterior.py samples the posterior of the
+parameters, findings.py computes the effect of load steps half as long and predictions on paths that were not fitted."""
 
 from __future__ import annotations
 
@@ -26,10 +26,11 @@ from .trials import Trials, search
 
 def empty_record(title: str, model: str = "continuum") -> dict[str, Any]:
     """calibration.json before the search. model: "grains" if their keys are fitted."""
-    return {"format": 1, "title": title, "model": model, "status": "started", "settings": [], "own": [], "chi2_before": np.nan,
+    return {"format": 1, "title": title, "model": model, "status": "started", "settings": [], "own": [],
+            "chi2_before": np.nan,
             "chi2_coarse": np.nan, "chi2": np.nan, "n_observables": 0, "coarse_runs": 0, "fine_runs": 0,
-            "failed_runs": 0, "other_runs": 0, "noise": {}, "words": [], "parameters": [], "correlation": [], "emulator": {},
-            "discrepancy": {}, "minima": [], "paths": []}
+            "failed_runs": 0, "other_runs": 0, "noise": {}, "words": [], "parameters": [], "correlation": [],
+            "emulator": {}, "discrepancy": {}, "minima": [], "paths": []}
 
 
 def calibrate(trials: Trials) -> pd.DataFrame:
@@ -43,8 +44,8 @@ def calibrate(trials: Trials) -> pd.DataFrame:
 
 
 def run_calibration(line: argparse.Namespace, options: Options) -> None:
-    """The command `diptych calibrate FILE`, or SCENE with --seeds. line: target, seeds, set, set_file and output. Raises
-    Stopped or NotConverged, with the best point so far in the folder."""
+    """The command `diptych calibrate FILE`, or SCENE with --seeds. line: target, seeds, set, set_file and output.
+    Raises Stopped or NotConverged, with the best point so far in the folder."""
     contents = standard_contents(line)
     text = json.dumps(contents, indent=1) + "\n" if contents else ""
     calibration = read_calibration(line.target, contents)

@@ -1,7 +1,7 @@
 # diptych: reads and checks calibration files
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A calibration file names targets, quantities and parameters. Paths in it are relative to its folder. A scene with seeds
-stands for a file with standard contents."""
+"""A calibration file names targets, quantities and parameters. Paths in it are relative to its folder. A scene with
+seeds stands for a file with standard contents."""
 
 from __future__ import annotations
 
@@ -36,8 +36,9 @@ PRESCRIBED = 1e-9  # a smaller deviation: the path prescribes the quantity
 
 @dataclass(kw_only=True)
 class Target:
-    """A loading path: one scene on several samples, on finished result folders, or with a measured curve instead of grains. A
-    curve and seeds: parameters of the grains are fitted to the curve. An element test is a scene with loading/mode = path."""
+    """A loading path: one scene on several samples, on finished result folders, or with a measured curve instead of
+    grains. A curve and seeds: parameters of the grains are fitted to the curve. An element test is a scene with
+    loading/mode = path."""
 
     name: str
     scene: str
@@ -83,7 +84,8 @@ class Calibration:
         return self.parameters[0].setting[0] == "discrete"
 
     def observables_of(self, scene: _diptych.Scene, is_curve: bool = False) -> list[Observable]:
-        """Bins up to the end of the scene's loading, and windows of its comparison; curves and element tests have no windows."""
+        """Bins up to the end of the scene's loading, and windows of its comparison; curves and element tests have no
+        windows."""
         keys, found = scene.dict(), []
         for kind in self.kinds:
             if kind in OF_BANDS and (is_curve or is_element(scene)):
@@ -105,10 +107,10 @@ def is_element(scene: _diptych.Scene) -> bool:
 
 
 def read_curve(file: str, bins: Sequence[tuple[float, float]] = ()) -> pd.DataFrame:
-    """A measured curve: axial_strain or the progress of a path, stress_ratio (t/s), volumetric_strain and, where given, their
-    deviations; compression positive. Also element.csv, whose grains count; a quantity that its path prescribes is left out.
-    Other columns are ignored. Warns of `bins` (low, high) in which nothing was measured. Raises SceneError with file, line and
-    column."""
+    """A measured curve: axial_strain or the progress of a path, stress_ratio (t/s), volumetric_strain and, where given,
+    their deviations; compression positive. Also element.csv, whose grains count; a quantity that its path prescribes is
+    left out. Other columns are ignored. Warns of `bins` (low, high) in which nothing was measured. Raises SceneError
+    with file, line and column."""
     rows = read_table(file)
     allowed = ["axial_strain", *CURVE_COLUMNS, *CURVE_COLUMNS.values()]
     names = {"axial_strain": ("progress", "axial_strain"), **{one[0]: one for one in OTHER_NAMES.items()}}
@@ -122,17 +124,19 @@ def read_curve(file: str, bins: Sequence[tuple[float, float]] = ()) -> pd.DataFr
     for name in table.filter(like="deviation"):
         rows.refuse(table[name] <= 0, lambda k: f"{name} = {table[name][k]:g} must be positive")
     strain = table["axial_strain"].to_numpy()
-    rows.refuse(np.diff(strain, prepend=-np.inf) <= 0, lambda k: f"axial_strain = {strain[k]:g} must be larger than above it")
+    rows.refuse(np.diff(strain, prepend=-np.inf) <= 0, lambda k: f"axial_strain = {strain[k]:g} must be larger than "
+                "above it")
     if not rows.has("progress"):
         rows.refuse(strain >= 1, lambda k: f"axial_strain = {strain[k]:g}; give strains below 1, not per cent")
     if len(table) < 2:
         raise SceneError(f"{file}: a curve needs at least two rows of numbers")
     if "stress_ratio" in table and (table["stress_ratio"].mean() < 0 or table["stress_ratio"].abs().max() >= 1):
-        raise SceneError(f"{file}: stress_ratio must be t/s = (s1 - s2) / (s1 + s2), positive in compression and below 1")
+        raise SceneError(f"{file}: stress_ratio must be t/s = (s1 - s2) / (s1 + s2), positive in compression and below "
+                         "1")
     for low, high in bins:
         if not np.any((strain >= low) & (strain <= high)):
-            print(f"diptych: warning: {file}: no row lies in the bin from {low:g} to {high:g}; its mean is interpolated between "
-                  "the rows beside it, or it does not count", file=sys.stderr)
+            print(f"diptych: warning: {file}: no row lies in the bin from {low:g} to {high:g}; its mean is "
+                  "interpolated between the rows beside it, or it does not count", file=sys.stderr)
     return table.rename(columns={"axial_strain": "progress"})
 
 
@@ -145,9 +149,10 @@ def _results(part: Part) -> tuple[list[str], list[int]]:
         folder = os.path.join(os.path.dirname(one.file), value_text(one.value))
         scene = _diptych.resolved_scene(folder + "/scene.prm")
         if scene is None or not all(os.path.exists(f"{folder}/discrete.{ending}") for ending in ("csv", "h5")):
-            one.refuse(f"results: '{folder}' is not a result folder; scene.prm, discrete.csv and discrete.h5 are needed")
+            one.refuse(f"results: '{folder}' is not a result folder; it needs scene.prm, discrete.csv and discrete.h5")
         try:
-            _diptych.check_part(folder, "discrete")  # a file that changed since its run would be fitted as if it were measured
+            # a file that changed since its run would be fitted as if it were measured
+            _diptych.check_part(folder, "discrete")
         except ValueError as error:
             one.refuse(f"results: {error}")
         folders.append(folder)
@@ -159,8 +164,8 @@ def _results(part: Part) -> tuple[list[str], list[int]]:
         first = first or identity
         for key in identity:
             if identity[key] != first.get(key):
-                part.refuse(f": '{folder}' and '{folders[0]}' come from different scenes: {key} = '{identity[key]}' and "
-                            f"'{first.get(key)}'", "results")
+                part.refuse(f": '{folder}' and '{folders[0]}' come from different scenes: {key} = '{identity[key]}' "
+                            "and " f"'{first.get(key)}'", "results")
     if not folders:
         part.refuse(" is empty; name at least one result folder", "results")
     part.demand_distinct("results", samples)
@@ -193,8 +198,8 @@ def _target(part: Part) -> Target:
         target.before = [entry for entry in entries if entry.key != "parameters_from"]
         for entry in target.before:
             if entry.section != section:
-                part.refuse(f" = '{fragment}' sets {entry.section}/{entry.key}, which is not a key of the section {section}",
-                            "before")
+                part.refuse(f" = '{fragment}' sets {entry.section}/{entry.key}, which is not a key of the section "
+                            f"{section}", "before")
     return target
 
 
@@ -205,12 +210,15 @@ def _parameter(part: Part, targets: Sequence[Target]) -> Parameter:
     key, fitted = part.word("key"), {target.name: target.is_fitted for target in targets}
     names = [value_text(one.value) for one in part.list("targets")]
     if part.has("targets") and not (set(names) <= set(fitted) and any(fitted[name] for name in names)):
-        part.refuse(f" = '{', '.join(names)}' is not allowed; name some of {', '.join(fitted)}, one of them fitted", "targets")
+        part.refuse(f" = '{', '.join(names)}' is not allowed; name some of {', '.join(fitted)}, one of them fitted",
+                    "targets")
     section = key.rpartition("/")[0] or "continuum"
     if section not in ("continuum", "discrete"):
-        part.refuse(f" = {key} is not allowed; name a key of the section continuum, or of the grains as discrete/KEY", "key")
+        part.refuse(f" = {key} is not allowed; name a key of the section continuum, or of the grains as discrete/KEY",
+                    "key")
     path = key if "/" in key else "continuum/" + key
-    coordinate = part.choice("coordinate", COORDINATES[:4 if section == "continuum" else 2], USUAL.get(key, "logarithm"))
+    coordinate = part.choice("coordinate", COORDINATES[:4 if section == "continuum" else 2],
+                             USUAL.get(key, "logarithm"))
     is_ratio = coordinate in ("share_of", "drop_from")
     if not is_ratio and part.has("of"):
         part.refuse(" is only allowed with coordinate = share_of or drop_from", "of")
@@ -237,11 +245,11 @@ def _fixed(root: Part, parameters: Sequence[Parameter]) -> list[Setting]:
     fixed = root.settings("set")
     for entry in fixed:
         if entry.section != "continuum":
-            root.refuse(f": {entry.section}/{entry.key} is not a key of the continuum; set keys of the grains in the targets",
-                        "set")
+            root.refuse(f": {entry.section}/{entry.key} is not a key of the continuum; set keys of the grains in the "
+                        "targets", "set")
         if entry.key in KEYS_OF_THE_SEARCH:
-            root.refuse(f": continuum/{entry.key} is set by the calibration itself; set it in a target, or use load_step and "
-                        "coarse_element_size", "set")
+            root.refuse(f": continuum/{entry.key} is set by the calibration itself; set it in a target, or use "
+                        "load_step and coarse_element_size", "set")
         if any(p.key == entry.key for p in parameters):
             root.refuse(f": continuum/{entry.key} is already one of the parameters", "set")
     return fixed
@@ -251,19 +259,23 @@ def _check_curves(root: Part, targets: Sequence[Target], parameters: Sequence[Pa
     """Grains are fitted to curves, a continuum to grains or curves."""
     sections = {p.setting[0] for p in parameters}
     if len(sections) > 1:
-        root.refuse(": a file has either keys of the continuum or discrete/ keys of the grains; use two files", "parameters")
+        root.refuse(": a file has either keys of the continuum or discrete/ keys of the grains; use two files",
+                    "parameters")
     for part, target in zip(root.list("targets"), targets):
         if sections == {"discrete"} and not (target.curve and target.seeds):
-            part.refuse(": parameters of the grains are fitted to a measured curve; a target needs scene, curve and seeds")
+            part.refuse(": parameters of the grains are fitted to a measured curve; a target needs scene, curve and "
+                        "seeds")
         if sections == {"continuum"} and target.curve and target.seeds:
-            part.refuse(" stands instead of grains; leave out seeds, or name parameters of the grains as discrete/KEY", "curve")
+            part.refuse(" stands instead of grains; leave out seeds, or name parameters of the grains as discrete/KEY",
+                        "curve")
 
 
 def read_calibration(file: str, contents: Mapping[str, Any] | None = None) -> Calibration:
-    """Reads a .json file, or its contents, whose paths begin at the folder of `file`. Raises SceneError naming file, line, key,
-    value and the allowed values."""
+    """Reads a .json file, or its contents, whose paths begin at the folder of `file`. Raises SceneError naming file,
+    line, key, value and the allowed values."""
     root = Part(file, {}, contents) if contents else Part.read(file, "targets, quantities, bins and parameters")
-    root.allow("title", "targets", "quantities", "bins", "set", "parameters", "noise", "starts", "jacobians", "fine_jacobians",
+    root.allow("title", "targets", "quantities", "bins", "set", "parameters", "noise", "starts", "jacobians",
+               "fine_jacobians",
                "start_jacobians", "load_step", "coarse_element_size", "check_samples", "more_runs", "seed")
     name = name_of(file, "calibration")
     targets = [_target(part) for part in root.list("targets")]
@@ -295,10 +307,12 @@ def read_calibration(file: str, contents: Mapping[str, Any] | None = None) -> Ca
         part, names = root.at("noise"), [one.name for one in fields(Noise)[:-2]]
         part.allow(*names)
         for name in filter(part.has, names):
-            setattr(c.noise, name, part.number(name, 1e-9 if name in ("correlation_strain", "early_strain") else 0, FAR))
-    for key, low, high in (("starts", 1, 20), ("jacobians", 1, 100), ("fine_jacobians", 1, 100), ("start_jacobians", 1, 20),
-                           ("check_samples", 0, 1000), ("more_runs", 0, 1000), ("seed", 0, 1_000_000), ("load_step", 1e-9, 1),
-                           ("coarse_element_size", 0.01, 1e3)):
+            setattr(c.noise, name, part.number(name, 1e-9 if name in ("correlation_strain", "early_strain") else 0,
+                                               FAR))
+    for key, low, high in (("starts", 1, 20), ("jacobians", 1, 100), ("fine_jacobians", 1, 100),
+                           ("start_jacobians", 1, 20),
+                           ("check_samples", 0, 1000), ("more_runs", 0, 1000), ("seed", 0, 1_000_000),
+                           ("load_step", 1e-9, 1), ("coarse_element_size", 0.01, 1e3)):
         if root.has(key):
             setattr(c, key, root.number(key, low, high, isinstance(getattr(c, key), int)))
     return c

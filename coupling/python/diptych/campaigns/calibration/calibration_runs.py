@@ -1,7 +1,7 @@
 # diptych: the runs of a calibration
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Grains of every target are run or read. The continuum runs on one outline per path. The law's point follows the path of an
-element test."""
+"""Grains of every target are run or read. The continuum runs on one outline per path. The law's point follows the path
+of an element test."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ from ..runs.key_numbers import snapshots_at
 from ..studies.points import on_sample, scene_run
 from .calibration_file import Calibration, Target, is_element
 from .noise import Data, Noise, Observable, covariance, noise_of
-from .observations import (Observation, Outline, Path, add_bands, half_step, observe_curve, observe_history, read_target,
-                           windows_of)
+from .observations import (Observation, Outline, Path, add_bands, half_step, observe_curve, observe_history,
+                           read_target, windows_of)
 from .search import NORMAL
 
 
 class CalibrationRuns:
-    """Functions that run something raise Stopped after a stop signal, and NotConverged where grains do not come to their
-    end."""
+    """Functions that run something raise Stopped after a stop signal, and NotConverged where grains do not come to
+    their end."""
 
     def __init__(self, calibration: Calibration, directory: str, options: Options) -> None:
         self.calibration, self.runs, self.options = calibration, Runs(directory), replace(options, resume=False)
@@ -106,16 +106,18 @@ class CalibrationRuns:
             data.own = noise_of([data], Noise())
         return Path(target=target, scene=scene, data=data, samples=samples, left_out=[""] * len(observables))
 
-    def _observed(self, target: Target, scene: _diptych.Scene, observables: Sequence[Observable], folder: str) -> Observation:
+    def _observed(self, target: Target, scene: _diptych.Scene, observables: Sequence[Observable],
+                  folder: str) -> Observation:
         table = panel_table(folder, "discrete")
         reached = 0.0 if table is None else float(table["progress"].iloc[-1])
         if is_beyond(observables[0].high, reached) or is_beyond(scene.dict()["loading"]["axial_strain"], reached):
-            raise SceneError(f"{self.calibration.file}: target '{target.name}': {folder} ends at {reached:g}, before the end "
-                             "of its loading")
+            raise SceneError(f"{self.calibration.file}: target '{target.name}': {folder} ends at {reached:g}, before "
+                             "the end of its loading")
         o = observe_history(scene, observables, table)
         if is_element(scene):
             self.outlines.setdefault(target.name, Outline(
-                width=np.nan, height=np.nan, solid_fraction=float(table["solid_fraction"].iloc[0]), frames=[], bands=[], mesh=""))
+                width=np.nan, height=np.nan, solid_fraction=float(table["solid_fraction"].iloc[0]), frames=[], bands=[],
+                mesh=""))
             return o
         snapshots = _diptych.read_grains(folder).snapshots
         if target.name not in self.outlines:
@@ -130,15 +132,16 @@ class CalibrationRuns:
         return [self._path(target) for target in self.calibration.targets]
 
     def unsteady(self, path: Path, noise: Noise) -> list[str]:
-        """Runs the first samples with half the step. Why an observable is left out: it moves by more than samples scatter, and
-        by more than two runs of a sample differ by chance."""
+        """Runs the first samples with half the step. Why an observable is left out: it moves by more than samples
+        scatter, and by more than two runs of a sample differ by chance."""
         seeds = path.target.seeds[:self.calibration.check_samples]
         finer = [self._observed(path.target, path.scene, path.data.observables, folder).values
                  for folder in self._grains(path.target, seeds, half_step(path.scene), ", with half the grains' step")]
         moved = np.mean([a - b.values for a, b in zip(finer, path.samples)], axis=0)
         scatter = np.sqrt(np.diag(covariance(noise, path.data)))
         allowed = max(1.0, NORMAL * np.sqrt(2 / len(seeds)))
-        return [f"half the step of the grains moves it by {a:.3g}, samples scatter by {b:.3g}" if abs(a) > allowed * b else ""
+        return [f"half the step of the grains moves it by {a:.3g}, samples scatter by {b:.3g}" if abs(a) > allowed * b
+                else ""
                 for a, b in zip(moved, scatter)]
 
     def _settings(self, path: Path, point: Sequence[Setting], fine: bool, load_step: float) -> list[Setting]:
@@ -160,7 +163,8 @@ class CalibrationRuns:
         material = path.scene.dict()["continuum"]
         hardening = next((one.value for one in reversed(point) if one.key == "hardening"), material["hardening"])
         if hardening in ("critical_state", "kinematic") and material["solid_fraction_start"] == "auto":
-            add("continuum", solid_fraction_start=outline.solid_fraction)  # the mean density: the meshes here have no grains
+            # the mean density: the meshes here have no grains
+            add("continuum", solid_fraction_start=outline.solid_fraction)
         return here
 
     def _observed_continuum(self, path: Path, run: SceneRun, failure: str) -> Observation:

@@ -1,8 +1,9 @@
 # diptych: an emulator of the runs of a calibration: their observables at any point of the unit cube
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A Gaussian process with a Matern 5/2 correlation, common to all observables. Runs on the coarse mesh carry it. Those on the
-samples' own mesh add the difference between the meshes, a process of the same form (Kennedy & O'Hagan, Biometrika 87 (2000) 1).
-The correlation lengths maximise the likelihood. Leaving out each run in turn checks the variance."""
+"""A Gaussian process with a Matern 5/2 correlation, common to all observables. Runs on the coarse mesh carry it. Those
+on the samples' own mesh add the difference between the meshes, a process of the same form (Kennedy & O'Hagan,
+Biometrika 87 (2000) 1). The correlation lengths maximise the likelihood. Leaving out each run in turn checks the
+variance."""
 
 from __future__ import annotations
 
@@ -16,7 +17,8 @@ LENGTHS, MESHES, NUGGET = (0.1, 20.0), (1e-6, 1.0), (1e-8, 1.0)  # ranges; the l
 
 
 class Emulator:
-    """points: (runs, parameters) in the unit cube; is_fine: (runs), on the samples' own mesh; values: (runs, observables)."""
+    """points: (runs, parameters) in the unit cube; is_fine: (runs), on the samples' own mesh; values: (runs,
+    observables)."""
 
     def __init__(self, points: Array, is_fine: Array, values: Array) -> None:
         self.points, self.is_fine, n = points, np.asarray(is_fine, dtype=float), points.shape[1]
@@ -49,8 +51,8 @@ class Emulator:
         return float(len(root) * np.log(np.maximum(squares, 1e-30)).mean() + 2 * np.log(np.diag(root)).sum())
 
     def predict(self, points: Array) -> tuple[Array, Array]:
-        """(points, observables) on the samples' own mesh, if there was a run on it; and (points): the factor of `covariance`
-        that gives the covariance of their error."""
+        """(points, observables) on the samples' own mesh, if there was a run on it; and (points): the factor of
+        `covariance` that gives the covariance of their error."""
         fine = self.is_fine.max()
         k = self._correlation((points[:, None] - self.points) ** 2, fine * self.is_fine, self._logs)
         largest = 2 * (1 + np.exp(self._logs[-2]) * fine) + np.exp(self._logs[-1])

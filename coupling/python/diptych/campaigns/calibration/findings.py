@@ -27,17 +27,20 @@ from ..runs.statistics import Difference, line_statistics, paired, statistics
 NORMAL_95 = 1.6448536269514722  # 95 % quantile
 CUT = 0.04  # to a bound, in the unit cube: an interval ends there
 LARGEST_SHARE = 2 / 3  # of the prior deviation that an identified parameter keeps
-COLUMNS = ("kind", "from", "to", "count", "mean", "deviation", "deviation_of_mean", "before", "after", "parameter_deviation",
-           "half_step", "counts", "discrepancy", "discrepancy_deviation")
+COLUMNS = ("kind", "from", "to", "count", "mean", "deviation", "deviation_of_mean", "before", "after",
+           "parameter_deviation", "half_step", "counts", "discrepancy", "discrepancy_deviation")
 
 
 def parameter_records(coordinates: Coordinates, draws: Array, best: Array) -> list[dict[str, Any]]:
     """Values of the best point, medians and 95 % intervals of the draws; numbers are those of the coordinates."""
     inner = np.quantile(draws, [0.025, 0.5, 0.975], axis=0)
-    ends, numbers = [coordinates.numbers(one) for one in (*inner, best)], np.transpose([coordinates.numbers(one) for one in draws])
+    ends, numbers = [coordinates.numbers(one) for one in (*inner,
+                                                          best)], np.transpose([coordinates.numbers(one)
+                                                                                for one in draws])
     prior = scipy.stats.truncnorm(-coordinates.start / PRIOR, (1 - coordinates.start) / PRIOR, scale=PRIOR).std()
     share = draws.std(0, ddof=1) / prior
-    return [{"key": p.key, "targets": list(p.targets), "coordinate": p.coordinate, "of": p.other, "low": p.low, "high": p.high,
+    return [{"key": p.key, "targets": list(p.targets), "coordinate": p.coordinate, "of": p.other, "low": p.low,
+             "high": p.high,
              "start": p.start, "number": ends[3][k], "number_low": ends[0][k], "number_median": ends[1][k],
              "number_high": ends[2][k], "value": value, "is_outside": bool(not inner[0, k] <= best[k] <= inner[2, k]),
              "share_known": share[k], "is_identified": bool(share[k] < LARGEST_SHARE),
@@ -51,19 +54,23 @@ def parameter_words(parameters: Sequence[dict[str, Any]]) -> list[str]:
     for p in parameters:
         name = p["key"] + (f" ({', '.join(p['targets'])})" if p["targets"] else "")
         if not p["is_identified"]:
-            words.append(f"{name} is not identified: its posterior deviation is {p['share_known']:.2f} times the prior one")
+            words.append(f"{name} is not identified: its posterior deviation is {p['share_known']:.2f} times the prior "
+                         "one")
         if p["is_outside"]:
-            words.append(f"{name}: the best point of the search lies outside the interval of the posterior, whose median is "
-                         f"{p['number_median']:.4g}")
+            words.append(f"{name}: the best point of the search lies outside the interval of the posterior, whose "
+                         "median is " f"{p['number_median']:.4g}")
         if p["is_cut"]:
-            words.append(f"the interval of {name} ends at its bound, so this end comes from the bound and not from the data")
+            words.append(f"the interval of {name} ends at its bound, so this end comes from the bound and not from the "
+                         "data")
     return words
 
 
 def discrepancy_record(noise: Noise, draws: Draws, paths: int) -> dict[str, Any]:
-    """Sizes of the discrepancy after the first strains and its correlation strain: medians with intervals; before the data."""
+    """Sizes of the discrepancy after the first strains and its correlation strain: medians with intervals; before the
+    data."""
     before = [noise.stress_discrepancy, noise.volume_discrepancy, draws.strain]
-    found = np.quantile(draws.sizes, [0.5, 0.025, 0.975], axis=0) * [noise.stress_discrepancy, noise.volume_discrepancy, 1]
+    found = np.quantile(draws.sizes, [0.5, 0.025, 0.975], axis=0) * [noise.stress_discrepancy, noise.volume_discrepancy,
+                                                                     1]
     return {"paths": paths, **{key: {"before": value, "found": Interval(*three)} for key, value, three in
                                zip(("stress_ratio", "volumetric_strain", "correlation_strain"), before, found.T)}}
 
@@ -74,7 +81,8 @@ def discrepancy_words(record: dict[str, Any]) -> list[str]:
     for key, name, unit in (("stress_ratio", "t/s", 1), ("volumetric_strain", "volume, %", 100),
                             ("correlation_strain", "correlation over strain, %", 100)):
         value, *ends = (unit * number for number in record[key]["found"])
-        parts.append(f"{name} {value:.2g}{ends_text(*ends, '{:.2g}'.format)} (before {unit * record[key]['before']:.2g})")
+        parts.append(f"{name} {value:.2g}{ends_text(*ends, '{:.2g}'.format)} (before "
+                     f"{unit * record[key]['before']:.2g})")
     rests = "one path alone" if record["paths"] == 1 else f"{record['paths']} paths"
     return [f"discrepancy of the law, deviation: {', '.join(parts)}; it rests on {rests}"]
 
@@ -90,8 +98,8 @@ def widened(test: Difference, deviation: float) -> Difference:
 
 
 def measured(mean: float, deviation: float, now: float, kind: str) -> Difference:
-    """now minus a measured mean with a known normal deviation, "relative" or "absolute". An end is NaN if the interval of a
-    mean that is divided by reaches zero."""
+    """now minus a measured mean with a known normal deviation, "relative" or "absolute". An end is NaN if the interval
+    of a mean that is divided by reaches zero."""
     def interval(quantile: float) -> Interval:
         ends = np.array([mean, mean + quantile * deviation, mean - quantile * deviation])
         return Interval(*(now / np.where(ends > 0, ends, np.nan) - 1 if kind == "relative" else now - ends))
@@ -102,10 +110,11 @@ def measured(mean: float, deviation: float, now: float, kind: str) -> Difference
 def predictions(path: Path, runs: Sequence[Observation], deviations: Array) -> list[dict[str, Any]]:
     """Single numbers of a path with verdicts: two one-sided tests against the margins of the scene.
 
-    deviations: (observables), of `after`: from the parameters if the path was not fitted, and from runs of grains; they widen
-    the intervals. That of the angle is unknown, because the
-    fit has no derivative of it. Near a flat peak the largest running mean moves as the largest mean over a bin does. The given
-    deviation of a measured curve replaces the scatter of samples; that of its peak is the one of its largest bin.
+    deviations: (observables), of `after`: from the parameters if the path was not fitted, and from runs of grains; they
+    widen the intervals. That of the angle is unknown, because the
+    fit has no derivative of it. Near a flat peak the largest running mean moves as the largest mean over a bin does.
+    The given deviation of a measured curve replaces the scatter of samples; that of its peak is the one of its largest
+    bin.
     """
     margins, (before, after) = path.scene.dict()["comparison"], runs
     places = {one.kind: k for k, one in enumerate(path.data.observables)}  # the last of each kind
@@ -114,15 +123,18 @@ def predictions(path: Path, runs: Sequence[Observation], deviations: Array) -> l
 
     def add(quantity: str, values: Sequence[float], margin: str, kind: str, k: int | None, *,
             given: float = np.nan) -> None:
-        """values: before, after, and those of the samples. k: the observable whose deviation counts. given: of the data."""
+        """values: before, after, and those of the samples. k: the observable whose deviation counts. given: of the
+        data."""
         earlier, now, *grains = values
         mean, deviation = (line_statistics if kind == "line" else statistics)(grains).mean, np.nan
         test = measured(mean, given, now, kind) if np.isfinite(given) else paired(grains, [now] * len(grains), kind)
         if k is not None and deviations[k] > 0:
             deviation = deviations[k] * {"peak_stress_ratio": 1 / mean, "width_10_90": now / mean}.get(quantity, 1)
             test = widened(test, deviation)
-        found.append({"quantity": quantity, "data": mean, "before": earlier, "after": now, "difference": test.difference,
-                      "margin": margins[margin], "verdict": test.verdict(margins[margin]), "parameter_deviation": deviation})
+        found.append({"quantity": quantity, "data": mean, "before": earlier, "after": now,
+                      "difference": test.difference,
+                      "margin": margins[margin], "verdict": test.verdict(margins[margin]),
+                      "parameter_deviation": deviation})
 
     everything = [before, after, *path.samples]
     if np.isfinite([s.peak_stress_ratio for s in path.samples]).any():
@@ -144,8 +156,8 @@ def predictions(path: Path, runs: Sequence[Observation], deviations: Array) -> l
 
 
 def path_record(path: Path, noise: Noise, runs: Sequence[Observation], deviations: Array) -> dict[str, Any]:
-    """runs: before, calibrated, and calibrated with half the load step. deviations: (observables), from the parameters. Curves:
-    mean of the samples, plus and minus two deviations of one sample, and of the model."""
+    """runs: before, calibrated, and calibrated with half the load step. deviations: (observables), from the parameters.
+    Curves: mean of the samples, plus and minus two deviations of one sample, and of the model."""
     before, after, halved = runs
     data = path.data
     deviation, of_mean = (np.sqrt(np.diag(of(noise, data))) for of in (covariance, covariance_of_mean))
@@ -158,13 +170,14 @@ def path_record(path: Path, noise: Noise, runs: Sequence[Observation], deviation
          "half_step": halved.values[k] - after.values[k], "counts": False, "discrepancy": np.nan,
          "discrepancy_deviation": np.nan, "left_out": path.left_out[k]}
         for k, one in enumerate(data.observables)]
-    record = {"name": path.target.name, "use": "fit" if path.target.is_fitted else "predict", "seeds": path.target.seeds,
-              "curve": os.path.basename(path.target.curve),
+    record = {"name": path.target.name, "use": "fit" if path.target.is_fitted else "predict",
+              "seeds": path.target.seeds, "curve": os.path.basename(path.target.curve),
               "failed": after.failure, "observables": observables, "progress": path.samples[0].progress,
               "predictions": predictions(path, (before, after), own)}
     for name, key in (("stress_ratio", "stress_ratio"), ("volumetric_strain", "volume")):
         record |= with_scatter(key, np.array([getattr(s, name) for s in path.samples]))
-        record |= {key + end: [] if o.failure else getattr(o, name) for end, o in (("_before", before), ("_after", after))}
+        record |= {key + end: [] if o.failure else getattr(o, name) for end,
+                   o in (("_before", before), ("_after", after))}
         if after.samples:
             record |= with_scatter(key + "_after", np.array([getattr(s, name) for s in after.samples]))
     return record
@@ -212,8 +225,8 @@ def predict(trials: Trials, best: Array, jacobian: Array, draws: Draws) -> None:
 
 
 def _jacobian_on(trials: Trials, path: Path, best: Array, jacobian: Array) -> Array:
-    """(observables, parameters) of one path: the fit's if the path was fitted, on these or other samples; else differences
-    on the coarse mesh."""
+    """(observables, parameters) of one path: the fit's if the path was fitted, on these or other samples; else
+    differences on the coarse mesh."""
     n, at = len(path.data.observables), 0
     for other in trials.fitted:
         same = all(p.is_of(path.target.name) == p.is_of(other.target.name) for p in trials.coordinates.parameters)
@@ -244,7 +257,8 @@ def summary(record: dict[str, Any], cpu_s: float) -> str:
                      f"{'' if p['is_identified'] else ', not identified'}")
     for path in record["paths"]:
         for one in path["predictions"]:
-            data, before, after = (f"{x:.4g}" if np.isfinite(x) else "-" for x in (one["data"], one["before"], one["after"]))
+            data, before, after = (f"{x:.4g}" if np.isfinite(x) else "-"
+                                   for x in (one["data"], one["before"], one["after"]))
             lines.append(f"  {path['name']} ({path['use']}): {one['quantity']} {data}, before {before}, "
                          f"after {after}: {one['verdict']}")
     return "\n".join(lines + ["  " + words for words in record["words"]])
@@ -253,7 +267,8 @@ def summary(record: dict[str, Any], cpu_s: float) -> str:
 def _origin(record: dict[str, Any]) -> str:
     """Paths, curves and seeds of the fit, in one line without the sign of a comment: a value in a scene file."""
     fitted = [path for path in record["paths"] if path["use"] == "fit"]
-    paths = [", ".join(filter(None, [path["name"], path["curve"], path["seeds"] and f"seeds {seeds_text(path['seeds'])}"]))
+    paths = [", ".join(filter(None, [path["name"], path["curve"],
+                                     path["seeds"] and f"seeds {seeds_text(path['seeds'])}"]))
              for path in fitted]
     status = "" if record["status"] == "finished" else f" ({record['status']})"
     return " ".join(f"calibrated on {'; '.join(paths) or record['title']}{status}".replace("#", "").split())
@@ -264,10 +279,11 @@ def _fragment(record: dict[str, Any]) -> str:
     origin, section = _origin(record), "continuum" if record["model"] == "continuum" else "discrete"
     lines = [f"# {origin}, by diptych {_diptych.git_revision}"]
     if record["status"] == "finished":
-        lines += [f"# chi^2 of {record['n_observables']} observables: {record['chi2_before']:.4g} before, {record['chi2']:.4g} "
-                  "now; calibration.json holds intervals"]
+        lines += [f"# chi^2 of {record['n_observables']} observables: {record['chi2_before']:.4g} before, "
+                  f"{record['chi2']:.4g} " "now; calibration.json holds intervals"]
     lines += [f"subsection {section}", *("  set " + one.removeprefix(section + "/") for one in record["settings"])]
-    lines += [f"  # {own['target']}: set {own['key'].removeprefix(section + '/')} = {_diptych.text_of_number(own['value'])}"
+    lines += [f"  # {own['target']}: set {own['key'].removeprefix(section + '/')} = "
+              f"{_diptych.text_of_number(own['value'])}"
               for own in record["own"]]
     if section == "continuum":
         lines += ["end", "", "subsection comparison", f"  set parameters_from = {origin}"]
@@ -275,20 +291,25 @@ def _fragment(record: dict[str, Any]) -> str:
 
 
 def posterior_table(coordinates: Coordinates, draws: Array) -> pd.DataFrame:
-    """A row per draw, a column per parameter: the values of the keys. Targets of a value that is not common follow the key."""
+    """A row per draw, a column per parameter: the values of the keys. Targets of a value that is not common follow the
+    key."""
     names = [p.key + (f" ({', '.join(p.targets)})" if p.targets else "") for p in coordinates.parameters]
     return pd.DataFrame([coordinates.values(point) for point in draws], columns=names)
 
 
-def write_calibration(directory: str, record: dict[str, Any], cpu_s: dict[str, float], posterior: pd.DataFrame | None) -> None:
-    """Writes calibration.json, calibration.csv (a row per observable), posterior.csv (a row per draw), calibration_cost.json
-    and calibrated.prm."""
-    rows = [{"path": path["name"], "use": path["use"], **one} for path in record["paths"] for one in path["observables"]]
+def write_calibration(directory: str, record: dict[str, Any], cpu_s: dict[str, float],
+                      posterior: pd.DataFrame | None) -> None:
+    """Writes calibration.json, calibration.csv (a row per observable), posterior.csv (a row per draw),
+    calibration_cost.json and calibrated.prm."""
+    rows = [{"path": path["name"], "use": path["use"], **one} for path in record["paths"]
+            for one in path["observables"]]
     table = pd.DataFrame(rows, columns=["path", "use", *COLUMNS]).astype({"counts": int})
     write_json(directory + "/calibration.json", record)
-    write_json(directory + "/calibration_cost.json", {"continuum_cpu_s": cpu_s["continuum"], "grains_cpu_s": cpu_s["discrete"]})
+    write_json(directory + "/calibration_cost.json", {"continuum_cpu_s": cpu_s["continuum"],
+                                                      "grains_cpu_s": cpu_s["discrete"]})
     write_text(directory + "/calibration.csv",
                table.to_csv(index=False, float_format="%.10g", na_rep="nan", lineterminator="\n"))
     if posterior is not None:
-        write_text(directory + "/posterior.csv", posterior.to_csv(index=False, float_format="%.10g", lineterminator="\n"))
+        write_text(directory + "/posterior.csv", posterior.to_csv(index=False, float_format="%.10g",
+                                                                  lineterminator="\n"))
     write_text(directory + "/calibrated.prm", _fragment(record))

@@ -1,7 +1,7 @@
 # diptych: grains whose parameters are fitted to a measured curve
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Grains stand in the place of the continuum. Every point of the search runs the same seeds, because the difference of two runs
-of one sample scatters less than its runs do."""
+"""Grains stand in the place of the continuum. Every point of the search runs the same seeds, because the difference of
+two runs of one sample scatters less than its runs do."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ from ..studies.points import on_sample, scene_run
 
 
 def mean_of(samples: Sequence[Observation], averaging_width: float) -> Observation:
-    """Means over the samples. The peak is that of the mean curve, because single curves fluctuate above it. If a sample failed,
-    the result is its failure."""
+    """Means over the samples. The peak is that of the mean curve, because single curves fluctuate above it. If a sample
+    failed, the result is its failure."""
     for sample in samples:
         if sample.failure:
             return sample
@@ -56,7 +56,8 @@ class GrainRuns(CalibrationRuns):
             return scene_run(path.target.scene, "discrete", on_sample(here, seed, self.calibration.file))
 
         n = self.calibration.check_samples if is_halved else None
-        runs = [[[sample(path, settings, seed) for seed in path.target.seeds[:n]] for path, settings in zip(paths, point)]
+        runs = [[[sample(path, settings, seed) for seed in path.target.seeds[:n]] for path,
+                 settings in zip(paths, point)]
                 for point in points]
         failures = iter(self._do([run for of_point in runs for of_path in of_point for run in of_path]))
 
@@ -71,10 +72,11 @@ class GrainRuns(CalibrationRuns):
 
     def evaluate(self, paths: Sequence[Path], points: Sequence[Sequence[Sequence[Setting]]], fine: bool,
                  load_step: float) -> list[list[Observation]]:
-        """Means over the seeds, [point][path]; grains have no mesh. A smaller load step stands for half the step of the grains:
-        the change of the first samples is added to the mean of all."""
+        """Means over the seeds, [point][path]; grains have no mesh. A smaller load step stands for half the step of the
+        grains: the change of the first samples is added to the mean of all."""
         found = self._samples(paths, points)
-        means = [[mean_of(samples, path.scene.averaging_width()) for path, samples in zip(paths, point)] for point in found]
+        means = [[mean_of(samples, path.scene.averaging_width()) for path, samples in zip(paths, point)]
+                 for point in found]
         if load_step < self.calibration.load_step:
             for of_point, full, half in zip(means, found, self._samples(paths, points, True)):
                 for mean, before, after in zip(of_point, full, half):

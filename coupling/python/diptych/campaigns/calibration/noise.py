@@ -1,9 +1,9 @@
 # diptych: observables of a calibration, scatter of the samples, and the weights that follow from it
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A few samples cannot give a full covariance, so the scatter of one sample has a fixed form. The curve t/s is shifted as a
-whole (level) and varies locally, correlated in strain (shape). Volume has a constant scatter and one in proportion to strain.
-Widths scatter independently, the profile as profiles.py says. A measured curve may bring deviations of its own, which
-replace this form."""
+"""A few samples cannot give a full covariance, so the scatter of one sample has a fixed form. The curve t/s is shifted
+as a whole (level) and varies locally, correlated in strain (shape). Volume has a constant scatter and one in proportion
+to strain. Widths scatter independently, the profile as profiles.py says. A measured curve may bring deviations of its
+own, which replace this form."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ ESTIMATED = {"stress_ratio": ("stress_level", "stress_shape"), "volumetric_strai
 
 @dataclass(frozen=True, kw_only=True)
 class Observable:
-    """One number by which grains and continuum are compared: a mean over a bin of the progress, or ln of a width or a strip of
-    a profile in a window. near, far: edges of the strip [mean diameters]."""
+    """One number by which grains and continuum are compared: a mean over a bin of the progress, or ln of a width or a
+    strip of a profile in a window. near, far: edges of the strip [mean diameters]."""
 
     kind: str
     low: float
@@ -35,8 +35,8 @@ class Observable:
 
 @dataclass(kw_only=True)
 class Noise:
-    """Standard deviations of one sample, None where they are to be estimated, and the model tolerance ("discrepancy"): the
-    misfit that the form of the law may have."""
+    """Standard deviations of one sample, None where they are to be estimated, and the model tolerance ("discrepancy"):
+    the misfit that the form of the law may have."""
 
     stress_level: float | None = None
     stress_shape: float | None = None
@@ -60,9 +60,10 @@ NO_SCATTER = Noise(**{key: 0 for keys in ESTIMATED.values() for key in keys})
 
 @dataclass(kw_only=True)
 class Data:
-    """The samples of one path. values: (samples, observables), NaN if a sample has none. given: (observables) deviations that a
-    measured curve brings, NaN where it brings none. runs: number of samples of grains that are compared with the data in their
-    mean; 0: a continuum without scatter. own: the scatter of one sample of this path; None: that of the calibration."""
+    """The samples of one path. values: (samples, observables), NaN if a sample has none. given: (observables)
+    deviations that a measured curve brings, NaN where it brings none. runs: number of samples of grains that are
+    compared with the data in their mean; 0: a continuum without scatter. own: the scatter of one sample of this path;
+    None: that of the calibration."""
 
     observables: Sequence[Observable]
     values: Array
@@ -130,8 +131,8 @@ def _stress_squares(paths: Iterable[Data]) -> tuple[float, float]:
 
 
 def _volume_squares(paths: Iterable[Data]) -> Array:
-    """(2): variances of start and growth in v = start^2 + growth^2 progress^2. The scatter of a variance is proportional to
-    it."""
+    """(2): variances of start and growth in v = start^2 + growth^2 progress^2. The scatter of a variance is
+    proportional to it."""
     normal, right = np.zeros((2, 2)), np.zeros(2)
     for path in paths:
         at = path.of("volumetric_strain")
@@ -155,7 +156,8 @@ def _width_square(paths: Iterable[Data]) -> float:
 
 
 def _profile_squares(paths: Iterable[Data]) -> tuple[float, float]:
-    """Variance of ln(width), from the mean stretch of all windows of a sample; and the factor of the noise, from the rest."""
+    """Variance of ln(width), from the mean stretch of all windows of a sample; and the factor of the noise, from the
+    rest."""
     stretch = left = freedom = strips = 0.0
     for path in paths:
         (_, mode, variance), common = path.shapes(), []
@@ -173,21 +175,24 @@ def _profile_squares(paths: Iterable[Data]) -> tuple[float, float]:
 
 
 def noise_of(paths: Sequence[Data], given: Noise) -> Noise:
-    """Fills in the deviations that are not given: the scatter within every path, pooled. Raises ValueError if some are needed
-    and cannot be estimated."""
+    """Fills in the deviations that are not given: the scatter within every path, pooled. Raises ValueError if some are
+    needed and cannot be estimated."""
     paths = [path for path in paths if path.own is None]
     squares = dict(zip(("stress_level", "stress_shape"), _stress_squares(paths)))
     squares.update(zip(("volume_start", "volume_growth"), _volume_squares(paths)), ln_width=_width_square(paths))
     squares.update(zip(("profile_stretch", "profile_noise"), _profile_squares(paths)))
-    needed = [key for kind, keys in ESTIMATED.items() for key in keys  # else this kind is measured with deviations, or missing
+    # else this kind is measured with deviations, or missing
+    needed = [key for kind, keys in ESTIMATED.items() for key in keys
               if any((path.of(kind) & np.isnan(path.given) & np.isfinite(path.mean)).any() for path in paths)]
     estimated = [key for key in needed if getattr(given, key) is None]
     missing = [key for key in estimated if np.isnan(squares[key])]
     if missing:
-        raise ValueError(f"noise: {', '.join(missing)} must be given, because no path has two samples to estimate them from")
+        raise ValueError(f"noise: {', '.join(missing)} must be given, because no path has two samples to estimate them "
+                         "from")
     values = {key: getattr(given, key) if key in needed else 0.0 for key in squares}
     values |= {key: np.sqrt(max(0.0, squares[key])) for key in estimated}
-    return replace(given, **values, estimated=tuple(estimated), degrees_of_freedom=sum(len(path.values) - 1 for path in paths))
+    return replace(given, **values, estimated=tuple(estimated),
+                   degrees_of_freedom=sum(len(path.values) - 1 for path in paths))
 
 
 def covariance(noise: Noise, data: Data) -> Array:
@@ -227,9 +232,9 @@ def discrepancy(noise: Noise, data: Data) -> Array:
 
 
 def working_covariance(noise: Noise, data: Data) -> Array:
-    """(observables, observables): scatter of the mean + model tolerance, for the search. Neighbouring strips of a profile are
-    correlated; other observables count as independent. The scatter common to all bins or strips is left out: a fit with it can
-    lie below every data point (Peelle's puzzle)."""
+    """(observables, observables): scatter of the mean + model tolerance, for the search. Neighbouring strips of a
+    profile are correlated; other observables count as independent. The scatter common to all bins or strips is left
+    out: a fit with it can lie below every data point (Peelle's puzzle)."""
     common = {"stress_level": 0.0, "profile_stretch": 0.0}
     scatter = covariance_of_mean(replace(noise, **common), replace(data, own=data.own and replace(data.own, **common)))
     tolerance = discrepancy(noise, data)
@@ -243,13 +248,14 @@ def tolerance_covariance(data: Data, variance: Array) -> Array:
 
 
 class FittedData:
-    """The data of all fitted paths, one after the other, with the weights of the fit. left_out: a reason per observable of each
-    path; one with a reason has no weight."""
+    """The data of all fitted paths, one after the other, with the weights of the fit. left_out: a reason per observable
+    of each path; one with a reason has no weight."""
 
     def __init__(self, noise: Noise, paths: Sequence[Data], left_out: Sequence[Sequence[str]]) -> None:
         self.noise, self.paths, self.mean = noise, paths, np.concatenate([path.mean for path in paths])
         working = scipy.linalg.block_diag(*[working_covariance(noise, path) for path in paths])
-        self.used = np.isfinite(self.mean) & (np.diag(working) > 0) & ~np.concatenate([np.array(why, bool) for why in left_out])
+        self.used = np.isfinite(self.mean) & (np.diag(working)
+                                              > 0) & ~np.concatenate([np.array(why, bool) for why in left_out])
         self.root = np.eye(len(self.mean))  # root^T root = inverse of the working covariance
         square = np.ix_(self.used, self.used)
         self.root[square] = np.linalg.inv(np.linalg.cholesky(working[square]))
@@ -268,7 +274,8 @@ class FittedData:
 
     def of_scatter(self, keys: Sequence[str]) -> Array:
         """(n, n): the part of it due to these deviations of one sample."""
-        noise = replace(self.noise, **{key: 0.0 for of_kind in ESTIMATED.values() for key in of_kind if key not in keys})
+        noise = replace(self.noise, **{key: 0.0 for of_kind in ESTIMATED.values() for key in of_kind if key
+                                       not in keys})
         known = [replace(path, given=np.where(np.isfinite(path.given), 0.0, np.nan), own=path.own and NO_SCATTER)
                  for path in self.paths]  # not this scatter
         return scipy.linalg.block_diag(*[covariance_of_mean(noise, path) for path in known])

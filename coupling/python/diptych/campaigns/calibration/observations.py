@@ -31,7 +31,8 @@ class Observation:
 
     values: Array  # (observables), NaN: not reached, or no band
     peak_stress_ratio: float = np.nan  # largest running mean
-    angle_deg: float = np.nan  # of the first band of the last window; without its sign if chance decides between left and right
+    # of the first band of the last window; without its sign if chance decides between left and right
+    angle_deg: float = np.nan
     bands: list[Band | None] = field(default_factory=list)  # the first of every window
     progress: Array = field(default_factory=NO_CURVE.copy)  # of the curve
     stress_ratio: Array = field(default_factory=NO_CURVE.copy)
@@ -54,8 +55,8 @@ class Outline:
 
 @dataclass(kw_only=True)
 class Path:
-    """A target with what its samples or its curve show. left_out: a reason per observable; empty: it counts. scatter: the
-    samples that give the noise, if others than the data."""
+    """A target with what its samples or its curve show. left_out: a reason per observable; empty: it counts. scatter:
+    the samples that give the noise, if others than the data."""
 
     target: Target
     scene: _diptych.Scene
@@ -69,7 +70,8 @@ class Path:
         return self.scatter or self.data
 
 
-def observe_history(scene: _diptych.Scene, observables: Sequence[Observable], table: pd.DataFrame | None) -> Observation:
+def observe_history(scene: _diptych.Scene, observables: Sequence[Observable],
+                    table: pd.DataFrame | None) -> Observation:
     """Everything but the bands."""
     o = Observation(values=np.full(len(observables), np.nan))
     if table is None:
@@ -90,9 +92,10 @@ def observe_history(scene: _diptych.Scene, observables: Sequence[Observable], ta
 
 def add_bands(o: Observation, scene: _diptych.Scene, observables: Sequence[Observable], snapshots: Sequence[Any],
               outline: Outline, *, of_grains: bool) -> Observation:
-    """Adds ln(width / d) of the first band of every window, and the profiles across it. The continuum's bands are searched in
-    the grains' frames, so that both panels are measured alike. A continuum without a band counts as half the sample's height wide,
-    which cannot be told from a homogeneous deformation; its profile is taken across the band of the first sample."""
+    """Adds ln(width / d) of the first band of every window, and the profiles across it. The continuum's bands are
+    searched in the grains' frames, so that both panels are measured alike. A continuum without a band counts as half
+    the sample's height wide, which cannot be told from a homogeneous deformation; its profile is taken across the band
+    of the first sample."""
     d, windows = scene.dict()["sample"]["mean_diameter"], windows_of(observables)
     for n, (window, frame) in enumerate(zip(windows, outline.frames)):
         pair = snapshots_at(snapshots, *window)
@@ -118,8 +121,9 @@ def windows_of(observables: Sequence[Observable]) -> list[tuple[float, float]]:
 
 
 def observe_curve(scene: _diptych.Scene, observables: Sequence[Observable], file: str) -> tuple[Observation, Array]:
-    """A measured curve and the deviations (observables) that it brings, NaN where it brings none. Bins that begin before its
-    first row have no value. The deviation of a bin is its mean, as the error of one test is common to neighbouring readings."""
+    """A measured curve and the deviations (observables) that it brings, NaN where it brings none. Bins that begin
+    before its first row have no value. The deviation of a bin is its mean, as the error of one test is common to
+    neighbouring readings."""
     table = read_curve(file)
     o, deviations = observe_history(scene, observables, table), np.full(len(observables), np.nan)
     x = table["progress"].to_numpy()
@@ -147,9 +151,9 @@ def read_target(target: Target, more: Sequence[Setting] = ()) -> _diptych.Scene:
         scene = _diptych.read_changed_scene(target.scene, [*target.settings, *more], True)
     mesh, mode = scene.dict()["continuum"]["mesh"], scene.dict()["loading"]["mode"]
     if target.curve and not target.seeds and mesh != "rectangle":
-        raise SceneError(f"{target.scene}: continuum/mesh = {mesh}: a measured curve has no grains with an outline; set "
-                         "mesh = rectangle, rectangle_width and rectangle_height")
+        raise SceneError(f"{target.scene}: continuum/mesh = {mesh}: a measured curve has no grains with an outline; "
+                         "set mesh = rectangle, rectangle_width and rectangle_height")
     if target.curve and scene.loading_variable() != "axial_strain":
-        raise SceneError(f"{target.scene}: loading/mode = {mode}: a measured curve needs mode = descent, whose progress is the "
-                         "axial strain")
+        raise SceneError(f"{target.scene}: loading/mode = {mode}: a measured curve needs mode = descent, whose "
+                         "progress is the axial strain")
     return scene

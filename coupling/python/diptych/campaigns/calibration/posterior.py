@@ -1,8 +1,9 @@
 # diptych: the posterior of a calibration: parameters, size and correlation of the discrepancy, scatter of the samples
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The data are emulator + discrepancy + scatter (Kennedy & O'Hagan, J. R. Stat. Soc. B 63 (2001) 425). The discrepancy of t/s
-and volume is a process over strain, independent between paths; the data of all paths tell its size and its correlation length.
-emcee samples them together with the parameters. Variances that a few samples gave are sampled as well."""
+"""The data are emulator + discrepancy + scatter (Kennedy & O'Hagan, J. R. Stat. Soc. B 63 (2001) 425). The discrepancy
+of t/s and volume is a process over strain, independent between paths; the data of all paths tell its size and its
+correlation length. emcee samples them together with the parameters. Variances that a few samples gave are sampled as
+well."""
 
 from __future__ import annotations
 
@@ -27,7 +28,8 @@ from .trials import Trials
 
 SPREAD = 0.7  # deviation of ln(size) and of ln(correlation strain) before the data: a factor of two
 SHARE_OF_STRAIN = 0.25  # correlation strain of the discrepancy before the data / largest strain
-SCALED = (("stress_level",), ("volume_start", "volume_growth"), ("profile_stretch",))  # with a sampled factor if samples gave them
+# with a sampled factor if samples gave them
+SCALED = (("stress_level",), ("volume_start", "volume_growth"), ("profile_stretch",))
 WALKERS, DRAWS = 48, 1000
 STEPS = 1500  # of the sampling
 MORE_RUNS, SHORT = 20, 500  # coarse runs at points of the posterior, after so many steps of a first sampling
@@ -37,9 +39,10 @@ FARTHEST, LARGE = 6.0, 1e30  # ln of a factor of a variance: two samples bound i
 
 @dataclass(kw_only=True)
 class Draws:
-    """Thinned draws of the posterior. points: (draws, parameters). sizes: (draws, 3), the factors of the tolerance of t/s and of
-    volume, and the correlation strain. strain: correlation strain before the data. curve: (2, observables), the discrepancy
-    model - truth and its deviation; NaN where an observable does not count. autocorrelation: in steps."""
+    """Thinned draws of the posterior. points: (draws, parameters). sizes: (draws, 3), the factors of the tolerance of
+    t/s and of volume, and the correlation strain. strain: correlation strain before the data. curve: (2, observables),
+    the discrepancy model - truth and its deviation; NaN where an observable does not count. autocorrelation: in
+    steps."""
 
     points: Array
     sizes: Array
@@ -50,10 +53,12 @@ class Draws:
 
 
 class Posterior:
-    """Log-probability of points (n, parameters + 3 + 3): logarithms of the factors of t/s and volume, of the correlation strain
-    / its value before, and of three variances of the scatter follow the parameters. It is zero where the nearest run failed."""
+    """Log-probability of points (n, parameters + 3 + 3): logarithms of the factors of t/s and volume, of the
+    correlation strain / its value before, and of three variances of the scatter follow the parameters. It is zero where
+    the nearest run failed."""
 
-    def __init__(self, data: FittedData, coordinates: Coordinates, points: Array, is_fine: Array, values: Array) -> None:
+    def __init__(self, data: FittedData, coordinates: Coordinates, points: Array, is_fine: Array,
+                 values: Array) -> None:
         """points, is_fine, values: of all runs; a value is NaN if its run failed."""
         self.start, self.used = coordinates.start, data.used
         good = np.isfinite(values[:, self.used]).all(1)
@@ -64,7 +69,8 @@ class Posterior:
         def of_all(values: Callable[[Data], Array]) -> Array:
             return np.concatenate([values(path) for path in data.paths])[self.used]
 
-        x, variance, noise = of_all(lambda path: path.middles), of_all(lambda path: discrepancy(data.noise, path)), data.noise
+        x, variance, noise = of_all(lambda path: path.middles), of_all(lambda path: discrepancy(data.noise,
+                                                                                                path)), data.noise
         self.mean, self.strain = data.mean[self.used], SHARE_OF_STRAIN * x.max()
         self._far = np.abs(x[:, None] - x) / self.strain
         stress, volume = (of_all(lambda path, kind=kind: path.of(kind)) for kind in KINDS[:2])
@@ -73,7 +79,8 @@ class Posterior:
         self._scatter = [data.of_scatter([key for key in keys if key in noise.estimated])[square] for keys in SCALED]
         self.freedom = np.array([noise.degrees_of_freedom if part.any() else 0 for part in self._scatter])
         everything = data.of_means()[square]
-        tolerance = scipy.linalg.block_diag(*[tolerance_covariance(path, discrepancy(data.noise, path)) for path in data.paths])
+        tolerance = scipy.linalg.block_diag(*[tolerance_covariance(path, discrepancy(data.noise, path))
+                                              for path in data.paths])
         tolerance = tolerance[square] * np.outer(~(stress | volume), ~(stress | volume))
         self._fixed = everything - sum(self._scatter) + tolerance + np.diag(1e-9 * np.diag(everything))
         self.left_out = emulator.left_out / np.sqrt(np.diag(everything) + variance)  # in deviations of the data
@@ -108,14 +115,15 @@ class Posterior:
         residual, covariance, _ = self._parts(z[inside])
         n, m = residual.shape
         bordered = np.empty((n, m + 1, m + 1))  # the last row of its root is (root of covariance)^-1 residual
-        bordered[:, :m, :m], bordered[:, m, :m], bordered[:, :m, m], bordered[:, m, m] = covariance, residual, residual, LARGE
+        bordered[:, :m, :m], bordered[:, m, :m], bordered[:, :m,
+                                                          m], bordered[:, m, m] = covariance, residual, residual, LARGE
         root = np.linalg.cholesky(bordered)
         found[inside] -= 0.5 * (root[:, m, :m] ** 2).sum(1) + np.log(np.diagonal(root, axis1=1, axis2=2)[:, :m]).sum(1)
         return found
 
     def sample(self, best: Array, jacobian: Array, seed: int, steps: int) -> Draws:
-        """Walkers start at probable points, drawn around the best point of the search, as far as its Jacobian with the prior
-        tells, and from the prior, which may hold a better valley. The second half of their steps is kept."""
+        """Walkers start at probable points, drawn around the best point of the search, as far as its Jacobian with the
+        prior tells, and from the prior, which may hold a better valley. The second half of their steps is kept."""
         random, n = np.random.RandomState(seed), len(best)
         points = np.vstack([random.multivariate_normal(best, np.linalg.inv(jacobian.T @ jacobian), CANDIDATES),
                             random.normal(self.start, PRIOR, (CANDIDATES, n))])
@@ -143,7 +151,8 @@ def sample_posterior(trials: Trials, fit: Fit) -> Draws:
     more = first.points[np.linspace(0, len(first.points) - 1, n).astype(int)]
     failed = sum(any(one.failure for one in runs) for runs in trials.runs(more, trials.fitted, False, "coarse_runs"))
     if failed:
-        trials.record["words"].append(f"{failed} of {n} runs at draws of the posterior failed; it omits what is nearest to them")
+        trials.record["words"].append(f"{failed} of {n} runs at draws of the posterior failed; it omits what is "
+                                      "nearest to them")
     posterior = _posterior(trials)
     draws = posterior.sample(fit.point, fit.jacobian, trials.calibration.seed, STEPS)
     trials.record["emulator"] = {

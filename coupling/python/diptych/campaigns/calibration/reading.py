@@ -1,6 +1,7 @@
 # diptych: the first phase of a calibration: what is fitted to which data
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Everything is checked before a run changes the folder. Afterwards the data are checked for the step of their grains."""
+"""Everything is checked before a run changes the folder. Afterwards the data are checked for the step of their
+grains."""
 
 from __future__ import annotations
 
@@ -29,14 +30,15 @@ def _check_target(calibration: Calibration, coordinates: Coordinates, target: Ta
     try:
         scene = read_target(target, [*calibration.fixed, *coordinates.settings(coordinates.start, target.name)])
     except SceneError as error:
-        raise SceneError(f"{calibration.file}: with every parameter at its start: {error}; change start or set") from error
+        raise SceneError(f"{calibration.file}: with every parameter at its start: {error}; "
+                         "change start or set") from error
     if not calibration.of_grains:
         demand_continuum("calibrate")
     if not calibration.of_grains and not is_element(scene):
         continuum("calibrate").require_continuum(scene)
     if not calibration.of_grains and scene.dict()["continuum"]["initial_stress"] == "mapped":
-        raise SceneError(f"{target.scene}: continuum/initial_stress = mapped has no place in a calibration: one mesh serves "
-                         "all samples")
+        raise SceneError(f"{target.scene}: continuum/initial_stress = mapped has no place in a calibration: one mesh "
+                         "serves all samples")
     place = f"{calibration.file}: target '{target.name}': "
     law = scene.dict()["continuum"]["law"]
     if PROFILE in calibration.kinds and not is_element(scene) and not law.startswith("cosserat"):
@@ -46,7 +48,8 @@ def _check_target(calibration: Calibration, coordinates: Coordinates, target: Ta
     except ValueError as error:
         raise SceneError(place + str(error)) from error
     for kind in calibration.kinds:
-        if target.is_fitted and not (target.curve or is_element(scene)) and kind not in [one.kind for one in observables]:
+        if target.is_fitted and not (target.curve or is_element(scene)) and kind not in [one.kind
+                                                                                         for one in observables]:
             raise SceneError(f"{place}no bin or window of {kind} lies within its loading")
     for p in coordinates.parameters:
         if p.is_of(target.name) and p.key in (unused := scene.unused_keys()):
@@ -65,7 +68,8 @@ def checked(calibration: Calibration) -> Coordinates:
     first = next(target for target in calibration.targets if target.is_fitted)
     values = {**read_target(first).dict()["continuum"], **{one.key: one.value for one in calibration.fixed}}
     try:
-        coordinates = Coordinates(calibration.parameters, pd.to_numeric(pd.Series(values), errors="coerce").dropna().to_dict())
+        coordinates = Coordinates(calibration.parameters, pd.to_numeric(pd.Series(values),
+                                                                        errors="coerce").dropna().to_dict())
         noise_of([_check_target(calibration, coordinates, target) for target in calibration.targets], calibration.noise)
     except SceneError:
         raise
@@ -88,8 +92,8 @@ def check_data(calibration: Calibration, paths: Sequence[Path], runs: Calibratio
             stages = path.scene.stages()  # between frames nothing is known of the grains
             path.left_out = ["" if one.kind in OF_BANDS or any(one.low <= at <= one.high for at in stages)
                              else "no frame lies in it" for one in path.data.observables]
-            record["words"].append(f"target '{target.name}' is imported: nothing was run again, and only bins that hold a "
-                                   "frame count")
+            record["words"].append(f"target '{target.name}' is imported: nothing was run again, and only bins that "
+                                   "hold a frame count")
         elif calibration.check_samples == 0 or target.results:
             record["words"].append(f"target '{target.name}' was not checked for the step of its grains")
         else:
@@ -104,7 +108,8 @@ def check_data(calibration: Calibration, paths: Sequence[Path], runs: Calibratio
 def inputs_of(calibration: Calibration) -> list[tuple[str, str]]:
     inputs = [("the calibration", calibration.file)]
     for target in calibration.targets:
-        own = [("the scene", target.scene), *(("results", folder) for folder in target.results), ("curve", target.curve)]
+        own = [("the scene", target.scene), *(("results", folder) for folder in target.results),
+               ("curve", target.curve)]
         inputs += [(f"targets: '{target.name}': {what}", path) for what, path in own if path]
         inputs += read_target(target).input_files()
     return inputs
@@ -114,9 +119,9 @@ def standard_contents(line: argparse.Namespace) -> dict[str, Any] | None:
     """Contents of the standard calibration of a scene; None for a calibration file."""
     is_file = line.target.endswith(".json")
     if is_file and (line.seeds or line.set or line.set_file):
-        raise SceneError(f"--seeds, --set and --set-file belong to a scene; {line.target} is a calibration file, whose targets "
-                         "have seeds and set")
+        raise SceneError(f"--seeds, --set and --set-file belong to a scene; {line.target} is a calibration file, whose "
+                         "targets have seeds and set")
     if not is_file and not line.seeds:
-        raise SceneError(f"{line.target}: a scene needs the samples of the fit, for example --seeds 1-4; it then takes the "
-                         "standard parameters. Other parameters need a calibration file, .json")
+        raise SceneError(f"{line.target}: a scene needs the samples of the fit, for example --seeds 1-4; it then takes "
+                         "the standard parameters. Other parameters need a calibration file, .json")
     return None if is_file else standard_calibration(line.target, line.seeds, settings_of(line.set, line.set_file))

@@ -1,8 +1,8 @@
 # diptych: least squares of a calibration
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The search works in the unit cube, where every residual needs a run. scipy's dogleg with bounds ("dogbox") does Gauss-Newton
-steps in a trust region. The Jacobian comes from forward differences, which run in parallel, and Broyden's rank-one update
-follows the accepted steps."""
+"""The search works in the unit cube, where every residual needs a run. scipy's dogleg with bounds ("dogbox") does
+Gauss-Newton steps in a trust region. The Jacobian comes from forward differences, which run in parallel, and Broyden's
+rank-one update follows the accepted steps."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ NORMAL = float(scipy.stats.norm.ppf(0.975))
 
 
 def difference_jacobian(residuals: Residuals, point: Array, residual: Array, difference: float = DIFFERENCE) -> Array:
-    """(residuals, parameters): differences around a point. If a run fails, the column uses the other side; it is zero if both
-    fail."""
+    """(residuals, parameters): differences around a point. If a run fails, the column uses the other side; it is zero
+    if both fail."""
     def columns(numbers: Sequence[int], steps: Array) -> Array:
         return np.array([(value - residual) / steps[k] for k, value in
                          zip(numbers, residuals([point + steps[k] * np.eye(len(point))[k] for k in numbers]))])
@@ -69,11 +69,12 @@ class Fit:
 
 
 class _Search:
-    """Steps with one Jacobian, fresh or old, and its updates. Steps below `shortest` do not update it: they show the scatter of
-    the runs and not their slope."""
+    """Steps with one Jacobian, fresh or old, and its updates. Steps below `shortest` do not update it: they show the
+    scatter of the runs and not their slope."""
 
     def __init__(self, residuals: Residuals, fit: Fit, shortest: float) -> None:
-        self.residuals, self.fit, self.trial, self.failed, self.fresh = residuals, fit, (fit.point, fit.residual), False, False
+        self.residuals, self.fit, self.trial, self.failed, self.fresh = residuals, fit, (fit.point,
+                                                                                         fit.residual), False, False
         self.shortest = shortest
 
     def value(self, x: Array) -> Array:
@@ -115,8 +116,8 @@ class _Search:
         try:
             found = scipy.optimize.least_squares(
                 lambda y: self.value(point(y)), np.zeros_like(start), lambda y: radius * self.jacobian(point(y)),
-                bounds=(-start / radius, (1 - start) / radius), method="dogbox", x_scale=1.0, ftol=None, gtol=1e-10, xtol=None,
-                max_nfev=MOST_STEPS + 1)
+                bounds=(-start / radius, (1 - start) / radius), method="dogbox", x_scale=1.0, ftol=None, gtol=1e-10,
+                xtol=None, max_nfev=MOST_STEPS + 1)
             settled = found.status != 0  # 0: the steps ran out
         except _Ended:
             pass
@@ -127,9 +128,9 @@ class _Search:
 
 def least_squares(residuals: Residuals, start: Array, most_jacobians: int = 4, jacobian: Array | None = None,
                   difference: float = DIFFERENCE) -> Fit:
-    """Minimises the sum of squares within [0, 1]^n. A given Jacobian is used until a step fails or the steps run out; then a
-    new one is computed. A point without a run counts as a failed step. If `start` has no run, `note` says so. Exceptions of
-    `residuals` pass through."""
+    """Minimises the sum of squares within [0, 1]^n. A given Jacobian is used until a step fails or the steps run out;
+    then a new one is computed. A point without a run counts as a failed step. If `start` has no run, `note` says so.
+    Exceptions of `residuals` pass through."""
     fit = Fit(point=np.clip(np.asarray(start, dtype=float), 0, 1), evaluations=1)
     fit.residual = residuals([fit.point])[0]
     if not np.isfinite(fit.residual).all():

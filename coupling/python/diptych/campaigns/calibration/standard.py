@@ -24,15 +24,16 @@ PARAMETERS = (
     {"key": "dilatancy_angle_peak", "of": "friction_angle_start", "start": 0.5, "low": 0.05, "high": 1},
     {"key": "internal_length", "start": 3, "low": 0.8, "high": 8},
     {"key": "youngs_modulus", "start": 2000, "low": 200, "high": 20000})
-EDGES = (0.025, 0.05, 0.075, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1)  # of the bins / end of the loading
+# of the bins / end of the loading
+EDGES = (0.025, 0.05, 0.075, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1)
 LOAD_STEPS = 40
 COARSE = 5 / 3  # coarse / own elements
 SMALLEST_COARSE = 4  # mean diameters
 
 
 def standard_calibration(scene: str, seeds: str, settings: Sequence[Setting]) -> dict[str, Any]:
-    """Contents of a calibration file beside the scene file. Parameters that its law does not read are left out, and without an
-    internal length the width of the band, too. Raises SceneError."""
+    """Contents of a calibration file beside the scene file. Parameters that its law does not read are left out, and
+    without an internal length the width of the band, too. Raises SceneError."""
     fixed = [Setting("continuum", key, str(value), "the standard calibration") for key, value in SET.items()]
     read = _diptych.read_changed_scene(scene, [*settings, *fixed], True)
     keys, unused = read.dict(), read.unused_keys()

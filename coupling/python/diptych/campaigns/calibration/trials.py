@@ -1,7 +1,7 @@
 # diptych: the second phase of a calibration: the search
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Searches from several starts on coarse meshes, then continues on the samples' own meshes with the coarse Jacobian. Grains in
-the place of the continuum have one mesh only."""
+"""Searches from several starts on coarse meshes, then continues on the samples' own meshes with the coarse Jacobian.
+Grains in the place of the continuum have one mesh only."""
 
 from __future__ import annotations
 
@@ -32,12 +32,13 @@ RunModel = Callable[[Sequence[Path], Sequence[Sequence[Sequence[Setting]]], bool
 
 
 class Trials:
-    """Runs of the model at points of the parameters. `record` always holds the best point so far. Raises NotConverged without
-    data."""
+    """Runs of the model at points of the parameters. `record` always holds the best point so far. Raises NotConverged
+    without data."""
 
     def __init__(self, calibration: Calibration, coordinates: Coordinates, paths: Sequence[Path], run: RunModel,
                  record: dict[str, Any]) -> None:
-        self.calibration, self.coordinates, self.paths, self.run, self.record = calibration, coordinates, paths, run, record
+        self.calibration, self.coordinates, self.paths = calibration, coordinates, paths
+        self.run, self.record = run, record
         self.fitted = [path for path in paths if path.target.is_fitted]
         alone = len(self.fitted) == 1 and len(self.fitted[0].samples) == 1
         self.noise = noise_of([path.of_noise for path in (paths if alone else self.fitted)], calibration.noise)
@@ -59,7 +60,8 @@ class Trials:
         settings = [[self.settings(point, path.target.name) for path in paths] for point in points]
         found = self.run(paths, settings, fine, self.calibration.load_step)
         if count != "other_runs":
-            self.tried += [(point, fine, np.concatenate([one.values for one in runs])) for point, runs in zip(points, found)]
+            self.tried += [(point, fine, np.concatenate([one.values for one in runs])) for point,
+                           runs in zip(points, found)]
             self.failures += [one.failure for runs in found for one in runs if one.failure]
             self.record["failed_runs"] = len(self.failures)
         return found
@@ -85,7 +87,8 @@ class Trials:
     def residuals(self, fine: bool) -> Callable[[Sequence[Array]], list[Array]]:
         def found_at(points: Sequence[Array]) -> list[Array]:
             found = []
-            for point, runs in zip(points, self.runs(points, self.fitted, fine, "fine_runs" if fine else "coarse_runs")):
+            for point, runs in zip(points, self.runs(points, self.fitted, fine,
+                                                     "fine_runs" if fine else "coarse_runs")):
                 data = self.data.residual(np.concatenate([one.values for one in runs]))
                 found.append(np.concatenate([data, (point - self.coordinates.start) / PRIOR]))
                 total = found[-1] @ found[-1]
@@ -106,8 +109,8 @@ def search(trials: Trials) -> tuple[Fit, Fit]:
     fine = least_squares(trials.residuals(True), coarse.point, trials.calibration.fine_jacobians, coarse.jacobian)
     if np.isfinite(fine.chi2):
         return fine, coarse
-    trials.record["words"].append("the best point of the coarse mesh did not finish on the samples' own mesh; the result rests on "
-                                  "the coarse mesh")
+    trials.record["words"].append("the best point of the coarse mesh did not finish on the samples' own mesh; the "
+                                  "result rests on the coarse mesh")
     return coarse, coarse
 
 

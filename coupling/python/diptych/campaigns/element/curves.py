@@ -1,7 +1,8 @@
 # diptych: curves of grains and of the law's point along one path, and their numbers
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The path is divided into BINS equal parts of its progress. Every curve has the mean of each part; t/s, anisotropy and
-directions are those of the mean stress and of the mean fabric. Arrays of the grains are (sample, part); NaN: beyond the end of a run.
+directions are those of the mean stress and of the mean fabric. Arrays of the grains are (sample, part); NaN: beyond the
+end of a run.
 """
 
 from __future__ import annotations
@@ -44,9 +45,11 @@ def _means(x: np.ndarray, y: np.ndarray, edges: np.ndarray) -> np.ndarray:
 def _curves_of(table: pd.DataFrame, edges: np.ndarray, pressure: float) -> dict[str, np.ndarray]:
     if "syx" in table:  # of grains
         a, double = table["fabric_anisotropy"], np.radians(2 * table["fabric_angle"])
-        table = table.assign(sxy=0.5 * (table["sxy"] + table["syx"]), cosine=a * np.cos(double), sine=a * np.sin(double))
+        table = table.assign(sxy=0.5 * (table["sxy"] + table["syx"]), cosine=a * np.cos(double),
+                             sine=a * np.sin(double))
     x = table["progress"].to_numpy()
-    found = {name: _means(x, table[name].to_numpy(), edges) for name in (*QUANTITIES, "cosine", "sine") if name in table}
+    found = {name: _means(x, table[name].to_numpy(), edges) for name in (*QUANTITIES, "cosine", "sine")
+             if name in table}
     half, shear, s = 0.5 * (found["sxx"] - found["syy"]), found["sxy"], 0.5 * (found["sxx"] + found["syy"])
     found |= {"stress_ratio": np.hypot(half, shear) / np.where(s > 0, s, np.nan), "mean_stress": s / pressure,
               "stress_direction": 0.5 * np.degrees(np.arctan2(shear, half))}
@@ -60,7 +63,8 @@ def observed(tables: Sequence[pd.DataFrame], law: pd.DataFrame | None, end: floa
     """Curves from progress 0 to `end`: of the samples' histories, and of the law's (none if it took no step)."""
     edges = np.linspace(0, end, BINS + 1)
     samples = [_curves_of(table, edges, pressure) for table in tables]
-    return Curves(0.5 * (edges[1:] + edges[:-1]), {name: np.array([one[name] for one in samples]) for name in QUANTITIES},
+    return Curves(0.5 * (edges[1:] + edges[:-1]),
+                  {name: np.array([one[name] for one in samples]) for name in QUANTITIES},
                   {} if law is None else _curves_of(law, edges, pressure))
 
 
@@ -68,7 +72,8 @@ def _mean_and_error(values: np.ndarray, name: str) -> tuple[np.ndarray, np.ndarr
     """Mean over the samples and its standard error; NaN where a sample has no value, or for the error of one sample."""
     if QUANTITIES[name] != "degrees":
         n = len(values)
-        return values.mean(axis=0), values.std(axis=0, ddof=1) / np.sqrt(n) if n > 1 else np.full(values.shape[1], np.nan)
+        return values.mean(axis=0), values.std(axis=0, ddof=1) / np.sqrt(n) if n > 1 else np.full(values.shape[1],
+                                                                                                  np.nan)
     found = [line_statistics(column) for column in values.T]
     return (np.array([one.mean for one in found]), np.array([one.deviation for one in found]) / np.sqrt(len(values)))
 
@@ -97,7 +102,8 @@ def _last(values: np.ndarray, average: Callable[[Sequence[float]], Statistics]) 
 
 
 def key_numbers(curves: Curves) -> list[dict[str, Any]]:
-    """Quantities of element.json: the largest t/s, and the values in the last parts; with 95 % intervals over the samples."""
+    """Quantities of element.json: the largest t/s, and the values in the last parts; with 95 % intervals over the
+    samples."""
     rows = []
     for quantity in ("largest stress_ratio", *(f"last {name}" for name in QUANTITIES)):
         when, name = quantity.split()
@@ -116,8 +122,8 @@ def _rms(grains: np.ndarray, law: np.ndarray) -> float:
 
 
 def rms_differences(curves: Curves) -> list[dict[str, Any]]:
-    """Root mean square over the path of law minus mean of the grains. error: its standard error (jackknife over the samples);
-    noise: root mean square of the standard errors of the grains."""
+    """Root mean square over the path of law minus mean of the grains. error: its standard error (jackknife over the
+    samples); noise: root mean square of the standard errors of the grains."""
     rows = []
     for name in ("stress_ratio", "mean_stress", "volumetric_strain"):
         if name in curves.law:

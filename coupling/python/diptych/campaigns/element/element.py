@@ -32,8 +32,8 @@ def _read(run: SceneRun) -> SceneRun:
 
 
 def _done(runs: Runs, wanted: Sequence[SceneRun], options: Options) -> list[str]:
-    """Does the runs and returns for each why it ended before its end; empty: it did not. Raises SceneError for wrong input and
-    NotConverged after a stop request."""
+    """Does the runs and returns for each why it ended before its end; empty: it did not. Raises SceneError for wrong
+    input and NotConverged after a stop request."""
     if any(outcome.interrupted for outcome in runs.do(wanted, options)):
         return ["stopped on request"] * len(wanted)
     ends = [(run, runs.found_end(run)) for run in wanted]
@@ -44,7 +44,8 @@ def _done(runs: Runs, wanted: Sequence[SceneRun], options: Options) -> list[str]
 
 
 def _law_settings(settings: Sequence[Setting], scene: Any, tables: Sequence[pd.DataFrame]) -> list[Setting]:
-    """With the mean solid fraction of the prepared samples, if the law needs one and the scene leaves it to the grains."""
+    """With the mean solid fraction of the prepared samples, if the law needs one and the scene leaves it to the
+    grains."""
     law = scene.dict()["continuum"]
     if law["hardening"] not in FOLLOW_DENSITY or law["solid_fraction_start"] != "auto":
         return list(settings)
@@ -73,13 +74,13 @@ def _write(directory: str, record: dict[str, Any], curves: Curves) -> None:
 
 
 def run_element(line: argparse.Namespace, options: Options) -> None:
-    """diptych element SCENE. line: target, seeds, output, set, set_file. Raises NotConverged if a run ended before the end
-    of the path, or Stopped."""
+    """diptych element SCENE. line: target, seeds, output, set, set_file. Raises NotConverged if a run ended before the
+    end of the path, or Stopped."""
     settings = settings_of(line.set, line.set_file)
     scene = _diptych.read_changed_scene(line.target, settings, False)
     if scene.dict()["discrete"]["lateral"] != "cell":
-        raise SceneError(f"{line.target}: discrete/lateral = {scene.dict()['discrete']['lateral']}; an element test needs "
-                         "discrete/lateral = cell and loading/mode = path")
+        raise SceneError(f"{line.target}: discrete/lateral = {scene.dict()['discrete']['lateral']}; an element test "
+                         "needs discrete/lateral = cell and loading/mode = path")
     seeds = read_seeds(line.seeds) if line.seeds else [scene.dict()["sample"]["seed"]]
     grains = [_read(scene_run(line.target, "discrete", on_sample(settings, seed, line.target))) for seed in seeds]
     _read(scene_run(line.target, "material-point", settings))  # a wrong law is refused before the grains run

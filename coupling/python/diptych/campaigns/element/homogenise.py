@@ -32,22 +32,25 @@ def _source(line: argparse.Namespace) -> tuple[str, str]:
         return line.output, os.path.join(line.output, "imported")
     grains = line.target.rstrip("/") or "/"
     if not os.path.isfile(os.path.join(grains, "discrete.h5")):
-        raise SceneError(f"{line.target}: holds no discrete.h5. Give a folder of `diptych run`, `discrete` or `import`; or a FORMAT "
-                         "of `diptych import` and FILES")
+        raise SceneError(f"{line.target}: holds no discrete.h5. Give a folder of `diptych run`, `discrete` or "
+                         "`import`; or a FORMAT of `diptych import` and FILES")
     for name, value in vars(import_options(line)).items():
         if value:
-            raise SceneError(f"homogenise {line.target}: --{name.replace('_', '-')} has no effect on a folder; it is for FORMAT FILES")
+            raise SceneError(f"homogenise {line.target}: --{name.replace('_', '-')} has no effect on a folder; it is "
+                             "for FORMAT FILES")
     return line.output or grains + "_homogenised", grains
 
 
 def _write_fields(folder: str, found: Homogenised) -> None:
-    """fields_0000.vtu and so on, and fields.pvd with their progress; tensors have the components xx, xy, 0, yx, yy, 0, 0, 0, 0."""
+    """fields_0000.vtu and so on, and fields.pvd with their progress; tensors have the components xx, xy, 0, yx, yy, 0,
+    0, 0, 0."""
     import meshio  # type: ignore
 
     entries = ""
     for k, (mesh, maps) in enumerate(zip(found.meshes, found.maps)):
         name = f"fields_{k:04d}.vtu"
-        cells = {key: [np.pad(value, ((0, 0), (0, 1), (0, 1))).reshape(-1, 9) if value.ndim == 3 else value.astype(float)]
+        cells = {key: [np.pad(value, ((0, 0), (0, 1), (0, 1))).reshape(-1, 9) if value.ndim == 3
+                       else value.astype(float)]
                  for key, value in maps.items()}
         points = np.column_stack([mesh.nodes, np.zeros(len(mesh.nodes))])
         path = os.path.join(folder, name)
@@ -60,14 +63,15 @@ def _write_fields(folder: str, found: Homogenised) -> None:
 
 def _record(found: Homogenised, source: str) -> dict[str, Any]:
     return {"format": 1, "source": os.path.abspath(source), "walk": found.walk, "mean_diameter": found.mean_diameter,
-            "grid_d": found.grid, "cells": len(found.meshes[0].cells), "frames": found.frames, "increments": found.increments,
-            "resolution_study": found.resolution_study, "missing": found.missing}
+            "grid_d": found.grid, "cells": len(found.meshes[0].cells), "frames": found.frames,
+            "increments": found.increments, "resolution_study": found.resolution_study, "missing": found.missing}
 
 
 def _print(found: Homogenised, options: Options) -> None:
     table = found.table()
     shown = [name for name in SHOWN if name in table]
-    say(options, table[shown].rename(columns=SHOWN).to_string(float_format=lambda x: f"{x:.4g}", na_rep="", index=False))
+    say(options, table[shown].rename(columns=SHOWN).to_string(float_format=lambda x: f"{x:.4g}", na_rep="",
+                                                              index=False))
     if found.resolution_study:
         say(options, "averaging width: " + found.resolution_study["verdict"])
     for entry in found.missing:
@@ -81,10 +85,11 @@ def run_homogenise(line: argparse.Namespace, options: Options) -> None:
     with Folder(folder) as locked:
         if not _diptych.is_empty_folder(folder):
             if not options.overwrite:
-                raise SceneError(f"the folder '{folder}' is not empty. Add --overwrite to rename it to {os.path.basename(folder)}.1, or "
-                                 "--output with another folder.")
+                raise SceneError(f"the folder '{folder}' is not empty. Add --overwrite to rename it to "
+                                 f"{os.path.basename(folder)}.1, or " "--output with another folder.")
             _diptych.require_usable(folder, False, True)
-            locked.set_aside([("the folder with the grains", line.target), *(("the file", file) for file in line.files)])
+            locked.set_aside([("the folder with the grains", line.target),
+                              *(("the file", file) for file in line.files)])
         if line.files:
             import_files(line.target, import_options(line), grains, options)
         found = homogenise(grains, line.grid)

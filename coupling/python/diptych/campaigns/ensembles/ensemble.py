@@ -25,7 +25,8 @@ from .profiles import profile_arrays
 from ..runs.folders import Folder, Runs, draw, read_json, write_arrays, write_json, write_text
 from ..runs.histories import panel_table, resampled, running_mean
 from ..runs.input_file import Setting, read_seeds, settings_of
-from ..studies.level_runs import (Levels, add_summary, demand_rule, ensemble_levels, ensemble_quantities, fine_runs, of_members, paired_points,
+from ..studies.level_runs import (Levels, add_summary, demand_rule, ensemble_levels, ensemble_quantities, fine_runs,
+                                  of_members, paired_points,
                          read_levels)
 from ..runs.key_numbers import QUANTITIES, summary_of
 from ..runs.members import Member, member_of, number_name
@@ -45,7 +46,8 @@ def _values(members: Sequence[Member], name: str) -> list[float]:
 
 def evaluate(members: Sequence[Member], margins: dict[str, float],
              responses: validation.Responses = validation.Responses()) -> dict[str, Any]:
-    """quantities, bands, verdicts and validation as ensemble.json has them. margins: comparison/margin_* of the scene."""
+    """quantities, bands, verdicts and validation as ensemble.json has them. margins: comparison/margin_* of the
+    scene."""
     quantities: dict[str, dict[str, Any]] = {}
     for name, (_, unit, line, _place) in (pair for member in members for pair in member.numbers.items()):
         if name not in quantities:
@@ -67,8 +69,8 @@ def _band_count(name: str, members: Sequence[Member]) -> dict[str, Any]:
 
 def _verdicts(margins: dict[str, float], members: Sequence[Member], quantities: dict[str, dict[str, Any]],
               responses: validation.Responses) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
-    """Differences continuum minus grains with verdicts, and rows of the validation: of single numbers, and of the bands in every
-    window."""
+    """Differences continuum minus grains with verdicts, and rows of the validation: of single numbers, and of the bands
+    in every window."""
     windows = dict.fromkeys(window for member in members for window in member.windows)
     verdicts, rows = [], []
     for key, window in validation.compared_by(windows):
@@ -83,7 +85,8 @@ def _verdicts(margins: dict[str, float], members: Sequence[Member], quantities: 
         verdict = found.verdict(margin)
         rows.append({"key": key, "quantity": name, **row, "unit": unit, "verdict": verdict})
         verdicts.append({"key": key, "quantity": name, "unit": "-" if kind == "relative" else unit, "margin": margin,
-                         "relative": kind == "relative", "difference": found.difference, "difference_90": found.difference_90,
+                         "relative": kind == "relative", "difference": found.difference,
+                         "difference_90": found.difference_90,
                          "n": found.n, "verdict": verdict, "discrete": first, "continuum": second})
     return verdicts, rows
 
@@ -92,7 +95,8 @@ def with_means(members: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]
     """(mean, low, high) of curves (member, point), with the 95 % Student interval; NaN where a member has no value."""
     n = len(members)
     mean = members.mean(axis=0) if n else np.full(members.shape[1], np.nan)
-    half = student_quantile(0.975, n - 1) * members.std(axis=0, ddof=1) / math.sqrt(n) if n > 1 else np.full_like(mean, np.nan)
+    half = student_quantile(0.975, n - 1) * members.std(axis=0,
+                                                        ddof=1) / math.sqrt(n) if n > 1 else np.full_like(mean, np.nan)
     return mean, mean - half, mean + half
 
 
@@ -119,8 +123,8 @@ def _write_curves(directory: str, scene: Any, seeds: Sequence[int]) -> None:
 
 def _record(scene: Any, seeds: Sequence[int], failed: Sequence[dict[str, Any]], interrupted: Sequence[int],
             runs: dict[str, Any]) -> dict[str, Any]:
-    """ensemble.json, from the members that finished. runs: those of validation.respond(). Raises ValueError with the file of a
-    member that is broken."""
+    """ensemble.json, from the members that finished. runs: those of validation.respond(). Raises ValueError with the
+    file of a member that is broken."""
     out = {one["seed"] for one in failed} | set(interrupted)
     done = [seed for seed in seeds if seed not in out]
     margins = {key: value for key, value in scene.dict()["comparison"].items() if key.startswith("margin_")}
@@ -150,7 +154,8 @@ def _write(scene: Any, record: dict[str, Any], options: Options, phase: tuple[st
     columns = ["unit", "n", "mean", "deviation", "low", "high"]
     table = pd.DataFrame([[q["name"], *(q[key] for key in columns), *q["values"]] for q in record["quantities"]],
                          columns=["quantity", *columns, *(f"seed_{seed}" for seed in record["done"])])
-    write_text(os.path.join(directory, "ensemble.csv"), table.to_csv(index=False, float_format="%.10g", lineterminator="\n"))
+    write_text(os.path.join(directory, "ensemble.csv"), table.to_csv(index=False, float_format="%.10g",
+                                                                     lineterminator="\n"))
     (name, begin), end = phase, os.times()
     cost = (name, end.elapsed - begin.elapsed, sum(end[:4]) - sum(begin[:4]),  # with the CPU time of the workers
             resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
@@ -169,8 +174,8 @@ def _demand_member(scene: Any, seed: int) -> None:
     member = _member_scene(scene, seed)
     sample, _, comparison = _diptych.changes_since(member)
     if sample or comparison:
-        raise SceneError(f"the results in '{member.directory}' are not of this ensemble: {sample or comparison}. Move them "
-                         "elsewhere, or run the ensemble with --overwrite.")
+        raise SceneError(f"the results in '{member.directory}' are not of this ensemble: {sample or comparison}. Move "
+                         "them elsewhere, or run the ensemble with --overwrite.")
 
 
 def _open(folder: Folder, scene: Any, seeds: Sequence[int], options: Options, inputs: list[tuple[str, str]]) -> None:
@@ -183,7 +188,9 @@ def _open(folder: Folder, scene: Any, seeds: Sequence[int], options: Options, in
         there, here = earlier.identity("member") if earlier else {}, scene.identity("member")
         differs = next((key for key in here if here[key] != there.get(key)), None)
         if differs:
-            why = f"{differs} = '{here[differs]}' here, '{there.get(differs)}' there" if earlier else "another version wrote it"
+            why = "another version wrote it"
+            if earlier:
+                why = f"{differs} = '{here[differs]}' here, '{there.get(differs)}' there"
             raise SceneError(f"--resume: the scene differs from {file}: {why}. Give the same scene, or --overwrite.")
         for seed in seeds:
             if os.path.exists(os.path.join(member_folder(folder.directory, seed), "scene.prm")):
@@ -210,7 +217,9 @@ def _finished(scene: Any, seeds: Sequence[int], options: Options) -> list[int]:
 
 def _holds_finished(scene: Any, seeds: Sequence[int], levels: Levels | None) -> bool:
     """True if the folder holds the finished ensemble of this scene, these seeds and these levels."""
-    earlier, record = _diptych.resolved_scene(os.path.join(scene.directory, "ensemble.prm")), os.path.join(scene.directory, "ensemble.json")
+    earlier, record = _diptych.resolved_scene(os.path.join(scene.directory,
+                                                           "ensemble.prm")), os.path.join(scene.directory,
+                                                                                          "ensemble.json")
     return (earlier is not None and earlier.identity("member") == scene.identity("member") and os.path.exists(record)
             and read_json(record)["done"] == list(seeds) and _levels_of(read_json(record)) == levels
             and all(_diptych.holds_finished_run(_member_scene(scene, seed)) for seed in seeds))
@@ -220,8 +229,10 @@ def _levels_of(record: dict[str, Any]) -> Levels | None:
     return Levels(record["levels"]["cheap"], record["levels"]["fine"]) if "levels" in record else None
 
 
-def _add_limits(scene: Any, record: dict[str, Any], given: tuple[str, list[Any]], levels: Levels, options: Options) -> None:
-    """Runs the pairs of two-level means and adds the limits to the record. given: scene file and its settings. Raises Stopped."""
+def _add_limits(scene: Any, record: dict[str, Any], given: tuple[str, list[Any]], levels: Levels,
+                options: Options) -> None:
+    """Runs the pairs of two-level means and adds the limits to the record. given: scene file and its settings. Raises
+    Stopped."""
     seeds, wanted = record["done"], ensemble_quantities()
     cheap = of_members([member_folder(scene.directory, seed) for seed in seeds], record)
     fine = fine_runs(given[0], [*given[1], levels.setting("fine")], seeds, "--seeds")
@@ -231,8 +242,8 @@ def _add_limits(scene: Any, record: dict[str, Any], given: tuple[str, list[Any]]
 
 
 def run_ensemble(line: argparse.Namespace, options: Options) -> None:
-    """diptych run SCENE --seeds LIST. line: target, seeds, levels, check, output, set, set_file. Raises NotConverged if a
-    seed failed."""
+    """diptych run SCENE --seeds LIST. line: target, seeds, levels, check, output, set, set_file. Raises NotConverged if
+    a seed failed."""
     compiled, scene_file, seeds = continuum("run --seeds"), line.target, read_seeds(line.seeds)
     levels = read_levels(line.levels, len(seeds))
     settings = settings_of(line.set, line.set_file)
@@ -241,7 +252,8 @@ def run_ensemble(line: argparse.Namespace, options: Options) -> None:
     read = _diptych.read_changed_scene(scene_file, settings, True)
     if levels:
         demand_rule(read, levels)
-    directory = line.output or (read.directory + "_ensemble" if read.directory == f"results/{read.name}" else read.directory)
+    directory = line.output or (read.directory + "_ensemble" if read.directory == f"results/{read.name}"
+                                else read.directory)
     scene = read.in_folder(directory, read.name, read.dict()["sample"]["seed"])
     if not options.resume and not options.overwrite and _holds_finished(scene, seeds, levels):
         say(options, f"{directory} holds the finished ensemble of this scene; --overwrite runs it again")
@@ -294,12 +306,13 @@ def compare_again(line: argparse.Namespace, options: Options) -> None:
     directory, overrides = line.target, [f"{s.section}/{s.key}={s.value}" for s in settings_of(line.set, line.set_file)]
     for text in overrides:
         if not text.startswith(("comparison/margin_", "output/")) or text.startswith("output/directory="):
-            raise SceneError(f"--set {text}: only comparison/margin_* and keys of output/ except the directory can be changed "
-                             "without running the members again")
+            raise SceneError(f"--set {text}: only comparison/margin_* and keys of output/ except the directory can be "
+                             "changed without running the members again")
     with Folder(directory):
         begin = os.times()
         read = _diptych.read_computed_scene(os.path.join(directory, "ensemble.prm"), overrides)
-        scene = read.in_folder(directory, _diptych.recorded_scene(directory) or read.name, read.dict()["sample"]["seed"])
+        scene = read.in_folder(directory, _diptych.recorded_scene(directory) or read.name,
+                               read.dict()["sample"]["seed"])
         _diptych.check_part(directory, "ensemble")
         earlier = read_json(os.path.join(directory, "ensemble.json"))
         record = _record(scene, earlier["seeds"], earlier["failed"], earlier["interrupted"],

@@ -1,7 +1,7 @@
 # diptych: means over samples of the profiles across the band
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The curves below window_N/profile/PANEL of the members' comparison.h5, averaged strip by strip. The strips have the same distances
-from the band, in mean diameters, in every member; mirror images of a band have the same profiles."""
+"""The curves below window_N/profile/PANEL of the members' comparison.h5, averaged strip by strip. The strips have the
+same distances from the band, in mean diameters, in every member; mirror images of a band have the same profiles."""
 
 from __future__ import annotations
 
@@ -18,7 +18,8 @@ _NAMES = ("relative_rotation", "spin", "couple_stress", "solid_fraction", "veloc
 
 
 def profile_arrays(folders: Sequence[str]) -> dict[str, tuple[Any, str, str, str]]:
-    """name -> (values, title, unit, meaning) as write_arrays takes them. folders: result folders of the members. Raises OSError."""
+    """name -> (values, title, unit, meaning) as write_arrays takes them. folders: result folders of the members. Raises
+    OSError."""
     found: dict[str, list[np.ndarray]] = {}
     words: dict[str, tuple[str, str]] = {}
     for folder in folders:
@@ -36,16 +37,19 @@ def profile_arrays(folders: Sequence[str]) -> dict[str, tuple[Any, str, str, str
     for path, members in found.items():
         name = path.rpartition("/")[2]
         if name == "distance":
-            arrays[path] = (members[0], "distance from the band", "mean diameters", "middles of the strips, along the band's normal")
+            arrays[path] = (members[0], "distance from the band", "mean diameters",
+                            "middles of the strips, along the band's normal")
             continue
         title, unit = words[name]
         for key, values in _means(np.array(members)).items():
-            arrays[f"{path}/{key}"] = (values, title, unit, f"{key.replace('_', ' ')} over the members with a value; nan: fewer than two")
+            arrays[f"{path}/{key}"] = (values, title, unit, f"{key.replace('_', ' ')} over the members with a value; "
+                                       "nan: fewer than two")
     return arrays
 
 
 def _means(members: np.ndarray) -> dict[str, np.ndarray]:
-    """mean, standard error and 95 % Student interval of each strip. members: (m, n); NaN where a member has no value."""
+    """mean, standard error and 95 % Student interval of each strip. members: (m, n); NaN where a member has no
+    value."""
     known = np.isfinite(members)
     n = known.sum(axis=0)
     enough = np.maximum(n, 2)

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..runs.key_numbers import QUANTITIES
-from ..runs.statistics import Interval, line_statistics, statistics
+from ..runs.statistics import Interval, line_statistics, statistics, words_of
 
 
 def summary(member: Mapping[str, dict[str, Any]], record: dict[str, Any]) -> list[dict[str, Any]]:
@@ -28,19 +28,12 @@ def _mean(key: str, values: Sequence[float]) -> Interval:
     return (line_statistics if QUANTITIES[key]["difference"] == "line" else statistics)(values).interval()
 
 
-def words_of(verdict: dict[str, Any]) -> str:
-    """A verdict of ensemble.json with its margin, such as "equivalent within 5 %"."""
-    margin = f"{100 * verdict['margin']:g} %" if verdict["relative"] else f"{verdict['margin']:g}"
-    words = {"equivalent": f"equivalent within {margin}", "different": f"different by more than {margin}",
-             "cannot tell": f"cannot tell (margin {margin})"}[verdict["verdict"]]
-    return words if verdict["n"] else "not in both panels"
-
-
 def text_of(rows: Sequence[dict[str, Any]]) -> str:
     """The table of a terminal, one line per quantity."""
     table = [["", "grains", "continuum", "difference [95 %]", "verdict"]]
     table += [[row["quantity"] + ("" if row["unit"] == "-" else f" [{row['unit']}]"),
-               *(_with_ends(row[key]) for key in ("grains", "continuum", "difference")), row["verdict"]] for row in rows]
+               *(_with_ends(row[key]) for key in ("grains", "continuum", "difference")), row["verdict"]]
+              for row in rows]
     widths = [max(map(len, column)) for column in zip(*table)]
     return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip() for line in table)
 

@@ -1,9 +1,10 @@
 # diptych: validation of an ensemble as in ASME V&V 20: errors and their uncertainty
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""E = S - D is the continuum minus the grains, and u_val its standard uncertainty: u_val^2 = u_num^2 + u_input^2 + u_D^2. Source:
-ASME V&V 20-2009.
+"""E = S - D is the continuum minus the grains, and u_val its standard uncertainty: u_val^2 = u_num^2 + u_input^2 +
+u_D^2. Source: ASME V&V 20-2009.
 
-Values are dicts by the names of member_of(). NaN marks a part that is not known: it does not count, and the record names it.
+Values are dicts by the names of member_of(). NaN marks a part that is not known: it does not count, and the record
+names it.
 """
 
 from __future__ import annotations
@@ -29,8 +30,9 @@ from ..runs.members import Member, member_of, number_name
 from ..runs.statistics import Difference, line_statistics, line_turn, paired, statistics
 
 DRAWS = 12  # of the parameters; their deviation is then known to a fifth
-# 95 % bound / estimated numerical error, of which u_num is half. Roache (Verification and Validation in Computational Science and
-# Engineering, 1998) takes 3 for an assumed order and 1.25 for an observed one. README.md compares estimates with errors.
+# 95 % bound / estimated numerical error, of which u_num is half. Roache (Verification and Validation in Computational
+# Science and Engineering, 1998) takes 3 for an assumed order and 1.25 for an observed one. README.md compares estimates
+# with errors.
 SAFETY = 1.25
 _PARTS = {"grains_step": "step of the grains", "mesh": "mesh", "load_step": "load step", "parameters": "parameters"}
 _FOLDER = "validation"  # of the runs; it is removed after they have been read
@@ -39,8 +41,9 @@ NO_RUNS: dict[str, Any] = {"seed": None, "scenes": [], "quantities": [], "values
 
 @dataclass(kw_only=True)
 class Responses:
-    """How the continuum answers to changes. coarse: values of every member on the coarse mesh. The others are values of one sample
-    on that mesh. base: unchanged. half_step: with half the load step. draws: with draws of the parameters."""
+    """How the continuum answers to changes. coarse: values of every member on the coarse mesh. The others are values of
+    one sample on that mesh. base: unchanged. half_step: with half the load step. draws: with draws of the
+    parameters."""
 
     coarse: Sequence[Mapping[str, float]] = ()
     size_ratio: float = math.nan  # element size of the coarse mesh / that of the members
@@ -52,8 +55,8 @@ class Responses:
 def uncertainties(key: str, window: str, members: Sequence[Member], responses: Responses) -> dict[str, float]:
     """Standard uncertainties but that of the samples, in the unit of the quantity. window: of a band.
 
-    Estimated errors: grains_step by the rule of the step; mesh and load_step by order 1 from a change d: d / (r - 1) by a mesh
-    coarser by r, 2 d by half the step. parameters: deviation over the draws.
+    Estimated errors: grains_step by the rule of the step; mesh and load_step by order 1 from a change d: d / (r - 1) by
+    a mesh coarser by r, 2 d by half the step. parameters: deviation over the draws.
     """
     is_line, name = QUANTITIES[key]["difference"] == "line", number_name("continuum", key, window)
     minus, average = (line_turn, line_statistics) if is_line else (np.subtract, statistics)
@@ -66,7 +69,8 @@ def uncertainties(key: str, window: str, members: Sequence[Member], responses: R
     half, base = (values.get(name, math.nan) for values in (responses.half_step, responses.base))
     has_rule = key in OF_PANEL and expected != 0  # 0: a flow that the rule does not describe
     errors = {"grains_step": expected * statistics(grains).mean if has_rule else math.nan,
-              "mesh": statistics(minus(coarse, fine)).mean / (responses.size_ratio - 1), "load_step": 2 * float(minus(half, base))}
+              "mesh": statistics(minus(coarse, fine)).mean / (responses.size_ratio - 1),
+              "load_step": 2 * float(minus(half, base))}
     return {**{name: SAFETY / 2 * abs(error) for name, error in errors.items()},
             "parameters": average([values.get(name, math.nan) for values in responses.draws]).deviation}
 
@@ -76,8 +80,8 @@ def validated(kind: str, pairs: tuple[Sequence[float], Sequence[float]], parts: 
     """The difference as paired() has it, with all known parts in its intervals, and a row of ensemble.json without key,
     name and verdict.
 
-    Half widths add in squares. Each is a standard uncertainty times Student's factor: n - 1 degrees of freedom of the samples,
-    n_draws - 1 of the parameters, infinitely many of the numerical parts.
+    Half widths add in squares. Each is a standard uncertainty times Student's factor: n - 1 degrees of freedom of the
+    samples, n_draws - 1 of the parameters, infinitely many of the numerical parts.
     """
     first, second = np.array(pairs, float)[:, np.isfinite(pairs).all(axis=0)]
     average = line_statistics if kind == "line" else statistics
@@ -90,8 +94,8 @@ def validated(kind: str, pairs: tuple[Sequence[float], Sequence[float]], parts: 
     total = math.hypot(of_samples, *(u for u, _ in errors))
     row = {"n": error.n, "S": average(second).mean, "D": grains,
            "E": paired(first, second, "line" if kind == "line" else "absolute").with_errors(errors).difference,
-           "u_num": math.hypot(*numerical) if numerical else math.nan, "u_input": parts["parameters"], "u_D": of_samples,
-           "u_val": total, "ratio": abs(error.mean) / total if total > 0 else math.nan,
+           "u_num": math.hypot(*numerical) if numerical else math.nan, "u_input": parts["parameters"],
+           "u_D": of_samples, "u_val": total, "ratio": abs(error.mean) / total if total > 0 else math.nan,
            "parts": {name: parts[name] for name in ("grains_step", "mesh", "load_step")},
            "not_known": [words for name, words in _PARTS.items() if not math.isfinite(parts[name])]}
     return found.with_errors(relative), row
@@ -115,7 +119,8 @@ def responses_of(scene: Any, seeds: Sequence[int], members: Sequence[Member], ru
     ratio = keys["comparison"]["coarse_element_size"] / keys["continuum"]["element_size"]
     coarse = {seed: coarse_values(os.path.join(scene.directory, f"seed_{seed}"), scene, member)
               for seed, member in zip(seeds, members)}
-    values = [{name: value for name, value in zip(runs["quantities"], row) if value is not None} for row in runs["values"]]
+    values = [{name: value for name, value in zip(runs["quantities"], row) if value is not None}
+              for row in runs["values"]]
     half, *draws = values or [{}]
     return Responses(coarse=list(coarse.values()), size_ratio=ratio if ratio > 1 else math.nan,
                      base=coarse.get(runs["seed"], {}), half_step=half, draws=draws)
@@ -128,13 +133,15 @@ def draws_of(set_files: Sequence[str], settings: Sequence[str]) -> list[list[Set
     path = next(filter(os.path.isfile, beside), "")
     table = pd.read_csv(path, dtype=str, comment="#") if path else pd.DataFrame()
     exact = [text.partition("=")[0].removeprefix("continuum/") for text in settings]
-    table = table[[key for key in table if key.isidentifier() and key not in exact]]  # "key (target)" is not in calibrated.prm
+    # "key (target)" is not in calibrated.prm
+    table = table[[key for key in table if key.isidentifier() and key not in exact]]
     rows = np.unique(np.linspace(0, len(table) - 1, DRAWS).round().astype(int)) if table.size else ()
     return [[Setting("continuum", key, value, path) for key, value in table.iloc[row].items()] for row in rows]
 
 
 def variations(scene_file: str, settings: Sequence[Setting], draws: Sequence[Sequence[Setting]]) -> list[Any]:
-    """Scenes of short runs of the continuum on the coarse mesh: half the load step, then the draws. [] without such a mesh.
+    """Scenes of short runs of the continuum on the coarse mesh: half the load step, then the draws. [] without such a
+    mesh.
 
     Raises SceneError, with posterior.csv, for a draw that the scene refuses.
     """
@@ -143,15 +150,16 @@ def variations(scene_file: str, settings: Sequence[Setting], draws: Sequence[Seq
     if not coarse:
         return []
     common = [Setting(section, key, value, "validation") for section, key, value in (
-        ("continuum", "element_size", repr(coarse)), ("comparison", "coarse_element_size", "0"), ("output", "report", "false"),
-        ("comparison", "band_resamples", "0"), ("comparison", "probe_resamples", "0"))]
-    halves = [Setting("continuum", key, repr(steps[key] / 2), "validation") for key in ("min_step", "initial_step", "max_step")]
+        ("continuum", "element_size", repr(coarse)), ("comparison", "coarse_element_size", "0"),
+        ("output", "report", "false"), ("comparison", "band_resamples", "0"), ("comparison", "probe_resamples", "0"))]
+    halves = [Setting("continuum", key, repr(steps[key] / 2), "validation")
+              for key in ("min_step", "initial_step", "max_step")]
     return [_diptych.read_changed_scene(scene_file, [*settings, *common, *more], True) for more in (halves, *draws)]
 
 
 def respond(directory: str, seed: int, scenes: Sequence[Any], goes_on: bool, options: Options) -> dict[str, Any]:
-    """Runs the variations on the grains of a finished member. Returns its seed, hashes of the scenes, and values of quantities, a
-    row per run, None after a failure. goes_on: the member is an earlier one, whose runs stand.
+    """Runs the variations on the grains of a finished member. Returns its seed, hashes of the scenes, and values of
+    quantities, a row per run, None after a failure. goes_on: the member is an earlier one, whose runs stand.
 
     Raises Stopped after a stop signal."""
     source, here, record = (os.path.join(directory, name) for name in (f"seed_{seed}", _FOLDER, "ensemble.json"))
@@ -186,7 +194,8 @@ def respond(directory: str, seed: int, scenes: Sequence[Any], goes_on: bool, opt
 
 
 def _copy_grains(source: str, folder: str) -> None:
-    """A result folder with the grains of another, for --resume. A finished file is never written again, so links suffice."""
+    """A result folder with the grains of another, for --resume. A finished file is never written again, so links
+    suffice."""
     part = folder + ".part"
     shutil.rmtree(part, ignore_errors=True)
     os.makedirs(part)

@@ -1,9 +1,10 @@
 # diptych: plans elements, load steps, tolerance, law and geometry of the continuum
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Starts from coarse elements and long load steps and halves one size after the other, until the estimated error is within its
-share of the accuracy. Then takes the largest size that the share allows. Cheaper models (small strain, a law without an
-internal length, simpler elements) are used if they change the results by less than their share. If the results of a law without
-an internal length keep changing with the elements, its Cosserat counterpart replaces it, and the plan reports this."""
+"""Starts from coarse elements and long load steps and halves one size after the other, until the estimated error is
+within its share of the accuracy. Then takes the largest size that the share allows. Cheaper models (small strain, a law
+without an internal length, simpler elements) are used if they change the results by less than their share. If the
+results of a law without an internal length keep changing with the elements, its Cosserat counterpart replaces it, and
+the plan reports this."""
 
 from __future__ import annotations
 
@@ -58,7 +59,8 @@ class ContinuumPlan:
     """The pilot for one question."""
 
     def __init__(self, question: Question, scene: _diptych.Scene, run: RunPilot) -> None:
-        self.question, self.run, self.quantities, self.keys = question, run, question.quantities["continuum"], scene.dict()
+        self.question, self.run, self.keys = question, run, scene.dict()
+        self.quantities = question.quantities["continuum"]
         command = "run" if any(q["source"] == "comparison" for q in self.quantities) else "continuum"
         self.plan = PanelPlan(panel="continuum", command=command)
         self.chosen = [planned("comparison/coarse_element_size", "0")]
@@ -76,8 +78,10 @@ class ContinuumPlan:
 
     def make(self) -> PanelPlan:
         if self.options["platens"] == "rough" and self.options["hardening"] == "constant":
-            self._note("rough platens with continuum/hardening = constant: the error of the force in fully plastic flow "
-                       "falls with the element size to the power 0.9; 16 elements per side leave 9 % (benchmarks/referee)")
+            self._note("rough platens with continuum/hardening = constant: the error of the force in fully plastic "
+                       "flow "
+                       "falls with the element size to the power 0.9; 16 elements per side leave 9 % "
+                       "(benchmarks/referee)")
         if self.options["mesh"] not in ("outline", "rectangle"):
             self._note("elements: from the mesh file; their error is unknown and not in the budget")
         elif not self._settle_elements():
@@ -102,7 +106,8 @@ class ContinuumPlan:
 
     def _shifts(self, a: Pilot, b: Pilot) -> list[float]:
         """Differences of two points on one sample, relative to the second."""
-        return [relative_difference(a.values[q], b.values[q], asked["line"]).mean for q, asked in enumerate(self.quantities)]
+        return [relative_difference(a.values[q], b.values[q], asked["line"]).mean for q,
+                asked in enumerate(self.quantities)]
 
     def _refine(self, knob: Knob) -> Settled:
         settled, allowed = Settled(), knob.share * self.question.accuracy
@@ -113,7 +118,8 @@ class ContinuumPlan:
                 if settled.points:
                     break
                 continue  # too coarse to run
-            values = ", ".join(f"{asked['name']} {values[0]:.4g}" for asked, values in zip(self.quantities, point.values))
+            values = ", ".join(f"{asked['name']} {values[0]:.4g}" for asked,
+                               values in zip(self.quantities, point.values))
             self._note(f"{knob.name} = {_diptych.text_of_number(size)}: {values}; {point.cpu_s:.3g} CPU s")
             if settled.points and settled.points[-1].values == point.values:
                 settled.sizes.pop(), settled.points.pop()  # the previous size limited nothing
@@ -165,7 +171,8 @@ class ContinuumPlan:
                     least_points=3 if other else 2)  # one small change of a law without a length may be chance
         settled = self._refine(knob)
         if not settled.reached and other:
-            why = settled.failure or "the results keep changing with the elements, or small enough elements cost too much"
+            why = settled.failure or ("the results keep changing with the elements, or small enough elements cost too "
+                                      "much")
             self._note(f"continuum/law = {law}: {why}; this law has no internal length; used instead: {other} with "
                        f"continuum/internal_length = {_diptych.text_of_number(self.options['internal_length'])}")
             self.chosen.append(planned("continuum/law", other))
@@ -204,21 +211,23 @@ class ContinuumPlan:
         shifts = self._shifts(point, self.now)
         worst, saving = max(map(abs, shifts)), 1 - point.cpu_s / self.now.cpu_s
         if worst > self.left_for_models or saving < WORTH_SAVING:
-            self._note(f"{name}: not used; it would save {f'{percent(saving)} of the' if saving > 0 else 'no'} time and "
-                       f"change a quantity by up to {percent(worst)}")
+            self._note(f"{name}: not used; it would save {f'{percent(saving)} of the' if saving > 0 else 'no'} time "
+                       "and " f"change a quantity by up to {percent(worst)}")
             return
         for parts, shift in zip(self.parts, shifts):
             parts.append(Part(cause=name, error=abs(shift), bias=shift))
         self.chosen.append(planned(key, value))
         self.left_for_models -= worst
         self.now = point
-        self._note(f"{name}: used; it saves {percent(saving)} of the time and changes a quantity by up to {percent(worst)}")
+        self._note(f"{name}: used; it saves {percent(saving)} of the time and changes a quantity by up to "
+                   f"{percent(worst)}")
 
     def _try_models(self) -> None:
         law = self.options["law"]
         has_length = law.startswith(("cosserat", "gradient")) or self.has_changed_law
         if has_length and not self.has_changed_law:
-            self._try_model("law without an internal length", "continuum/law", WITHOUT_LENGTH.get(law, "drucker_prager"))
+            self._try_model("law without an internal length", "continuum/law",
+                            WITHOUT_LENGTH.get(law, "drucker_prager"))
         if not has_length and self.options["element"] != "q1_bbar":
             self._try_model("bilinear elements", "continuum/element", "q1_bbar")
         if self.options["geometry"] == "updated":

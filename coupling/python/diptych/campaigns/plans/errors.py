@@ -30,8 +30,8 @@ class Estimate(NamedTuple):
 
 
 def improved(prior: Estimate, evidence: Iterable[tuple[float, float, float]]) -> Estimate:
-    """The factor measured / expected: the prior updated with (expected, measured, standard error) of differences (Gaussian,
-    conjugate). Evidence without a standard error, or with an expected difference of 0, does not count."""
+    """The factor measured / expected: the prior updated with (expected, measured, standard error) of differences
+    (Gaussian, conjugate). Evidence without a standard error, or with an expected difference of 0, does not count."""
     weight = prior.deviation**-2
     total = prior.mean * weight
     for expected, measured, error in evidence:
@@ -60,8 +60,8 @@ class Refinement:
 
 
 def refinement(sizes: Sequence[float], values: Sequence[float]) -> Refinement:
-    """sizes: descending, one value each. With three or more values the order follows from the last two changes; with two it is
-    1. A change that is small by chance counts at least a quarter of the one before."""
+    """sizes: descending, one value each. With three or more values the order follows from the last two changes; with
+    two it is 1. A change that is small by chance counts at least a quarter of the one before."""
     result = Refinement(finest_size=sizes[-1])
     if len(values) < 2:
         return result
@@ -78,12 +78,14 @@ def refinement(sizes: Sequence[float], values: Sequence[float]) -> Refinement:
 
 
 def half_interval(deviation: float, n: int) -> float:
-    """Half the 95 % Student interval of the mean of n samples. For n = 1 the deviation is taken as known from four samples."""
+    """Half the 95 % Student interval of the mean of n samples. For n = 1 the deviation is taken as known from four
+    samples."""
     return float(OF_ONE_SAMPLE * deviation if n < 2 else student_quantile(0.975, n - 1) * deviation / np.sqrt(n))
 
 
 def samples_for(deviation: float, half: float) -> int:
-    """Smallest number of samples for an interval below `half`. 0 if a million do not suffice or the deviation is unknown."""
+    """Smallest number of samples for an interval below `half`. 0 if a million do not suffice or the deviation is
+    unknown."""
     if not (half > 0 and deviation >= 0):
         return 0
     if half_interval(deviation, 1) <= half:
@@ -93,7 +95,8 @@ def samples_for(deviation: float, half: float) -> int:
 
 
 def summary_of(values: Sequence[float], is_line: bool) -> tuple[Statistics, float]:
-    """Statistics of the samples that have a value, in its unit, and the relative scatter of one sample (NaN below two)."""
+    """Statistics of the samples that have a value, in its unit, and the relative scatter of one sample (NaN below
+    two)."""
     found = (line_statistics if is_line else statistics)(values)
     return found, found.deviation / (UNIT_OF_ANGLES if is_line else abs(found.mean))
 
@@ -111,8 +114,8 @@ def rounded_to_two_digits(number: float) -> float:
 
 
 def cost_at(measured: Sequence[tuple[float, float]], accuracy: float) -> float:
-    """CPU s of one sample: interpolates (discrete/accuracy, CPU s) with descending accuracies, and extrapolates along the line
-    through the two nearest points in logarithms."""
+    """CPU s of one sample: interpolates (discrete/accuracy, CPU s) with descending accuracies, and extrapolates along
+    the line through the two nearest points in logarithms."""
     k = 1
     while k + 1 < len(measured) and accuracy < measured[k][0]:
         k += 1
@@ -134,8 +137,8 @@ class GrainErrors:
 
 def cheapest_choice(errors: Sequence[GrainErrors], cost: Sequence[tuple[float, float]], target: float,
                     samples: int) -> tuple[float, int]:
-    """(discrete/accuracy, number of samples) with the least cost; 0 samples: no number suffices. `samples`: their fixed number,
-    or 0."""
+    """(discrete/accuracy, number of samples) with the least cost; 0 samples: no number suffices. `samples`: their fixed
+    number, or 0."""
     best, least = (0.0, 0), np.inf
     for k in range(24):
         accuracy = max(FINEST_ACCURACY, rounded_to_two_digits(COARSEST_ACCURACY * 2 ** (-k / 4)))

@@ -1,9 +1,9 @@
 # diptych: plans step, tolerance, snapshots and number of samples of the grains
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The pilot runs eight samples at the coarsest discrete/accuracy and four of them at half of it. They give scatter and cost,
-and test the rule for the errors of step and tolerance (a factor, 1 +- 0.5 beforehand). The plan takes the accuracy that reaches
-the goal with the least CPU time. A coarser one is cheaper, but leaves less for the interval of the mean and so needs more
-samples. Two levels (levels.py) replace it if they save a fifth of that time."""
+"""The pilot runs eight samples at the coarsest discrete/accuracy and four of them at half of it. They give scatter and
+cost, and test the rule for the errors of step and tolerance (a factor, 1 +- 0.5 beforehand). The plan takes the
+accuracy that reaches the goal with the least CPU time. A coarser one is cheaper, but leaves less for the interval of
+the mean and so needs more samples. Two levels (levels.py) replace it if they save a fifth of that time."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ from ... import _diptych
 from ..runs.input_file import Setting
 from ..studies.levels import LEAST_PAIRS, MOST_RATIO, Variances, numbers_for, predicted
 from .errors import (COARSEST_ACCURACY, FINEST_ACCURACY, MOST_SAMPLES_OF_A_PLAN, Estimate, GrainErrors, cheapest_choice,
-                          cost_at, half_interval, improved, relative_difference, rounded_to_two_digits, samples_for, summary_of)
+                          cost_at, half_interval, improved, relative_difference, rounded_to_two_digits, samples_for,
+                     summary_of)
 from .question import Budget, PanelPlan, Part, Pilot, Question, RunPilot, Task, percent, planned
 from .springs import try_springs
 from ..runs.statistics import Statistics
@@ -149,8 +150,8 @@ class GrainsPlan:
         return cheapest_choice(self._errors(), self._cost(), left, 0 if self.seeds else 1)
 
     def _variances(self, fine: float) -> list[Variances]:
-        """Of the relative means with levels at 0.05 and fine; empty if both have nearly the same step. How far the runs of a
-        sample diverge hardly depends on the fine accuracy, so all levels of the pilot tell it."""
+        """Of the relative means with levels at 0.05 and fine; empty if both have nearly the same step. How far the runs
+        of a sample diverge hardly depends on the fine accuracy, so all levels of the pilot tell it."""
         found, cheap, last = [], self.levels[0].point, self.levels[-1]
         ratio = last.point.expected_error["strength"] * fine / last.accuracy / cheap.expected_error["strength"]
         for q, errors in enumerate(self._errors() if ratio <= MOST_RATIO else ()):
@@ -167,8 +168,8 @@ class GrainsPlan:
         return samples, pairs, samples * costs[0] + pairs * costs[1] if samples else np.inf
 
     def _two_levels(self, one: tuple[float, int]) -> tuple[float, int, int] | None:
-        """(fine accuracy, samples, pairs) if two levels are clearly cheaper than one; one: its accuracy and samples. Quantities
-        without a rule have no known order. The fine accuracy is run before it is chosen."""
+        """(fine accuracy, samples, pairs) if two levels are clearly cheaper than one; one: its accuracy and samples.
+        Quantities without a rule have no known order. The fine accuracy is run before it is chosen."""
         if not self.seeds or not all(asked["step_error"] for asked in self.quantities):
             return None
         fine = min(FINE_LEVELS, key=lambda fine: self._numbers(fine)[2])
@@ -180,8 +181,8 @@ class GrainsPlan:
         used = cpu_s < limit
         if samples:
             of_one = f"takes {limit / WORTH_TWO_LEVELS:.3g} CPU s" if one[1] else "does not reach the accuracy"
-            self._note(f"two levels: discrete/accuracy = {COARSEST_ACCURACY} on {samples} samples and {fine} on {pairs} of "
-                       f"them, {cpu_s:.3g} CPU s; {'used' if used else 'not used'}, one level {of_one}")
+            self._note(f"two levels: discrete/accuracy = {COARSEST_ACCURACY} on {samples} samples and {fine} on "
+                       f"{pairs} of them, {cpu_s:.3g} CPU s; {'used' if used else 'not used'}, one level {of_one}")
         return (fine, samples, pairs) if used else None
 
     def _taken(self) -> list[float]:
@@ -192,7 +193,8 @@ class GrainsPlan:
         plan = self.plan
         if two:
             accuracy, samples = COARSEST_ACCURACY, two[1]
-            plan.levels = {"cheap": accuracy, "fine": two[0], "pairs": two[2], "fine_cpu_s": cost_at(self._cost(), two[0])}
+            plan.levels = {"cheap": accuracy, "fine": two[0], "pairs": two[2],
+                           "fine_cpu_s": cost_at(self._cost(), two[0])}
         plan.reaches = samples > 0
         if not plan.reaches:
             accuracy = float(np.clip(self.question.accuracy / 2, FINEST_ACCURACY, COARSEST_ACCURACY))
@@ -218,8 +220,8 @@ class GrainsPlan:
         self._advise()
 
     def _find_repeatability(self) -> None:
-        """Runs diverge from the last digit on. Runs with almost the same accuracy show how far one run may lie from their
-        mean."""
+        """Runs diverge from the last digit on. Runs with almost the same accuracy show how far one run may lie from
+        their mean."""
         points = [self._run_at(share * self.levels[-1].accuracy, ()) for share in (1, 0.98, 0.96, 0.94)]
         for q, asked in enumerate(self.quantities):
             values = [point.values[q][0] for point in points if not point.failure]
@@ -233,18 +235,18 @@ class GrainsPlan:
             first, second = self.levels[:2]
             d = self._difference(first.point, second.point, q)
             self._note(f"  {asked['name']}: {percent(d.mean)} +- {percent(half_interval(d.deviation, d.n))} from "
-                       f"{_diptych.text_of_number(first.accuracy)} to {_diptych.text_of_number(second.accuracy)} on {d.n} "
-                       "samples")
+                       f"{_diptych.text_of_number(first.accuracy)} to {_diptych.text_of_number(second.accuracy)} on "
+                       f"{d.n} " "samples")
 
     def _try_knob(self, name: str, cheaper: Setting, saving: float, deviations: Sequence[float]) -> None:
-        """Runs a cheaper setting if it may be worth it and eight samples can measure its effect. Keeps it if the effect is
-        small. deviations: expected deviations of the differences, one per quantity."""
+        """Runs a cheaper setting if it may be worth it and eight samples can measure its effect. Keeps it if the effect
+        is small. deviations: expected deviations of the differences, one per quantity."""
         interval = half_interval(max(deviations), len(self.seeds))
         if saving < WORTH_TRYING:
             verdict = f"not tried; it would save {f'only {percent(saving)} of the' if saving > 0 else 'no'} time"
         elif not interval <= SHARE_OF_A_KNOB * self.question.accuracy:
-            verdict = (f"not used; it would save {percent(saving)} of the time, but {len(self.seeds)} samples give its error "
-                       f"only to +- {percent(interval)}")
+            verdict = (f"not used; it would save {percent(saving)} of the time, but {len(self.seeds)} samples give its "
+                       "error " f"only to +- {percent(interval)}")
         else:
             verdict = self._verdict_on(name, cheaper, saving)
         self._note(f"{name}: {verdict}")
@@ -294,6 +296,7 @@ class GrainsPlan:
         deciding = max(self.plan.quantities, key=lambda q: q.scatter)
         left = self.question.accuracy - deciding.method
         low, high = (samples_for(factor * deciding.scatter, left) or "more than a million" for factor in (0.66, 2.0))
-        self._note(f"eight samples give the scatter to within a factor of 0.66 to 2.0: {low} to {high} samples may be needed")
-        self._note(f"{deciding.name} determines the number of samples; one sample scatters by {percent(deciding.scatter)}; "
-                   "the scatter falls with the square root of the number of grains")
+        self._note(f"eight samples give the scatter to within a factor of 0.66 to 2.0: {low} to {high} samples may be "
+                   "needed")
+        self._note(f"{deciding.name} determines the number of samples; one sample scatters by "
+                   f"{percent(deciding.scatter)}; " "the scatter falls with the square root of the number of grains")

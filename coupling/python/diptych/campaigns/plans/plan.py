@@ -63,7 +63,8 @@ def _pilot_of(results: Sequence[RunResult], quantities: Sequence[dict[str, Any]]
     finished = [result for result in results if result.known and result.exit_code == 0]
     words = [result.words or "the run was lost" for result in results if result not in finished]
     pilot = Pilot(values=[[result.values[q] for result in results] for q in range(len(quantities))],
-                  peak_memory_mb=max((phase["peak_memory_mb"] for result in results for phase in result.phases), default=0.0))
+                  peak_memory_mb=max((phase["peak_memory_mb"] for result in results for phase in result.phases),
+                                     default=0.0))
     if words and len(finished) >= LEAST_SHARE_THAT_FINISHES * len(results):
         pilot.remark = words[-1]
     elif words:
@@ -101,7 +102,8 @@ def _carry_out(question: Question, plan: Plan, panel: PanelPlan, pilot: PilotRun
                 ratio = fine.expected_error["strength"] / point.expected_error["strength"]
                 limit = limit_of(point.values[k], fine.values[k] + [np.nan] * (len(seeds) - n_pairs), ratio).limit
                 half, mean = (limit.high - limit.low) / 2 / abs(limit.value), limit.value
-            panel.outcomes.append({"name": q["name"], "n": found.n, "mean": mean, "scatter": scatter, "half_interval": half})
+            panel.outcomes.append({"name": q["name"], "n": found.n, "mean": mean, "scatter": scatter,
+                                   "half_interval": half})
         missing = _missing(question.accuracy, panel, len(seeds))
         if missing == 0 or len(seeds) >= most:
             return missing == 0
@@ -123,7 +125,8 @@ def _missing(accuracy: float, panel: PanelPlan, n: int) -> int:
 def make_plan(question: Question, scene: _diptych.Scene, pilot: PilotRuns) -> Plan:
     """The plans of all panels that the question asks for."""
     makers = {"discrete": GrainsPlan, "continuum": ContinuumPlan}
-    panels = [makers[panel](question, scene, pilot.run).make() for panel, wanted in question.quantities.items() if wanted]
+    panels = [makers[panel](question, scene, pilot.run).make() for panel,
+              wanted in question.quantities.items() if wanted]
     plan = Plan(scene=os.path.basename(question.scene), accuracy=question.accuracy, panels=panels)
     if plan.shares_samples:  # the cost of `diptych run` with the settings of both panels
         seeds = max((panel.seeds for panel in panels), key=len)[:SHARED_SAMPLES]
@@ -161,7 +164,8 @@ def main_plan(args: argparse.Namespace, options: Options) -> None:
             write_plan(directory, question, plan)
             reached = all(panel.reaches for panel in plan.panels)
             if args.run:
-                reached = all([_carry_out(question, plan, panel, pilot) for panel in plan.panels if panel.reaches]) and reached
+                reached = all([_carry_out(question, plan, panel, pilot) for panel in plan.panels
+                               if panel.reaches]) and reached
                 write_plan(directory, question, plan)
         except Stopped as stopped:
             raise Stopped(f"{stopped}; to go on: {options.again}") from None

@@ -24,8 +24,8 @@ PANELS = {"discrete": ("sample", "discrete"), "continuum": ("continuum",)}  # an
 
 @dataclass(kw_only=True)
 class Question:
-    """quantities: by panel; those of the grains have step_error: the rule for their error, strength, dilation or "" (measured
-    only)."""
+    """quantities: by panel; those of the grains have step_error: the rule for their error, strength, dilation or ""
+    (measured only)."""
 
     scene: str
     changes: list[Setting]  # --set-file, --set
@@ -100,7 +100,8 @@ class Budget:
 @dataclass(kw_only=True)
 class PanelPlan:
     """The plan of one panel. seeds: empty: the one sample of the scene. CPU time and memory are those of one sample.
-    levels: of a plan with two levels: cheap and fine (discrete/accuracy), pairs, fine_cpu_s. The rest is that of the cheap one."""
+    levels: of a plan with two levels: cheap and fine (discrete/accuracy), pairs, fine_cpu_s. The rest is that of the
+    cheap one."""
 
     panel: str
     command: str
@@ -220,10 +221,10 @@ def _add(question: Question, word: str, panels: set[str], scene: _diptych.Scene)
         return
     of = [panel for panel in PANELS if f" {panel} " in word or word.startswith(panel + "_summary ")]
     if len(of) != 1:
-        raise SceneError(f"--for '{word}' is unknown; use {', '.join(NAMES)}, with the prefix discrete. or continuum. for one "
-                         "panel, or a number of comparison.json with its name in ensemble.csv")
-    question.quantities[of[0]].append(quantity(word, source="comparison", reduction="number", column=word, line="angle" in word,
-                                               step_error=""))
+        raise SceneError(f"--for '{word}' is unknown; use {', '.join(NAMES)}, with the prefix discrete. or continuum. "
+                         "for one panel, or a number of comparison.json with its name in ensemble.csv")
+    question.quantities[of[0]].append(quantity(word, source="comparison", reduction="number", column=word,
+                                               line="angle" in word, step_error=""))
 
 
 def read_question(scene_file: str, accuracy: str, wanted: str, overrides: Sequence[str] = (),
@@ -239,8 +240,8 @@ def read_question(scene_file: str, accuracy: str, wanted: str, overrides: Sequen
     if keys["loading"]["mode"] == "time":
         raise SceneError(f"{scene_file}: loading/mode = time; plans support loadings along a strain only")
     if question.quantities["discrete"] and keys["discrete"]["method"] not in ("nscd", "compliant"):
-        raise SceneError(f"{scene_file}: discrete/method = {keys['discrete']['method']}; plans support nscd and compliant only "
-                         "(cost of springs: benchmarks/penalty, benchmarks/rigid_limit)")
+        raise SceneError(f"{scene_file}: discrete/method = {keys['discrete']['method']}; plans support nscd and "
+                         "compliant only (cost of springs: benchmarks/penalty, benchmarks/rigid_limit)")
     if question.needs_comparison and keys["continuum"]["mesh"] != "outline":
         raise SceneError(f"{scene_file}: continuum/mesh = {keys['continuum']['mesh']}; --for asks for a number of the "
                          "comparison, which needs both panels on one sample (mesh = outline)")
@@ -267,7 +268,8 @@ def _panel_text(panel: PanelPlan) -> list[str]:
     lines.append(f"  {panel.command} on {panel.n_samples} sample{'s' if panel.n_samples > 1 else ''}{seeds}: "
                  f"{panel.cpu_s:.3g} CPU s each, {panel.total_cpu_s:.3g} s in all, {panel.peak_memory_mb:.3g} MB")
     if panel.levels:
-        lines.append(f"  two levels: {panel.levels['pairs']} of these also at discrete/accuracy = {panel.levels['fine']:g}, "
+        lines.append(f"  two levels: {panel.levels['pairs']} of these also at discrete/accuracy = "
+                     f"{panel.levels['fine']:g}, "
                      f"{panel.levels['fine_cpu_s']:.3g} CPU s each; the means are those in the limit of short steps. "
                      f"For both panels: --levels {panel.levels['cheap']:g},{panel.levels['fine']:g} of diptych run")
     if panel.outcomes:
@@ -287,4 +289,5 @@ def text_of(plan: Plan) -> str:
         lines += ["", "Only the grains were planned. `--for strength,continuum.strength` also plans the continuum."]
     if plan.shares_samples:
         lines += ["", "`diptych run` computes both panels on the same samples."]
-    return "\n".join([*lines, "", f"CPU time of the plan {plan.total_cpu_s:.3g} s; the pilot took {plan.pilot_cpu_s:.3g} s"])
+    return "\n".join([*lines, "", f"CPU time of the plan {plan.total_cpu_s:.3g} s; the pilot took "
+                      f"{plan.pilot_cpu_s:.3g} s"])

@@ -1,8 +1,9 @@
 # diptych: whether springs are cheaper than contact dynamics for the grains of a plan
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""discrete/method = auto expects which method is cheaper at a size, speed and accuracy (coupling/scene/derived_keys.h). That
-estimate is right within a factor of two. Where springs may be cheaper, a plan runs one sample with them, and takes them if they
-save time. Implicit springs (compliant) keep step, tolerance and their errors; explicit ones (penalty) have their own step."""
+"""discrete/method = auto expects which method is cheaper at a size, speed and accuracy (coupling/scene/derived_keys.h).
+That estimate is right within a factor of two. Where springs may be cheaper, a plan runs one sample with them, and takes
+them if they save time. Implicit springs (compliant) keep step, tolerance and their errors; explicit ones (penalty) have
+their own step."""
 
 from __future__ import annotations
 
@@ -13,16 +14,18 @@ from .errors import half_interval, samples_for
 from .question import Budget, PanelPlan, Part, Question, RunPilot, Task, planned
 
 STIFFNESS = planned("discrete/penalty_stiffness", 1e4)
-# Largest relative errors of these springs: of explicit ones against the limit of short steps, of implicit ones against contact
-# dynamics at the same step; measured bias and its standard error (benchmarks/rigid_limit/order.py).
+# Largest relative errors of these springs: of explicit ones against the limit of short steps, of implicit ones against
+# contact dynamics at the same step; measured bias and its standard error (benchmarks/rigid_limit/order.py).
 ERROR = {"strength": 0.01, "dilation": 0.04}
 
 
-def try_springs(plan: PanelPlan, question: Question, run: RunPilot, quantities: Sequence[dict[str, Any]], method: str) -> None:
-    """Replaces settings, samples and errors of a complete plan of the grains if springs are cheaper. method: that of the springs.
-    A plan with two levels has removed the error of the step, so implicit springs are not tried there."""
+def try_springs(plan: PanelPlan, question: Question, run: RunPilot, quantities: Sequence[dict[str, Any]],
+                method: str) -> None:
+    """Replaces settings, samples and errors of a complete plan of the grains if springs are cheaper. method: that of
+    the springs. A plan with two levels has removed the error of the step, so implicit springs are not tried there."""
     implicit = method == "compliant"
-    if not plan.reaches or not plan.seeds or not all(asked["step_error"] for asked in quantities) or (implicit and plan.levels):
+    if not plan.reaches or not plan.seeds or not all(asked["step_error"] for asked in quantities) or (implicit
+                                                                                                      and plan.levels):
         return
     settings = [planned("discrete/method", method), STIFFNESS]
     settings = [*plan.settings, *settings] if implicit else [*settings, planned("discrete/penalty_step_fraction", 0.5)]

@@ -1,7 +1,7 @@
 # diptych: values of keys as points of the unit cube, in which the search of a calibration works
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Strengths, stiffnesses and lengths are varied in their logarithm. A residual angle is varied by its drop, and a dilatancy
-angle by its share of a friction angle, so that no combination contradicts itself."""
+"""Strengths, stiffnesses and lengths are varied in their logarithm. A residual angle is varied by its drop, and a
+dilatancy angle by its share of a friction angle, so that no combination contradicts itself."""
 
 from __future__ import annotations
 
@@ -20,8 +20,9 @@ USUAL = {"friction_angle_residual": "drop_from", "dilatancy_angle_peak": "share_
 
 @dataclass(frozen=True, kw_only=True)
 class Parameter:
-    """A key of the section continuum, or discrete/KEY. start, low, high: numbers of the coordinate, the value itself (also of
-    a logarithm), a share or a drop. targets: names of the targets that it belongs to; empty: one value for all."""
+    """A key of the section continuum, or discrete/KEY. start, low, high: numbers of the coordinate, the value itself
+    (also of a logarithm), a share or a drop. targets: names of the targets that it belongs to; empty: one value for
+    all."""
 
     key: str
     coordinate: str
@@ -43,8 +44,8 @@ class Parameter:
 
 
 class Coordinates:
-    """others: values of fixed keys that shares and drops refer to. Raises ValueError if a parameter refers to an unknown key,
-    to one that belongs to other targets, or to itself in a circle."""
+    """others: values of fixed keys that shares and drops refer to. Raises ValueError if a parameter refers to an
+    unknown key, to one that belongs to other targets, or to itself in a circle."""
 
     def __init__(self, parameters: Sequence[Parameter], others: Mapping[str, float]) -> None:
         self.parameters, self.others = parameters, others

@@ -64,7 +64,8 @@ class Options:
     def again(self) -> str:
         """The command that goes on with this one."""
         job = f"mpirun -np {n_processes()} " if n_processes() > 1 else ""
-        return f"{job}diptych {shlex.join(word for word in self.words if word not in ('--overwrite', '--resume'))} --resume"
+        words = [word for word in self.words if word not in ("--overwrite", "--resume")]
+        return f"{job}diptych {shlex.join(words)} --resume"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -291,8 +292,8 @@ def execute(runs: Sequence[Run], options: Options, *, noun: str = "runs", finish
     finished  runs that were finished before; they count in the progress
     on_ended  is called with index and outcome as runs end; if it raises OSError, the run has failed with exit code 4
 
-    On a stop request (SIGINT, SIGTERM, SIGHUP) workers are asked to stop, and no further run starts. Failures are reported on
-    standard error. A worker that was killed is one failed run; a new process takes its place.
+    On a stop request (SIGINT, SIGTERM, SIGHUP) workers are asked to stop, and no further run starts. Failures are
+    reported on standard error. A worker that was killed is one failed run; a new process takes its place.
     """
     _diptych.install_signals()
     seats, others = n_seats(options), n_processes() - 1
@@ -315,7 +316,8 @@ def execute(runs: Sequence[Run], options: Options, *, noun: str = "runs", finish
 
     outcomes, left = [Outcome() for _ in runs], len(runs)
     progress = _Progress(noun, options.quiet, len(runs) + finished, finished)
-    with ThreadPoolExecutor(max(1, free.qsize())) as threads:  # the system ends a worker when the thread that started it ends
+    # the system ends a worker when the thread that started it ends
+    with ThreadPoolExecutor(max(1, free.qsize())) as threads:
         for k in range(len(runs)):
             threads.submit(do, k).add_done_callback(lambda future, k=k: ended.put((k, future)))
         while left:
@@ -346,5 +348,6 @@ def _note_end(run: Run, outcome: Outcome, progress: _Progress, on_ended: Callabl
     progress.ended(outcome)
     if outcome.exit_code:
         progress.clear()
-        why = outcome.message or ("ended by a signal, without a message" if outcome.exit_code > 128 else "without a message")
+        why = outcome.message or ("ended by a signal, without a message" if outcome.exit_code > 128
+                                  else "without a message")
         complain(f"{name} failed with exit code {outcome.exit_code}: {why} (log: {run.log})")

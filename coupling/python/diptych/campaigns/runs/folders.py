@@ -1,6 +1,7 @@
 # diptych: folders of campaigns: lock, result files, and the runs in them
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A campaign writes one folder at a time. Its runs are in DIR/runs/NAME, with NAME.prm, NAME.log and NAME.json beside it."""
+"""A campaign writes one folder at a time. Its runs are in DIR/runs/NAME, with NAME.prm, NAME.log and NAME.json beside
+it."""
 
 from __future__ import annotations
 
@@ -26,7 +27,8 @@ LAST_CODE_OF_A_RESULT = 3  # higher codes: the system failed, or a signal came
 
 
 class Folder:
-    """A folder locked for this process and its workers. Errors that are neither wrong input nor our own say what is kept."""
+    """A folder locked for this process and its workers. Errors that are neither wrong input nor our own say what is
+    kept."""
 
     def __init__(self, directory: str) -> None:
         self.directory = directory
@@ -52,8 +54,8 @@ class Folder:
 
     def open_runs(self, noun: str, input_file: str, options: Options, inputs: Callable[[], list[tuple[str, str]]],
                   text: str = "") -> None:
-        """Prepares the folder for runs; writes text, or a copy of the input file, there as NOUN_input.json (with text) or with the
-        ending of the file. Raises SceneError for other results."""
+        """Prepares the folder for runs; writes text, or a copy of the input file, there as NOUN_input.json (with text)
+        or with the ending of the file. Raises SceneError for other results."""
         copy = os.path.join(self.directory, noun + "_input" + (".json" if text else os.path.splitext(input_file)[1]))
         _diptych.require_usable(self.directory, options.resume, options.overwrite)
         if not text:
@@ -80,7 +82,8 @@ def write_json(path: str, record: Mapping[str, Any], indent: int | None = 1) -> 
 
 def write_arrays(path: str, arrays: Mapping[str, tuple[Any, str, str, str]],
                  attributes: Mapping[str, Mapping[str, float]]) -> None:
-    """Writes HDF5 with checksums. arrays: name -> (values, title, unit, meaning); attributes: group -> name -> value."""
+    """Writes HDF5 with checksums. arrays: name -> (values, title, unit, meaning); attributes: group -> name ->
+    value."""
     with part_of(path) as part, h5py.File(part, "w", libver=("v110", "v110")) as file:
         for name, (values, *words) in arrays.items():
             data = file.create_dataset(name, data=values, fletcher32=np.size(values) > 0 or None)
@@ -105,7 +108,8 @@ def draw(options: Options, directory: str, *pages: str) -> None:
 
 @dataclass(kw_only=True)
 class SceneRun:
-    """One scene that a command runs. Without a scene its settings contradict each other, and `refusal` is the message."""
+    """One scene that a command runs. Without a scene its settings contradict each other, and `refusal` is the
+    message."""
 
     command: str
     name: str
@@ -114,7 +118,8 @@ class SceneRun:
 
 
 def run_name(scene: Any, command: str) -> str:
-    """A hash of scene and command. It omits keys that change no result, and depends on no folder of the scene's files."""
+    """A hash of scene and command. It omits keys that change no result, and depends on no folder of the scene's
+    files."""
     if command == "run":
         identity = {**scene.identity("member"), "sample/seed": str(scene.dict()["sample"]["seed"])}
     else:
@@ -139,8 +144,8 @@ class Runs:
     def found_end(self, run: SceneRun) -> dict[str, Any] | None:
         """exit_code, load and at_once of a run that need not be done again.
 
-        None: it has not ended; a signal or the system ended it; program, scene or files differ. The user may have run another
-        scene in this folder, or copied another run there.
+        None: it has not ended; a signal or the system ended it; program, scene or files differ. The user may have run
+        another scene in this folder, or copied another run there.
         """
         try:
             end, file = read_json(self.path(run, ".json")), os.path.join(self.path(run), "scene.prm")
@@ -157,10 +162,12 @@ class Runs:
             return None
 
     def prepare(self, run: SceneRun, anew: bool = False) -> tuple[bool, str]:
-        """Writes the scene of a run and removes an old log. Returns True if an earlier run in the folder can be resumed.
+        """Writes the scene of a run and removes an old log. Returns True if an earlier run in the folder can be
+        resumed.
 
-        Only a folder in which this revision of the program was interrupted stays, and not if `anew`. Another one is renamed to
-        NAME.1, in the place of an older one, since the user may have files in it. The second value is then its revision.
+        Only a folder in which this revision of the program was interrupted stays, and not if `anew`. Another one is
+        renamed to NAME.1, in the place of an older one, since the user may have files in it. The second value is then
+        its revision.
         """
         try:
             earlier = read_json(self.path(run, ".json"))
@@ -198,8 +205,10 @@ class Runs:
             return resumes[k] and not outcome.interrupted and outcome.exit_code == WRONG_INPUT
 
         def on_ended(k: int, outcome: Outcome) -> None:
-            if not outcome.interrupted and not is_damaged(k, outcome):  # load: processes ready to run, mean of the last minute
-                write_json(self.path(runs[k], ".json"), {"exit_code": outcome.exit_code, "revision": _diptych.git_revision,
+            # load: processes ready to run, mean of the last minute
+            if not outcome.interrupted and not is_damaged(k, outcome):
+                write_json(self.path(runs[k], ".json"), {"exit_code": outcome.exit_code,
+                                                         "revision": _diptych.git_revision,
                                                          "load": os.getloadavg()[0], "at_once": seats}, None)
 
         tasks = [Run(command=run.command, scene=self.path(run, ".prm"), folder=self.path(run),

@@ -59,7 +59,8 @@ def read_seeds(text: str) -> list[int]:
     ends = [[int(end) for end in item.split("-")] for item in text.split(",")]
     ranges = [range(first, (last or [first])[0] + 1) for first, *last in ends]
     if not all(ranges) or sum(map(len, ranges)) > MOST_SEEDS or max(map(max, ranges)) > LARGEST_SEED:
-        raise SceneError(f"--seeds {text} is not allowed; ranges ascend, with at most {MOST_SEEDS} seeds up to {LARGEST_SEED}")
+        raise SceneError(f"--seeds {text} is not allowed; ranges ascend, with at most {MOST_SEEDS} seeds up to "
+                         f"{LARGEST_SEED}")
     seeds = sorted(seed for one in ranges for seed in one)
     if len(set(seeds)) < len(seeds):
         raise SceneError(f"--seeds {text} is not allowed; a seed is given twice")
@@ -155,7 +156,8 @@ class Part:
             return []
         if not isinstance(self.value[key], list):
             self.refuse(" must be a list", key)
-        return [Part(self.file, self.lines, entry, f"{self.pointer}/{key}/{k}") for k, entry in enumerate(self.value[key])]
+        return [Part(self.file, self.lines, entry, f"{self.pointer}/{key}/{k}") for k,
+                entry in enumerate(self.value[key])]
 
     def word(self, key: str, otherwise: str = "") -> str:
         if not self.has(key):

@@ -18,7 +18,8 @@ _SINGULAR = {"probes": "probe", "probe_differences": "probe_difference"}
 @functools.cache
 def _described() -> dict[str, tuple[str, str]]:
     """place -> (unit, kind) of the numbers that may be averaged"""
-    return {place: (unit, kind) for place, (unit, kind) in _diptych.comparison_numbers().items() if kind in ("number", "line")}
+    return {place: (unit, kind) for place, (unit, kind) in _diptych.comparison_numbers().items()
+            if kind in ("number", "line")}
 
 
 @dataclass
@@ -35,7 +36,8 @@ class Member:
         return self.numbers.get(name, (math.nan,))[0]
 
     def collect(self, value: Any, place: str, name: str) -> None:
-        """Adds the numbers below a value. Lists with names become "probe zone"; of the bands only the first, strongest one."""
+        """Adds the numbers below a value. Lists with names become "probe zone"; of the bands only the first, strongest
+        one."""
         if isinstance(value, dict) and "value" in value:
             self.collect(value["value"], place, name)
         elif isinstance(value, dict):
@@ -66,7 +68,8 @@ class Member:
             self.collect(window, place, prefix + name)
 
     def fold(self) -> None:
-        """Folds mirror images of a band onto each other: angle and offset lose their sign, the jump changes it with the angle."""
+        """Folds mirror images of a band onto each other: angle and offset lose their sign, the jump changes it with the
+        angle."""
         negative = {name.rpartition(" ")[0] for name, (value, *_, place) in self.numbers.items()
                     if place.endswith("/bands/angle_deg") and value < 0}
         folded = {}
@@ -80,8 +83,8 @@ class Member:
 
 
 def number_name(panel: str, key: str, window: str = "") -> str:
-    """Name of a compared quantity in the numbers of a member. panel: discrete, continuum or continuum_coarse; window: that
-    of a band."""
+    """Name of a compared quantity in the numbers of a member. panel: discrete, continuum or continuum_coarse; window:
+    that of a band."""
     if not window:
         return f"{panel}_summary {key}"
     of = f"{panel} {window}" if panel == "continuum_coarse" else f"{window} {panel}"
@@ -89,8 +92,9 @@ def number_name(panel: str, key: str, window: str = "") -> str:
 
 
 def member_of(path: str, folded: bool) -> Member:
-    """The numbers of a comparison.json. Names: "stage 0.04 discrete probe zone t_over_s", "window 0.02-0.04 continuum band
-    angle_deg" (of the strongest band; absent without one), "discrete_summary peak_stress_ratio". Raises ValueError."""
+    """The numbers of a comparison.json. Names: "stage 0.04 discrete probe zone t_over_s", "window 0.02-0.04 continuum
+    band angle_deg" (of the strongest band; absent without one), "discrete_summary peak_stress_ratio". Raises
+    ValueError."""
     return member_of_record(read_json(path), folded)
 
 

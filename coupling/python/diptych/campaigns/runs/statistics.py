@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.special import betaincinv, ndtri
@@ -16,9 +16,11 @@ from ...arrays import Interval
 
 
 def student_quantile(probability: float, degrees_of_freedom: float) -> float:
-    """Quantile of Student's distribution, probability in (0.5, 1); the normal one for infinitely many degrees of freedom.
+    """Quantile of Student's distribution, probability in (0.5, 1); the normal one for infinitely many degrees of
+    freedom.
 
-    Through the incomplete beta function, to 1e-14; scipy.special.stdtrit has errors of 1e-11 and scipy.stats loads slowly.
+    Through the incomplete beta function, to 1e-14; scipy.special.stdtrit has errors of 1e-11 and scipy.stats loads
+    slowly.
     """
     if math.isinf(degrees_of_freedom):
         return float(ndtri(probability))
@@ -56,8 +58,9 @@ def statistics(values: Sequence[float]) -> Statistics:
 def line_statistics(degrees: Sequence[float]) -> Statistics:
     """The same for angles of lines [degrees], which repeat after 180.
 
-    The mean is half the direction of the sum of the doubled unit vectors, in (-90, 90]. The deviation is that of the rotations
-    from it. NaN if the lines have no mean direction. Source: Mardia and Jupp, Directional Statistics (2000), section 2.2.
+    The mean is half the direction of the sum of the doubled unit vectors, in (-90, 90]. The deviation is that of the
+    rotations from it. NaN if the lines have no mean direction. Source: Mardia and Jupp, Directional Statistics (2000),
+    section 2.2.
     """
     x = known(degrees)
     total = np.exp(1j * np.radians(2 * x)).sum()
@@ -89,8 +92,8 @@ class Difference:
     difference_90: Interval
 
     def with_errors(self, errors: Sequence[tuple[float, float]]) -> Difference:
-        """Intervals that hold further independent errors: (standard uncertainty, degrees of freedom). Half widths add in squares
-        (Abernethy, Benedict and Dowdell, J. Fluids Eng. 107 (1985) 161)."""
+        """Intervals that hold further independent errors: (standard uncertainty, degrees of freedom). Half widths add
+        in squares (Abernethy, Benedict and Dowdell, J. Fluids Eng. 107 (1985) 161)."""
         def wider(found: Interval, confidence: float) -> Interval:
             more = [student_quantile((1 + confidence) / 2, freedom) * u for u, freedom in errors]
             return Interval(found.value, found.value - math.hypot(found.value - found.low, *more),
@@ -100,8 +103,8 @@ class Difference:
     def verdict(self, margin: float) -> str:
         """ "equivalent", "different" or "cannot tell".
 
-        Equivalent by two one-sided tests at 5 %: the 90 % interval lies within (-margin, margin). Different: the 95 % interval
-        lies beyond the margin. Source: Schuirmann, J. Pharmacokinet. Biopharm. 15 (1987) 657.
+        Equivalent by two one-sided tests at 5 %: the 90 % interval lies within (-margin, margin). Different: the 95 %
+        interval lies beyond the margin. Source: Schuirmann, J. Pharmacokinet. Biopharm. 15 (1987) 657.
         """
         if self.difference_90.low > -margin and self.difference_90.high < margin:
             return "equivalent"
@@ -111,10 +114,10 @@ class Difference:
 def paired(first: Sequence[float], second: Sequence[float], kind: str = "absolute") -> Difference:
     """The difference of two lists whose entries k belong to one sample. Pairs without both values do not count.
 
-    kind  "absolute": second - first; "line": the rotation [degrees]; "relative": (mean of second) / (mean of first) - 1 with
-          Fieller's interval, in which the scatter of the first counts, too. Its ends are NaN if the mean of the first does not
-          differ significantly from 0. Sources: Fieller, J. R. Stat. Soc. B 16 (1954) 175; Hauschke et al., J. Biopharm. Stat. 9
-          (1999) 89.
+    kind  "absolute": second - first; "line": the rotation [degrees]; "relative": (mean of second) / (mean of first) - 1
+          with Fieller's interval, in which the scatter of the first counts, too. Its ends are NaN if the mean of the
+          first does not differ significantly from 0. Sources: Fieller, J. R. Stat. Soc. B 16 (1954) 175; Hauschke et
+          al., J. Biopharm. Stat. 9 (1999) 89.
     """
     a, b = np.asarray(first, float), np.asarray(second, float)
     both = np.isfinite(a) & np.isfinite(b)
@@ -126,7 +129,8 @@ def paired(first: Sequence[float], second: Sequence[float], kind: str = "absolut
 
 
 def _fieller(a: np.ndarray, b: np.ndarray, confidence: float) -> Interval:
-    """The ratios q that Student's test of mean(b - q a) = 0 does not reject, less 1: between the roots of a parabola."""
+    """The ratios q that Student's test of mean(b - q a) = 0 does not reject, less 1: between the roots of a
+    parabola."""
     n, (mean_a, mean_b) = len(a), (statistics(a).mean, statistics(b).mean)
     value = mean_b / mean_a - 1 if mean_a != 0 else math.nan
     if n < 2:
@@ -151,8 +155,9 @@ class Convergence(NamedTuple):
 def fit_convergence(h: Sequence[float], values: Sequence[float]) -> Convergence | None:
     """Least squares over orders from 1/4 to 6 in steps of 0.01, for at least three different h > 0.
 
-    None if the values follow no power law: the best order is at an end of the range, the rms residual exceeds a twentieth of
-    the values' range, or all values are equal. Source: Roache, J. Fluids Eng. 116 (1994) 405: the order is to be observed.
+    None if the values follow no power law: the best order is at an end of the range, the rms residual exceeds a
+    twentieth of the values' range, or all values are equal. Source: Roache, J. Fluids Eng. 116 (1994) 405: the order is
+    to be observed.
     """
     sizes, y = np.asarray(h, float), np.asarray(values, float)
     if len(np.unique(sizes)) < 3 or not np.ptp(y) > 0:
@@ -170,7 +175,8 @@ def fit_convergence(h: Sequence[float], values: Sequence[float]) -> Convergence 
 
 
 def jackknife_convergence(h: Sequence[float], values: np.ndarray) -> tuple[Interval, Interval, float] | None:
-    """(order, limit, coefficient) of values (points, samples), with intervals from leaving out one sample at a time (Tukey).
+    """(order, limit, coefficient) of values (points, samples), with intervals from leaving out one sample at a time
+    (Tukey).
 
     They are unknown below three samples, or if there is no power law without one of them.
     """
@@ -183,3 +189,11 @@ def jackknife_convergence(h: Sequence[float], values: np.ndarray) -> tuple[Inter
         half = student_quantile(0.975, n - 1) * (n - 1) / math.sqrt(n) * np.std(parts, axis=0, ddof=1)
     limit, _, order = (Interval(value, value - reach, value + reach) for value, reach in zip(fit, half))
     return order, limit, fit.coefficient
+
+
+def words_of(verdict: dict[str, Any]) -> str:
+    """A verdict of ensemble.json with its margin, such as "equivalent within 5 %"."""
+    margin = f"{100 * verdict['margin']:g} %" if verdict["relative"] else f"{verdict['margin']:g}"
+    words = {"equivalent": f"equivalent within {margin}", "different": f"different by more than {margin}",
+             "cannot tell": f"cannot tell (margin {margin})"}[verdict["verdict"]]
+    return words if verdict["n"] else "not in both panels"

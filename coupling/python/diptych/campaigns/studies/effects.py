@@ -18,8 +18,8 @@ from .points import Point
 from ..runs.statistics import line_statistics, line_turn, statistics
 from .study_file import Family, Study
 
-PANELS = {"discrete": "grains", "continuum": "continuum", "difference": "difference", "material_point": "material point",
-          "comparison": "comparison"}
+PANELS = {"discrete": "grains", "continuum": "continuum", "difference": "difference",
+          "material_point": "material point", "comparison": "comparison"}
 MOST_SAMPLES = 1000
 _ROUNDING = 1e-10  # smaller changes, relative to the values, are none
 _WIDEST_TABLE = 6  # points in a row of the terminal
@@ -28,9 +28,9 @@ _WIDEST_TABLE = 6  # points in a row of the terminal
 def change_between(values: np.ndarray) -> tuple[Interval, float]:
     """values (points, samples), all finite. Largest minus smallest mean with the interval +- q s / sqrt(n); and s.
 
-    s: residual standard deviation after the means of points and samples are removed; q: quantile of the studentized range,
-    which covers all pairs of points at once. With two points this is Student's interval of the paired differences.
-    Source: Tukey's method; Montgomery, Design and Analysis of Experiments (2017), sections 3.5 and 4.1.
+    s: residual standard deviation after the means of points and samples are removed; q: quantile of the studentized
+    range, which covers all pairs of points at once. With two points this is Student's interval of the paired
+    differences. Source: Tukey's method; Montgomery, Design and Analysis of Experiments (2017), sections 3.5 and 4.1.
     """
     k, n = values.shape
     means = values.mean(axis=1)
@@ -74,7 +74,8 @@ def _parameters(family: Family) -> list[tuple[str, list[str]]]:
     if family.grid:
         return [(axis.name, [point.label for point in axis.points]) for axis in family.axes]
     return [(", ".join(axis.name for axis in family.axes),
-             [", ".join(point.label for point in together) for together in zip(*(axis.points for axis in family.axes))])]
+             [", ".join(point.label for point in together)
+              for together in zip(*(axis.points for axis in family.axes))])]
 
 
 def _complete(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -86,8 +87,8 @@ def _complete(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def changes_of(study: Study, points: Sequence[Point], records: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Changes along every parameter as study.json has them; other parameters are averaged over. Quantities with values at less
-    than two points are left out."""
+    """Changes along every parameter as study.json has them; other parameters are averaged over. Quantities with values
+    at less than two points are left out."""
     changes = []
     for f, family in enumerate(study.families):
         mine = [record for point, record in zip(points, records) if point.family == f]
@@ -108,7 +109,8 @@ def _change(quantity: dict[str, Any], values: np.ndarray, labels: Sequence[str])
     """values (levels, others, samples), all finite"""
     if not values.size:
         return {"smallest": math.nan, "smallest_at": "", "largest": math.nan, "largest_at": "",
-                "change": Interval(math.nan, math.nan, math.nan), "samples": 0, "verdict": "unknown", "samples_needed": math.nan}
+                "change": Interval(math.nan, math.nan, math.nan), "samples": 0, "verdict": "unknown",
+                "samples_needed": math.nan}
     centre = line_statistics(values.ravel()).mean if quantity["line"] else 0.0
     turned = (line_turn(values, centre) if quantity["line"] else values).mean(axis=1)
     change, s = change_between(turned)
@@ -128,9 +130,10 @@ def effects_table(study: Study, points: Sequence[Point], records: Sequence[dict[
         family = study.families[point.family]
         places = [axis.points[k] for axis, k in zip(family.axes, point.places)]
         of_point = {"family": family.name} if len(study.families) > 1 else {}
-        of_point |= {axis.name: place.label if math.isnan(place.value) else place.value for axis, place in zip(family.axes, places)}
-        rows += [{**of_point, "quantity": quantity["name"], "panel": PANELS[quantity["source"]], "unit": quantity["unit"],
-                  **{key: value for key, value in found.items() if key != "values"}}
+        of_point |= {axis.name: place.label if math.isnan(place.value) else place.value for axis,
+                     place in zip(family.axes, places)}
+        rows += [{**of_point, "quantity": quantity["name"], "panel": PANELS[quantity["source"]],
+                  "unit": quantity["unit"], **{key: value for key, value in found.items() if key != "values"}}
                  for quantity, found in zip(study.quantities, record["quantities"])]
     table = pd.DataFrame(rows)
     last = ["quantity", "panel", "unit", "n", "mean", "low", "high", "deviation"]
@@ -151,9 +154,11 @@ def text_of_means(study: Study, points: Sequence[Point], records: Sequence[dict[
     one = len(study.families) == 1
     names = [("" if one else study.families[point.family].name + ": ") + ", ".join(point.labels) for point in points]
     axes = ", ".join(axis.name for axis in study.families[0].axes) if one else ""
-    rows = {text_of_quantity(q): [_shown(record["quantities"][k]) for record in records] for k, q in enumerate(study.quantities)}
+    rows = {text_of_quantity(q): [_shown(record["quantities"][k]) for record in records] for k,
+            q in enumerate(study.quantities)}
     table = pd.DataFrame.from_dict(rows, orient="index", columns=names).rename_axis(columns=axes)
-    return "means" + (" and half widths of their 95 % intervals" if len(study.seeds) > 1 else "") + "\n" + table.to_string()
+    return "means" + (" and half widths of their 95 % intervals" if len(study.seeds) > 1
+                      else "") + "\n" + table.to_string()
 
 
 def text_of_quantity(quantity: dict[str, Any]) -> str:
@@ -163,7 +168,8 @@ def text_of_quantity(quantity: dict[str, Any]) -> str:
 
 
 def text_of_changes(study: Study, changes: Sequence[dict[str, Any]]) -> list[str]:
-    """ "discrete/friction, not resolved: peak t/s (grains needs about 14 samples)"; one line per verdict and parameter."""
+    """ "discrete/friction, not resolved: peak t/s (grains needs about 14 samples)"; one line per verdict and
+    parameter."""
     if len(study.seeds) < 2:
         return ["one sample has no scatter to compare a change with" +
                 ("" if study.command == "continuum" else "; at least two are needed, such as --seeds 1-4")]
@@ -187,5 +193,6 @@ _VERDICTS = {"unknown": "unknown, since fewer than two samples have a value at e
 def _needs(change: dict[str, Any]) -> str:
     if change["verdict"] != "not resolved":
         return ""
-    needed = f"about {change['samples_needed']:.0f}" if math.isfinite(change["samples_needed"]) else f"more than {MOST_SAMPLES}"
+    n = change["samples_needed"]
+    needed = f"about {n:.0f}" if math.isfinite(n) else f"more than {MOST_SAMPLES}"
     return f" needs {needed} samples"

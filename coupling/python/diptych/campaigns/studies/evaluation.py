@@ -41,12 +41,13 @@ def _quantity_at(quantity: dict[str, Any], reference: list[float], values: list[
     found, of_reference, here = paired(reference, values, kind), average(reference), average(values)
     scatter = of_reference.deviation / abs(of_reference.mean) if quantity["relative"] else of_reference.deviation
     verdict = ""
-    if quantity["limit"] is not None and found.n == 0:  # if only the reference has a value, the point is beyond any limit
+    # if only the reference has a value, the point is beyond any limit
+    if quantity["limit"] is not None and found.n == 0:
         verdict = "beyond" if len(known(reference)) else "cannot tell"
     elif quantity["limit"] is not None:
         verdict = _verdict(quantity["limit"], found.difference, alone)
-    return {"values": values, "mean": here.mean, "deviation": here.deviation, "pairs": found.n, "error": found.difference,
-            "scatter": scatter, "verdict": verdict}
+    return {"values": values, "mean": here.mean, "deviation": here.deviation, "pairs": found.n,
+            "error": found.difference, "scatter": scatter, "verdict": verdict}
 
 
 def _classify(study: Study, runs: Sequence[RunResult], point: dict[str, Any]) -> tuple[str, bool]:
@@ -70,8 +71,8 @@ def _classify(study: Study, runs: Sequence[RunResult], point: dict[str, Any]) ->
 
 def evaluate(study: Study, points: Sequence[Point], results: Results,
              limits: Sequence[Sequence[Limit]] | None = None) -> list[dict[str, Any]]:
-    """The points as study.json has them: errors are point minus reference, sample by sample. Without a reference: means.
-    limits: [point][last quantities], two-level means."""
+    """The points as study.json has them: errors are point minus reference, sample by sample. Without a reference:
+    means. limits: [point][last quantities], two-level means."""
     records = []
     for point, runs in zip(points, results):
         values = [[run.values[q] for run in runs] for q in range(len(study.quantities))]
@@ -87,7 +88,8 @@ def evaluate(study: Study, points: Sequence[Point], results: Results,
         else:
             of_reference = [[run.values[q] for run in results[point.reference]] for q in range(len(study.quantities))]
             record["reference"] = point.reference
-            record["quantities"] = [_quantity_at(*one, not study.seeds) for one in zip(study.quantities, of_reference, values)]
+            record["quantities"] = [_quantity_at(*one, not study.seeds)
+                                    for one in zip(study.quantities, of_reference, values)]
             record["class"], record["certain"] = _classify(study, runs, record)
         records.append(record)
     return records
@@ -138,8 +140,8 @@ def _mark_fronts(study: Study, records: Sequence[dict[str, Any]], rivals: list[d
 
 def _cheapest(study: Study, records: Sequence[dict[str, Any]], rivals: list[dict[str, Any]],
               reference: int) -> list[dict[str, Any]]:
-    """The cheapest rival within each accuracy: 5, 2 and 1 % for relative errors; 2.5, 1 and 0.5 times the limit for absolute
-    errors and for all quantities together. Without any limit there is none."""
+    """The cheapest rival within each accuracy: 5, 2 and 1 % for relative errors; 2.5, 1 and 0.5 times the limit for
+    absolute errors and for all quantities together. Without any limit there is none."""
     def found(name: str, accuracy: float, wanted: list[tuple[int, float]]) -> dict[str, Any]:
         fit = []
         for one in rivals:
@@ -162,8 +164,8 @@ def _cheapest(study: Study, records: Sequence[dict[str, Any]], rivals: list[dict
 
 def cost_of(study: Study, points: Sequence[Point], results: Results, records: Sequence[dict[str, Any]],
             more: dict[str, RunResult]) -> dict[str, Any]:
-    """study_cost.json: CPU times of finished points, Pareto fronts and cheapest points. References do not compete. more: runs by
-    name that count only in the total."""
+    """study_cost.json: CPU times of finished points, Pareto fronts and cheapest points. References do not compete.
+    more: runs by name that count only in the total."""
     counts: Callable[[str], bool] = lambda name: name in study.cost if study.cost else name != "report"
     pairs = [(run.name, result) for point, row in zip(points, results) for run, result in zip(point.runs, row)]
     ended = list(({name: result for name, result in reversed(pairs)} | more).values())  # points may share runs
@@ -172,7 +174,8 @@ def cost_of(study: Study, points: Sequence[Point], results: Results, records: Se
     cheapest = []
     for reference in range(len(points)):
         # A point that is its own reference has no error and must not compete.
-        rivals = [one for one in costs if points[one["point"]].family >= 0 and points[one["point"]].reference == reference
+        rivals = [one for one in costs if points[one["point"]].family >= 0 and points[one["point"]].reference
+                  == reference
                   and records[one["point"]]["folders"] != records[reference]["folders"]]
         if rivals:
             _mark_fronts(study, records, rivals)

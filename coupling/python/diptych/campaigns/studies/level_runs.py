@@ -1,7 +1,7 @@
 # diptych: --levels: the fine runs of two-level means, for ensembles and studies
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Every sample runs at the cheap discrete/accuracy. The first samples run once more, grains only, at the fine one; pilot pairs
-tell how many. levels.py has the statistics."""
+"""Every sample runs at the cheap discrete/accuracy. The first samples run once more, grains only, at the fine one;
+pilot pairs tell how many. levels.py has the statistics."""
 
 from __future__ import annotations
 
@@ -15,13 +15,12 @@ import numpy as np
 from ... import _diptych
 from ...errors import SceneError, Stopped
 from ..runs.engine import Options, say
-from ..ensembles.summary import words_of
 from ..runs.folders import Runs, SceneRun, read_json
 from ..runs.input_file import Setting
 from ..runs.key_numbers import OF_PANEL
 from .levels import CHEAP, FINE, LEAST_PAIRS, MOST_RATIO, Limit, limit_of, variances, weight_of
 from .points import RunResult, on_sample, points_of, result_of, scene_run
-from ..runs.statistics import Difference, Interval, known
+from ..runs.statistics import Difference, Interval, known, words_of
 from .study_file import Study, key_quantity
 
 IN_THE_LIMIT = ", limit of short steps"
@@ -40,7 +39,8 @@ class Levels(NamedTuple):
 
 
 def read_levels(text: str, n_samples: int) -> Levels | None:
-    """--levels: "auto" or two accuracies such as "0.05,0.01"; None without it. Raises SceneError, also for a single sample."""
+    """--levels: "auto" or two accuracies such as "0.05,0.01"; None without it. Raises SceneError, also for a single
+    sample."""
     if text and n_samples < 2:
         raise SceneError(f"--levels {text} needs at least two samples, for example --seeds 1-16", "--levels")
     if text in ("", "auto"):
@@ -50,8 +50,8 @@ def read_levels(text: str, n_samples: int) -> Levels | None:
     except ValueError:
         cheap = fine = math.nan
     if not (0.001 <= fine <= CLOSEST * cheap and cheap <= 0.05):
-        raise SceneError(f"--levels {text} is not allowed; write auto, or two values of discrete/accuracy from 0.05 to 0.001, "
-                         f"the second at most {CLOSEST} times the first, such as 0.05,0.01", "--levels")
+        raise SceneError(f"--levels {text} is not allowed; write auto, or two values of discrete/accuracy from 0.05 to "
+                         "0.001, " f"the second at most {CLOSEST} times the first, such as 0.05,0.01", "--levels")
     return Levels(cheap, fine)
 
 
@@ -60,7 +60,8 @@ def demand_rule(scene: Any, levels: Levels) -> None:
     keys = scene.dict()["discrete"]
     for key, needed in (("method", "nscd"), ("step", "auto"), ("tolerance", "auto")):
         if keys[key] != needed:
-            raise SceneError(f"--levels needs discrete/{key} = {needed}, and the scene has {keys[key]}", f"discrete/{key}")
+            raise SceneError(f"--levels needs discrete/{key} = {needed}, and the scene has {keys[key]}",
+                             f"discrete/{key}")
     if not math.isclose(keys["accuracy"], levels.cheap):
         raise SceneError("--levels sets discrete/accuracy; do not vary it", "discrete/accuracy")
 
@@ -78,7 +79,8 @@ def _column(results: Sequence[RunResult], q: int, n: int) -> list[float]:
 
 def _ratio(cheap: Sequence[RunResult], fine: Sequence[RunResult]) -> float:
     """Expected error of the fine runs / that of the cheap ones; NaN if unknown or too close to 1."""
-    below, above = (known([run.expected_error.get("strength", math.nan) for run in results]) for results in (fine, cheap))
+    below, above = (known([run.expected_error.get("strength", math.nan) for run in results])
+                    for results in (fine, cheap))
     ratio = below.mean() / above.mean() if len(below) and len(above) else math.nan
     return float(ratio) if ratio <= MOST_RATIO else math.nan
 
@@ -86,7 +88,8 @@ def _ratio(cheap: Sequence[RunResult], fine: Sequence[RunResult]) -> float:
 class PairedPoint:
     """The runs of one point: all samples at the cheap accuracy, the first ones also at the fine one."""
 
-    def __init__(self, cheap: Sequence[RunResult], fine: Sequence[RunResult], quantities: Sequence[dict[str, Any]]) -> None:
+    def __init__(self, cheap: Sequence[RunResult], fine: Sequence[RunResult],
+                 quantities: Sequence[dict[str, Any]]) -> None:
         self.cheap, self.fine, self.quantities, self.ratio = cheap, fine, quantities, _ratio(cheap, fine)
 
     def _values(self) -> dict[int, tuple[list[float], list[float]]]:
@@ -96,8 +99,9 @@ class PairedPoint:
                 for q, asked in enumerate(self.quantities) if has_rule(asked)}
 
     def pairs_wanted(self) -> int:
-        """Pairs that give the smallest error for the cost, for the quantity that needs most of them. The cost of grains is about
-        inverse to their expected error (benchmarks/rigid_limit); measured times would make results depend on the machine."""
+        """Pairs that give the smallest error for the cost, for the quantity that needs most of them. The cost of grains
+        is about inverse to their expected error (benchmarks/rigid_limit); measured times would make results depend on
+        the machine."""
         shares = [0.0]
         for x, y in self._values().values():
             if len(known(np.subtract(x, y))) > 1 and not math.isnan(self.ratio):
@@ -115,7 +119,8 @@ def paired_points(runs: Runs, fine: Sequence[Sequence[SceneRun]], cheap: Sequenc
     """Runs the pairs. fine, cheap: [point][sample]. Raises Stopped on a stop request."""
     n, pairs = len(fine[0]), min(LEAST_PAIRS, len(fine[0]))
     while True:
-        if any(outcome.interrupted for outcome in runs.do([run for of_point in fine for run in of_point[:pairs]], options)):
+        if any(outcome.interrupted for outcome in runs.do([run for of_point in fine for run in of_point[:pairs]],
+                                                          options)):
             raise Stopped(f"stopped on request, finished runs are kept in {runs.directory}; to go on: {options.again}")
         results = [[result_of(runs, run, quantities) for run in of_point[:pairs]] for of_point in fine]
         points = [PairedPoint(*both, quantities) for both in zip(cheap, results)]
@@ -124,8 +129,8 @@ def paired_points(runs: Runs, fine: Sequence[Sequence[SceneRun]], cheap: Sequenc
             if not any(run.known and run.exit_code == 0 for run in ended):
                 raise SceneError("--levels: no run with the fine step finished; the first ended with: "
                                  + ended[0].words, "--levels")
-            raise SceneError("--levels: both accuracies give nearly the same step (step and step_bound in provenance.json). "
-                             "Give a finer second accuracy, or leave --levels out", "--levels")
+            raise SceneError("--levels: both accuracies give nearly the same step (step and step_bound in "
+                             "provenance.json). Give a finer second accuracy, or leave --levels out", "--levels")
         wanted = min(n, max(point.pairs_wanted() for point in points))
         if wanted <= pairs:
             say(options, f"limit of short steps: {pairs} of {n} samples also with the fine step")
@@ -186,11 +191,14 @@ def add_summary(record: dict[str, Any], levels: dict[str, Any]) -> None:
 
 def _compared(found: dict[str, Any], verdict: dict[str, Any],
               errors: Sequence[tuple[float, float]]) -> tuple[Interval, Interval, str]:
-    """The limit, continuum minus limit, and its verdict. errors: those of the continuum, as Difference.with_errors() has them.
+    """The limit, continuum minus limit, and its verdict. errors: those of the continuum, as Difference.with_errors()
+    has them.
 
-    Both panels share the samples, so continuum - factor x grains has a limit of its own. With the factor q = continuum / limit
-    it is 0. Its interval divided by the limit is that of the relative difference q - 1, with the scatter of the grains."""
-    continuum, cheap, fine = (np.array(values, float) for values in (verdict["continuum"], verdict["discrete"], found["fine"]))
+    Both panels share the samples, so continuum - factor x grains has a limit of its own. With the factor q = continuum
+    / limit it is 0. Its interval divided by the limit is that of the relative difference q - 1, with the scatter of the
+    grains."""
+    continuum, cheap, fine = (np.array(values, float) for values in (verdict["continuum"], verdict["discrete"],
+                                                                     found["fine"]))
 
     def difference(factor: float) -> Difference:
         both = [limit_of(continuum - factor * cheap, continuum - factor * fine, found["ratio"], confidence).limit
@@ -202,14 +210,15 @@ def _compared(found: dict[str, Any], verdict: dict[str, Any],
         return grains, absolute.difference, absolute.verdict(verdict["margin"])
     factor = 1 + absolute.difference.value / grains.value
     at_zero, scale = difference(factor), abs(grains.value)
-    relative = [Interval(*(factor - 1 + end / scale for end in one)) for one in (at_zero.difference, at_zero.difference_90)]
+    relative = [Interval(*(factor - 1 + end / scale for end in one))
+                for one in (at_zero.difference, at_zero.difference_90)]
     return grains, absolute.difference, Difference(verdict["n"], *relative).verdict(verdict["margin"])
 
 
 def study_levels(study: Study, results: Sequence[Sequence[RunResult]], levels: Levels, runs: Runs,
                  options: Options) -> tuple[list[list[RunResult]], list[list[Limit]], dict[str, RunResult]]:
-    """Runs the pairs of a study without a reference. Each quantity that has a rule gets a second one, in the limit. Its values
-    are the pairs, extrapolated sample by sample. Returns copies of the results with these values, the limits
+    """Runs the pairs of a study without a reference. Each quantity that has a rule gets a second one, in the limit. Its
+    values are the pairs, extrapolated sample by sample. Returns copies of the results with these values, the limits
     [point][new quantity], and the fine runs by name."""
     fine = points_of(replace(study, settings=[*study.settings, levels.setting("fine")], command="discrete"))
     paired = paired_points(runs, [point.runs for point in fine], results, study.quantities, options)

@@ -1,18 +1,20 @@
 # diptych: means in the limit of short steps from many cheap samples and a few pairs with a finer setting
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Two-level means. X[i] is the value of sample i at a cheap setting (long steps), i = 1 ... N. Y[i] is that of the same sample
-at a fine setting, for n of the samples. Both settings have a bias, which is proportional to an expected error e, the entry
-expected_strength_error of provenance.json. It serves the dilation, too: its bias has two parts, which both fall with
-discrete/accuracy nearly as e does, but with opposite signs, so that the ratio of their sums would say nothing. With
-r = e(fine) / e(cheap) the estimate of the limit is
+"""Two-level means. X[i] is the value of sample i at a cheap setting (long steps), i = 1 ... N. Y[i] is that of the same
+sample at a fine setting, for n of the samples. Both settings have a bias, which is proportional to an expected error e,
+the entry expected_strength_error of provenance.json. It serves the dilation, too: its bias has two parts, which both
+fall with discrete/accuracy nearly as e does, but with opposite signs, so that the ratio of their sums would say
+nothing. With r = e(fine) / e(cheap) the estimate of the limit is
 
     mean of X over all N  -  w x mean of (X - Y) over the n pairs,     w = 1 / (1 - r).
 
-The first mean has the scatter of the samples, which falls with N; the second has only that of the differences. The variance of
-the estimate is v_many / N + v_pairs / n with v_many = var X - 2 w cov(X, X - Y) and v_pairs = w^2 var(X - Y). For a given cost
-it is least if n / N = sqrt((v_pairs / c_fine) / (v_many / c_cheap)), where c are the costs of one run.
+The first mean has the scatter of the samples, which falls with N; the second has only that of the differences. The
+variance of the estimate is v_many / N + v_pairs / n with v_many = var X - 2 w cov(X, X - Y) and v_pairs = w^2 var(X -
+Y). For a given cost it is least if n / N = sqrt((v_pairs / c_fine) / (v_many / c_cheap)), where c are the costs of one
+run.
 
-Sources: Giles, Operations Research 56 (2008) 607 (levels, numbers); Lemaire and Pages, Bernoulli 23 (2017) 2643 (weights).
+Sources: Giles, Operations Research 56 (2008) 607 (levels, numbers); Lemaire and Pages, Bernoulli 23 (2017) 2643
+(weights).
 """
 
 from __future__ import annotations
@@ -67,7 +69,8 @@ class Variances(NamedTuple):
 
 
 def _half_interval(pairs: tuple[float, int], rest: tuple[float, int], order: float, confidence: float = 0.95) -> float:
-    """pairs, rest: (variance of their part, number of samples that tell it). Degrees of freedom by Welch and Satterthwaite."""
+    """pairs, rest: (variance of their part, number of samples that tell it). Degrees of freedom by Welch and
+    Satterthwaite."""
     square, probability = pairs[0] + rest[0], (1 + confidence) / 2
     of_order = student_quantile(probability, math.inf) * order
     if square == 0:
@@ -84,8 +87,8 @@ def _pairs(cheap: Sequence[float], fine: Sequence[float]) -> tuple[np.ndarray, n
 
 
 def variances(cheap: Sequence[float], fine: Sequence[float], ratio: float) -> Variances:
-    """cheap, fine: as in limit_of(), at least two pairs. cov(X, X - Y) is taken as var(X - Y) / 2: the runs of a sample diverge
-    by chance, equally far at both settings. The covariance of a few pairs would be too uncertain."""
+    """cheap, fine: as in limit_of(), at least two pairs. cov(X, X - Y) is taken as var(X - Y) / 2: the runs of a sample
+    diverge by chance, equally far at both settings. The covariance of a few pairs would be too uncertain."""
     known, x, y = _pairs(cheap, fine)
     return predicted(float(known.var(ddof=1)), float((x - y).var(ddof=1)), ratio, float((x - y).mean()))
 
@@ -97,7 +100,8 @@ def predicted(scatter: float, divergence: float, ratio: float, difference: float
 
 
 def numbers_for(found: Sequence[Variances], costs: tuple[float, float], half: float, most: int) -> tuple[int, int]:
-    """The cheapest (N, n) whose 95 % intervals are all narrower than +- half; (0, 0) if more than `most` samples are needed."""
+    """The cheapest (N, n) whose 95 % intervals are all narrower than +- half; (0, 0) if more than `most` samples are
+    needed."""
     share = max(one.share(costs) for one in found)
 
     def pairs(n: int) -> int:
@@ -127,8 +131,8 @@ class Limit:
 def limit_of(cheap: Sequence[float], fine: Sequence[float], ratio: float, confidence: float = 0.95) -> Limit:
     """The two-level mean. cheap, fine: values whose entries k belong to one sample; NaN where a sample has none.
 
-    The interval holds the scatter of the samples, that of the differences with its weight, their covariance and the order. NaN
-    for less than two pairs."""
+    The interval holds the scatter of the samples, that of the differences with its weight, their covariance and the
+    order. NaN for less than two pairs."""
     known, x, y = _pairs(cheap, fine)
     n, m, w = len(known), len(x), weight_of(ratio)
     if m < 2:

@@ -27,8 +27,8 @@ MOST_RUNS = 100000
 
 @dataclass(kw_only=True)
 class Point:
-    """One point. family -1: a reference. `reference` is the index of its reference point; a reference has its own index, and a
-    point of a study without references has -1."""
+    """One point. family -1: a reference. `reference` is the index of its reference point; a reference has its own
+    index, and a point of a study without references has -1."""
 
     family: int = -1
     reference: int = 0
@@ -39,7 +39,8 @@ class Point:
 
 
 def on_sample(settings: Sequence[Setting], seed: int | None, file: str) -> list[Setting]:
-    """The settings for one sample: the seed replaces {seed} in the values, or becomes sample/seed. file: gives the seeds."""
+    """The settings for one sample: the seed replaces {seed} in the values, or becomes sample/seed. file: gives the
+    seeds."""
     if seed is None:
         return list(settings)
     names_seed = any("{seed}" in setting.value for setting in settings)
@@ -53,7 +54,8 @@ def scene_run(scene: str, command: str, settings: Sequence[Setting]) -> SceneRun
     if command != "discrete":
         demand_continuum(command)
     try:
-        read = _diptych.read_changed_scene(scene, [*settings, Setting("output", "report", "false", "")], command == "run")
+        read = _diptych.read_changed_scene(scene, [*settings, Setting("output", "report", "false", "")],
+                                           command == "run")
         return SceneRun(command=command, name=run_name(read, command), scene=read)
     except SceneError as error:
         text = "".join(setting.text() + "\n" for setting in settings)
@@ -63,13 +65,15 @@ def scene_run(scene: str, command: str, settings: Sequence[Setting]) -> SceneRun
 def _point(study: Study, settings: list[Setting], **place: Any) -> Point:
     point = Point(**place, settings=[setting.text() for setting in settings])
     for seed in study.seeds or [None]:
-        point.runs.append(scene_run(study.scene, study.command, on_sample([*study.settings, *settings], seed, study.file)))
+        point.runs.append(scene_run(study.scene, study.command,
+                                    on_sample([*study.settings, *settings], seed, study.file)))
     return point
 
 
 def points_of(study: Study) -> list[Point]:
-    """References first: that of the study, then one for every point of axes with their own references. Then all families, the
-    last axis fastest. Raises SceneError if a reference or every point is refused, or if there are more than 100000 runs."""
+    """References first: that of the study, then one for every point of axes with their own references. Then all
+    families, the last axis fastest. Raises SceneError if a reference or every point is refused, or if there are more
+    than 100000 runs."""
     n = 1 + sum(math.prod(len(axis.points) for axis in family.axes) if family.grid else len(family.axes[0].points)
                 for family in study.families)
     n_samples = len(study.seeds) or 1
@@ -114,7 +118,8 @@ class RunResult:
     cut_backs: float = 0.0  # of the continuum
     sweeps: float = math.nan
     newton_iterations: float = math.nan
-    expected_error: dict[str, float] = field(default_factory=dict)  # of the grains, by the rule of the step: strength, dilation
+    # of the grains, by the rule of the step: strength, dilation
+    expected_error: dict[str, float] = field(default_factory=dict)
     load: float = math.nan  # of the machine at the end
     at_once: int = 1
     phases: list[dict[str, Any]] = field(default_factory=list)
@@ -159,7 +164,8 @@ def result_of(runs: Runs, run: SceneRun, quantities: Sequence[dict[str, Any]]) -
         numbers: dict[str, tuple[Any, ...]] = {}
         if any(q["source"] == "comparison" for q in quantities):
             numbers = member_of(os.path.join(folder, "comparison.json"), run.scene.is_mirror_symmetric()).numbers
-        keys = key_values(folder, run.scene, result.tables) if any(q["reduction"] == "key number" for q in quantities) else {}
+        keys = key_values(folder, run.scene, result.tables) if any(q["reduction"] == "key number"
+                                                                   for q in quantities) else {}
         result.values = [numbers.get(q["column"], (math.nan,))[0] if q["source"] == "comparison"
                          else keys.get((q["source"], q["key"]), math.nan) if q["reduction"] == "key number"
                          else reduced(result.tables.get(q["source"]), q) for q in quantities]

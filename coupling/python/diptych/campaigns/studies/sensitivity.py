@@ -1,7 +1,8 @@
 # diptych: global sensitivity of the quantities of a study: Sobol indices of sparse polynomials
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A study with `ranges` runs a Latin hypercube of points. For each quantity orthogonal polynomials are fitted to the values
-(polynomial chaos; Sudret, Reliab. Eng. Syst. Saf. 93, 2008); the squares of their coefficients are shares of the variance.
+"""A study with `ranges` runs a Latin hypercube of points. For each quantity orthogonal polynomials are fitted to the
+values (polynomial chaos; Sudret, Reliab. Eng. Syst. Saf. 93, 2008); the squares of their coefficients are shares of the
+variance.
 """
 
 from __future__ import annotations
@@ -32,8 +33,8 @@ _FIELDS = ("first", "first_low", "first_high", "total", "total_low", "total_high
 
 
 class Sobol(NamedTuple):
-    """first, total: an Interval per parameter. q2: share of the variance that polynomials predict at points that their fit has
-    not seen. degree: of the polynomials."""
+    """first, total: an Interval per parameter. q2: share of the variance that polynomials predict at points that their
+    fit has not seen. degree: of the polynomials."""
 
     first: list[Interval]
     total: list[Interval]
@@ -50,7 +51,8 @@ def need_openturns() -> None:
 
 @contextmanager
 def _ctrl_c_waits() -> Iterator[None]:
-    """Each function of openturns takes over Ctrl-C and then aborts the process. Ctrl-C waits, and its handler is put back."""
+    """Each function of openturns takes over Ctrl-C and then aborts the process. Ctrl-C waits, and its handler is put
+    back."""
     libc, handler = ctypes.CDLL(None), ctypes.create_string_buffer(256)  # larger than a struct sigaction
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     libc.sigaction(signal.SIGINT, None, handler)
@@ -92,8 +94,8 @@ def sobol_indices(points: Array, values: Array) -> Sobol:
 
 
 def _fitted(points: Array, values: Array, degree: int) -> tuple[Any, Array]:
-    """Sparse Legendre polynomials up to a total degree, chosen by least angles: their prediction as a function of points, and
-    the first and total shares (2, d) of its variance."""
+    """Sparse Legendre polynomials up to a total degree, chosen by least angles: their prediction as a function of
+    points, and the first and total shares (2, d) of its variance."""
     import openturns as ot  # optional
 
     ot.Log.Show(ot.Log.NONE)
@@ -115,7 +117,8 @@ def _fitted(points: Array, values: Array, degree: int) -> tuple[Any, Array]:
 
 
 def sensitivity_of(study: Study, results: Results, records: Sequence[dict[str, Any]]) -> dict[str, Any]:
-    """The entry `sensitivity` of study.json. A point has the mean of its samples; points without a value are left out."""
+    """The entry `sensitivity` of study.json. A point has the mean of its samples; points without a value are left
+    out."""
     finished = np.array([is_finished(runs) for runs in results])
     failed = sum(any(run.exit_code for run in runs) for runs in results)
     indices = []
@@ -139,7 +142,8 @@ def _indices_of(ranges: Sequence[Parameter], points: Array, values: Array, is_li
         found = sobol_indices(points, values)
     return {"q2": found.q2, "degree": found.degree, "mean": values.mean() if len(values) else math.nan,
             "deviation": values.std(ddof=1) if len(values) > 1 else math.nan,
-            "parameters": [{"parameter": p.key, "first": first, "total": total, "correlation": _rank_correlation(x, values)}
+            "parameters": [{"parameter": p.key, "first": first, "total": total,
+                            "correlation": _rank_correlation(x, values)}
                            for p, first, total, x in zip(ranges, found.first, found.total, points.T)]}
 
 
@@ -156,13 +160,16 @@ def sensitivity_table(record: dict[str, Any]) -> pd.DataFrame:
 
 
 def text_of_indices(study: Study, record: dict[str, Any]) -> list[str]:
-    """ "peak t/s, continuum (128 of 128 points, Q2 0.982): friction_angle_peak 0.79 [0.74, 0.84], ..."; largest first."""
-    lines = ["total indices from 0.01: the share of the variance that a parameter causes alone and together with others"]
+    """ "peak t/s, continuum (128 of 128 points, Q2 0.982): friction_angle_peak 0.79 [0.74, 0.84], ..."; largest
+    first."""
+    lines = ["total indices from 0.01: the share of the variance that a parameter causes alone and together with "
+             "others"]
     for quantity, one in zip(study.quantities, record["indices"]):
         ranked = sorted(((p["total"], p["parameter"].partition("/")[2]) for p in one["parameters"]), reverse=True)
-        found = ", ".join(f"{name} {value:.2f}{ends_text(low, high, '{:.2f}'.format)}" for (value, low, high), name in ranked if value >= 0.01)
+        found = ", ".join(f"{name} {value:.2f}{ends_text(low, high, '{:.2f}'.format)}" for (value, low, high),
+                          name in ranked if value >= 0.01)
         lines.append(f"{text_of_quantity(quantity)} ({one['used']} of {record['points']} points, Q2 {one['q2']:.3f}): "
-                     + (found or f"none, since fewer than {FEWEST_SAMPLES} points have a value or all values are equal"))
+                     + (found or f"none, since fewer than {FEWEST_SAMPLES} points have a value or all are equal"))
     return lines
 
 
@@ -172,9 +179,9 @@ def warnings_of(record: dict[str, Any]) -> list[str]:
     for one in record["indices"]:
         name = f"{one['quantity']}, {one['panel']}"
         if one["used"] < record["points"]:
-            found.append(f"{name}: {record['points'] - one['used']} of {record['points']} points are left out: {one['failed']} "
-                         f"failed, {one['without_value']} have no value")
+            found.append(f"{name}: {record['points'] - one['used']} of {record['points']} points are left out: "
+                         f"{one['failed']} failed, {one['without_value']} have no value")
         if one["q2"] < ENOUGH:
-            found.append(f"{name}: the polynomials predict only {one['q2']:.0%} of the variance (Q2); give more samples or "
-                         "narrower ranges before you trust the indices")
+            found.append(f"{name}: the polynomials predict only {one['q2']:.0%} of the variance (Q2); give more "
+                         "samples or narrower ranges before you trust the indices")
     return found

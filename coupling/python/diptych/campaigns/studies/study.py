@@ -1,6 +1,7 @@
 # diptych: the command study: many points of a scene, each on every sample
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Runs the points of a study, evaluates them and writes study.json, study.csv, study_cost.json, study.h5 and report.html.
+"""Runs the points of a study, evaluates them and writes study.json, study.csv, study_cost.json, study.h5 and
+report.html.
 
 A study without a reference also writes effects.csv, one with ranges sensitivity.csv.
 """
@@ -31,23 +32,25 @@ from ..runs.statistics import line_turn, student_quantile
 from .study_file import COMMANDS, Study
 from .study_words import levels_of_words, study_of_words
 
-_CURVES = (("stress_ratio", "stress ratio t/s", "running mean, averaged over the samples, one row per point; nan if a sample "
-            "has no value"),
-           ("volumetric_strain", "volumetric strain", "running mean, averaged over the samples, one row per point; dilation "
-            "negative; nan beyond the end of a history"))
+_CURVES = (("stress_ratio", "stress ratio t/s", "running mean, averaged over the samples, one row per point; nan if a "
+            "sample has no value"),
+           ("volumetric_strain", "volumetric strain", "running mean, averaged over the samples, one row per point; "
+            "dilation negative; nan beyond the end of a history"))
 
 
 def study_record(study: Study, points: Sequence[Point], records: Sequence[dict[str, Any]]) -> dict[str, Any]:
     """study.json. It does not depend on when, where or in which order the points ran."""
     n = len(study.seeds)
     return {
-        "format": 1, "title": study.title, "name": study.name, "scene": os.path.basename(study.scene), "command": study.command,
-        "revision": _diptych.git_revision, "settings": [setting.text() for setting in study.settings], "seeds": study.seeds,
-        "student_t_95": student_quantile(0.975, n - 1) if n > 1 else math.nan,
+        "format": 1, "title": study.title, "name": study.name, "scene": os.path.basename(study.scene),
+        "command": study.command,
+        "revision": _diptych.git_revision, "settings": [setting.text() for setting in study.settings],
+        "seeds": study.seeds, "student_t_95": student_quantile(0.975, n - 1) if n > 1 else math.nan,
         "quantities": [{key: value for key, value in q.items() if key != "line"} for q in study.quantities],
         "families": [{"name": family.name, "grid": family.grid, "axes": [
             {"name": axis.name, "converges": axis.converges, "own_reference": axis.own_reference,
-             "points": [{"label": point.label, "value": point.value} for point in axis.points]} for axis in family.axes]}
+             "points": [{"label": point.label, "value": point.value} for point in axis.points]}
+            for axis in family.axes]}
                      for family in study.families],
         "borders": study.borders, "points": records, "orders": orders_of(study, points, records),
         "changes": changes_of(study, points, records) if study.reference is None and not study.ranges else []}
@@ -76,8 +79,10 @@ def study_csv(study: Study, points: Sequence[Point], results: Results, records: 
                 row |= {p.key: setting.partition(" = ")[2] for p, setting in zip(study.ranges, point.settings)}
                 row |= dict(zip(map(text_of_quantity, study.quantities), run.values))
             else:
-                for quantity, value, reference in zip(study.quantities, run.values, results[point.reference][sample].values):
-                    row |= {quantity["name"]: value, "error of " + quantity["name"]: _difference(quantity, value, reference)}
+                for quantity, value, reference in zip(study.quantities, run.values,
+                                                      results[point.reference][sample].values):
+                    row |= {quantity["name"]: value, "error of "
+                            + quantity["name"]: _difference(quantity, value, reference)}
             cpu_s = {phase["name"]: phase["cpu_s"] for phase in run.phases}
             rows.append({**row, **{f"cpu_s of {name}": cpu_s.get(name) for name in phases}})
     return pd.DataFrame(rows).to_csv(index=False, lineterminator="\n")
@@ -88,13 +93,16 @@ def write_curves(directory: str, study: Study, points: Sequence[Point], results:
     arrays, attributes = {}, {}
     width = next(run.scene for point in points for run in point.runs if run.scene is not None).averaging_width()
     for source in COMMANDS[study.command]:
-        tables = [[run.tables.get(source) if run.known and run.exit_code == 0 else None for run in runs] for runs in results]
-        last = max((table["progress"].iloc[-1] for of_point in tables for table in of_point if table is not None), default=0.0)
+        tables = [[run.tables.get(source) if run.known and run.exit_code == 0 else None for run in runs]
+                  for runs in results]
+        last = max((table["progress"].iloc[-1] for of_point in tables for table in of_point if table is not None),
+                   default=0.0)
         grid = last * np.arange(201) / 200
         arrays[source + "/progress"] = (grid, "progress", "strain or time", "points of the curves")
         attributes[source] = {"averaging_width": width}
         for name, title, meaning in _CURVES:
-            curves = [[np.full(len(grid), np.nan) if table is None else resampled(table, running_mean(table, name, width), grid)
+            curves = [[np.full(len(grid), np.nan) if table is None
+                       else resampled(table, running_mean(table, name, width), grid)
                        for table in of_point] for of_point in tables]
             arrays[f"{source}/{name}"] = (np.mean(curves, axis=1), title, "-", meaning)
     write_arrays(os.path.join(directory, "study.h5"), arrays, attributes)
@@ -126,12 +134,14 @@ def _conclude(study: Study, points: Sequence[Point], record: dict[str, Any], opt
         return f"{n} points"
     for quantity, found in zip(study.quantities, records[0]["quantities"]):
         if records[0]["class"] not in ("not run", "refused", "stopped") and not np.isfinite(found["values"]).any():
-            complain(f"diptych: warning: the reference has no value of '{quantity['name']}': a window beyond the end of the "
-                     "loading, or a number that no comparison has")
+            complain(f"diptych: warning: the reference has no value of '{quantity['name']}': a window beyond the end "
+                     "of the loading, or a number that no comparison has")
     counts = Counter(one["class"] for point, one in zip(points, records) if point.family >= 0)
     if all(q["limit"] is None for q in study.quantities):  # nothing was asked to be right
         counts["unjudged"] = 0
-    return ": ".join([f"{n} points", *filter(None, [", ".join(f"{counts[name]} {name}" for name in CLASSES if counts[name])])])
+    return ": ".join([f"{n} points", *filter(None,
+                                             [", ".join(f"{counts[name]} {name}" for name in CLASSES
+                                                        if counts[name])])])
 
 
 def run_study(line: argparse.Namespace, options: Options) -> None:
@@ -149,7 +159,8 @@ def run_study(line: argparse.Namespace, options: Options) -> None:
 
     def inputs() -> list[tuple[str, str]]:
         scenes = [run.scene for point in points for run in point.runs if run.scene is not None]
-        return [("the study", line.target), ("the scene", study.scene), *(("--set-file", name) for name in line.set_file),
+        return [("the study", line.target), ("the scene", study.scene),
+                *(("--set-file", name) for name in line.set_file),
                 *{pair for scene in scenes for pair in scene.input_files()}]
 
     with Folder(directory) as folder:

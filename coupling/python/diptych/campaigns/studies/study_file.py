@@ -38,7 +38,8 @@ class AxisPoint:
 
 @dataclass(kw_only=True)
 class Axis:
-    """`converges`: results have a limit as the values go to 0. `own_reference`: each point has a reference of its own."""
+    """`converges`: results have a limit as the values go to 0. `own_reference`: each point has a reference of its
+    own."""
 
     name: str
     points: list[AxisPoint] = field(default_factory=list)
@@ -111,8 +112,8 @@ def _family(part: Part, settings: list[Setting]) -> Family:
     is_grid = part.choice("combine", ("grid", "list"), "grid") == "grid" or not axes
     for axis in [] if is_grid else axes:
         if len(axis.points) != len(axes[0].points):
-            part.refuse(f": a list needs equally many points; '{axes[0].name}' has {len(axes[0].points)}, '{axis.name}' "
-                        f"{len(axis.points)}", "axes")
+            part.refuse(f": a list needs equally many points; '{axes[0].name}' has {len(axes[0].points)}, "
+                        f"'{axis.name}' {len(axis.points)}", "axes")
     return Family(name=part.word("name"), settings=settings, grid=is_grid, axes=axes)
 
 
@@ -155,7 +156,8 @@ def _sample_ranges(root: Part, study: Study) -> list[Family]:
     study.ranges = [_range(part) for part in root.list("ranges")]
     root.demand_distinct("ranges", [p.key for p in study.ranges])
     read = _diptych.read_changed_scene(study.scene, study.settings, study.command == "run").dict()
-    others = {f"{section}/{key}": value for section, keys in read.items() for key, value in keys.items() if is_number(value)}
+    others = {f"{section}/{key}": value for section, keys in read.items() for key,
+              value in keys.items() if is_number(value)}
     try:
         coordinates = Coordinates(study.ranges, others)
     except ValueError as error:
@@ -175,7 +177,8 @@ def _reduction(part: Part) -> dict[str, Any]:
     if how in ("strength", "mean"):
         ends = [end.value for end in part.list(how)]
         if len(ends) != 2 or not all(map(is_number, ends)) or not ends[0] < ends[1]:
-            part.refuse(f" = {value_text(part.value[how])} is not allowed; give two ascending values of the progress", how)
+            part.refuse(f" = {value_text(part.value[how])} is not allowed; give two ascending values of the progress",
+                        how)
         return {"reduction": how, "from": float(ends[0]), "to": float(ends[1])}
     if how == "at":
         return {"reduction": how, "from": part.number("at", 0, _FAR)}
@@ -193,9 +196,10 @@ def _describe_number(part: Part, name: str) -> dict[str, Any]:
         if place.rpartition("/")[2] == key:
             return {"column": name, "unit": unit, "line": kind == "line"}
     keys = [place.rpartition("/")[2] for place, (_, kind) in numbers.items() if kind in ("number", "line")]
-    nearest = min((one for one in keys if key and one.startswith(key)), key=len, default=_diptych.nearest_name(key, keys))
-    part.refuse(f" = '{name}': no number of a comparison ends with '{key}'; the nearest is '{nearest}'. Use a name from the "
-                "first column of ensemble.csv, such as 'window 0.01-0.03 discrete band angle_deg'", "number")
+    nearest = min((one for one in keys if key and one.startswith(key)), key=len,
+                  default=_diptych.nearest_name(key, keys))
+    part.refuse(f" = '{name}': no number of a comparison ends with '{key}'; the nearest is '{nearest}'. Use a name "
+                "from the first column of ensemble.csv, such as 'window 0.01-0.03 discrete band angle_deg'", "number")
 
 
 def _quantity(part: Part, command: str) -> dict[str, Any]:
@@ -220,7 +224,8 @@ def _quantity(part: Part, command: str) -> dict[str, Any]:
         columns = _diptych.numeric_columns().get(source, {})
         if q["column"] not in columns:
             part.refuse(f" = '{q['column']}': {source}.csv has no such column; the nearest is "
-                        f"'{_diptych.nearest_name(q['column'], list(columns))}'", "column" if part.has("column") else "name")
+                        f"'{_diptych.nearest_name(q['column'], list(columns))}'",
+                        "column" if part.has("column") else "name")
         q["unit"] = columns[q["column"]]
     begin, end = _diptych.text_of_number(q["from"]), _diptych.text_of_number(q["to"])
     names = {"strength": f"{source} strength {begin}-{end}", "mean": f"{source} {q['column']} {begin}-{end}",
@@ -286,16 +291,17 @@ def _demand_one_seed(root: Part, study: Study) -> None:
 def read_study(file: str, overrides: Sequence[Setting] = ()) -> Study:
     """Reads a study file. `overrides` are settings of all points.
 
-    Paths are relative to the folder of the study; those of overrides to the working directory. Keys and values are checked one
-    by one; the combinations are checked with the points. Raises SceneError with file, line, key, value and the allowed values.
+    Paths are relative to the folder of the study; those of overrides to the working directory. Keys and values are
+    checked one by one; the combinations are checked with the points. Raises SceneError with file, line, key, value and
+    the allowed values.
     """
     return study_of(Part.read(file, "scene and axes"), name_of(file, "study"), overrides)
 
 
 def study_of(root: Part, name: str, overrides: Sequence[Setting]) -> Study:
     """The study of an input file or of the words of a command line."""
-    root.allow("title", "scene", "command", "set", "seeds", "reference", "families", "axes", "combine", "quantities", "cost",
-               "borders", "ranges", "samples")
+    root.allow("title", "scene", "command", "set", "seeds", "reference", "families", "axes", "combine", "quantities",
+               "cost", "borders", "ranges", "samples")
     study = Study(name=name, file=root.file, scene=os.path.abspath(root.existing_file("scene")))
     study.command = root.choice("command", tuple(COMMANDS), "run")
     study.settings = [*root.settings("set"), *(setting.check() for setting in overrides)]

@@ -16,7 +16,8 @@ from .level_runs import Levels, read_levels
 from .study_file import Study, read_study, study_of
 
 _COMMANDS = {"": "run", "both": "run", "discrete": "discrete", "continuum": "continuum"}  # of --panels
-_WITHOUT_COARSE_MESH = {"comparison/coarse_element_size": 0}  # no key number needs the second mesh; a word --set replaces it
+# no key number needs the second mesh; a word --set replaces it
+_WITHOUT_COARSE_MESH = {"comparison/coarse_element_size": 0}
 
 
 def _is_study_file(file: str) -> bool:
@@ -31,7 +32,8 @@ def _axis(text: str) -> dict[str, Any]:
     """The axis of --vary section/key=V1,V2."""
     key, equals, words = text.partition("=")
     if not equals or not all(map(str.strip, words.split(","))):
-        raise SceneError(f"--vary {text}: not of the form section/key=value,value, such as discrete/friction=0.2,0.3", key)
+        raise SceneError(f"--vary {text}: not of the form section/key=value,value, such as discrete/friction=0.2,0.3",
+                         key)
 
     def value(word: str) -> Any:
         try:
@@ -44,30 +46,35 @@ def _axis(text: str) -> dict[str, Any]:
 
 
 def levels_of_words(line: argparse.Namespace, study: Study) -> Levels | None:
-    """--levels, whose cheap accuracy becomes a setting of all points. Raises SceneError if this study can have no levels."""
+    """--levels, whose cheap accuracy becomes a setting of all points. Raises SceneError if this study can have no
+    levels."""
     wrong = {"has no grains (--panels continuum)": study.command not in ("run", "discrete"),
              "has ranges; give axes": study.ranges, "has a reference; remove it": study.reference is not None}
     for words in [words for words, applies in wrong.items() if applies and line.levels]:
-        raise SceneError(f"--levels {line.levels} gives means of grains over samples, and this study {words}", "--levels")
+        raise SceneError(f"--levels {line.levels} gives means of grains over samples, and this study {words}",
+                         "--levels")
     levels = read_levels(line.levels, len(study.seeds))
     study.settings += [levels.setting("cheap")] if levels else []
     return levels
 
 
 def study_of_words(line: argparse.Namespace) -> tuple[Study, str]:
-    """The study of `diptych study` and the text of its study file. Raises SceneError for words that contradict each other."""
+    """The study of `diptych study` and the text of its study file. Raises SceneError for words that contradict each
+    other."""
     file, overrides = line.target, settings_of(line.set, line.set_file)
     if _is_study_file(file):
         for option, here in (("--vary", line.vary), ("--seeds", line.seeds), ("--panels", line.panels)):
             if here:
-                raise SceneError(f"{option} is for scenes, and {file} is a study file; change its axes, seeds or command")
+                raise SceneError(f"{option} is for scenes, and {file} is a study file; change its axes, seeds or "
+                                 "command")
         study = read_study(file, overrides)
         with open(file, encoding="utf-8") as text:
             return study, text.read()
     if not os.path.isfile(file):
         raise SceneError(f"{file}: there is no such file")
     if not line.vary:
-        raise SceneError(f"{file} is a scene; give --vary, such as --vary discrete/friction=0.2,0.3,0.5, or a study file (.json)")
+        raise SceneError(f"{file} is a scene; give --vary, such as --vary discrete/friction=0.2,0.3,0.5, or a study "
+                         "file (.json)")
     read_seeds(line.seeds or "1")
     _check_panels(file, line, overrides)
     record = {"scene": os.path.abspath(file), "command": _COMMANDS[line.panels],
@@ -84,4 +91,5 @@ def _check_panels(file: str, line: argparse.Namespace, overrides: list[Any]) -> 
     if line.panels != "continuum":
         raise SceneError(f"{file}: continuum/mesh = {mesh} has no grains; give --panels continuum, or mesh = outline")
     if line.seeds:
-        raise SceneError(f"--seeds {line.seeds}: continuum/mesh = {mesh} has no grains, so all samples would be the same")
+        raise SceneError(f"--seeds {line.seeds}: continuum/mesh = {mesh} has no grains, so all samples would be the "
+                         "same")

@@ -49,7 +49,8 @@ def parts(result):
              lambda i: {"pair": profiles.pair(i)}),
         Part("probes", "Probes: mean stress and contact normals", stages, end, lambda i: {
             "roses": probes.roses(i), "notes": [], "tables": [
-                stage.probes(result, i), stage.differences(result, i), stage.grain_pressures(result, i)]}, maps="probes"),
+                stage.probes(result, i), stage.differences(result, i), stage.grain_pressures(result, i)]},
+             maps="probes"),
         Part("crosses", "Internal moments of single grains", stages, end, lambda i: {
             "pair": Pair(chains.distribution(i), chains.traction(i)),
             "tables": [stage.chains(result, i)], "notes": paragraph(stage.chains_verdict(i))}, maps="crosses"),

@@ -1,0 +1,65 @@
+# diptych: the files of a calibration: wrong curves, spreadsheets, standard parameters of a scene
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Only reads files; nothing runs."""
+
+import os
+
+import pytest
+from conftest import QUICK
+
+import diptych
+from diptych.campaigns.calibration.calibration_file import read_calibration, read_curve
+from diptych.campaigns.calibration.standard import standard_calibration
+from diptych.campaigns.runs.input_file import Setting
+
+CURVE = """# drained biaxial test
+axial_strain,stress_ratio,stress_ratio_deviation,volumetric_strain
+0,0,0.01,0
+0.01,0.3,0.01,-0.002
+0.02,0.4,0.02,-0.004
+"""
+
+
+@pytest.mark.parametrize("text, words", [
+    ("strain,stress_ratio\n0,0\n1,1\n", "must name axial_strain"),
+    ("axial_strain\n0\n1\n", "stress_ratio or volumetric_strain"),
+    ("# a test\n\naxial_strain;stress_ratio\n0;0\n0,01;x\n", "line 5: column stress_ratio = 'x'"),
+    ("axial_strain,stress_ratio\n0.01,0\n0,1\n", "line 3: axial_strain = 0 must be larger"),
+    ("axial_strain,stress_ratio,stress_ratio_deviation\n0,0,0\n1,1,1\n", "line 2: stress_ratio_deviation = 0")])
+def test_a_wrong_curve_is_refused(tmp_path, text, words):
+    (tmp_path / "lab.csv").write_text(text)
+    with pytest.raises(diptych.SceneError, match=words):
+        read_curve(str(tmp_path / "lab.csv"))
+
+
+def test_a_file_with_a_curve_is_read(tmp_path, capfd):
+    """As a spreadsheet writes it, with a remark and without a row in the second bin."""
+    rows = [line + ",a remark" for line in CURVE.splitlines()[1:]]
+    (tmp_path / "lab.csv").write_text("\n".join(rows).replace(",", ";").replace(".", ","))
+    text = ('{"targets": [{"name": "lab", "scene": "%s", "curve": "lab.csv"%s}], "quantities": ["stress_ratio"], '
+            '"bins": [0, 0.012, 0.018], "parameters": [{"key": "friction_angle_peak", "start": 25, "low": 12, "high": '
+            '40}]}')
+    (tmp_path / "c.json").write_text(text % (QUICK, ""))
+    c = read_calibration(str(tmp_path / "c.json"))
+    assert os.path.samefile(c.targets[0].curve, tmp_path / "lab.csv") and c.targets[0].seeds == []
+    told = capfd.readouterr().err
+    assert "no row lies in the bin from 0.012 to 0.018" in told and told.count("warning") == 1
+    (tmp_path / "c.json").write_text(text % (QUICK, ', "seeds": "1"'))
+    with pytest.raises(diptych.SceneError, match="instead of grains"):
+        read_calibration(str(tmp_path / "c.json"))
+
+
+def test_a_scene_with_seeds_has_standard_parameters():
+    contents = standard_calibration(QUICK, "1-4", [])
+    c = read_calibration(QUICK, contents)
+    assert [p.key for p in c.parameters] == ["friction_angle_peak", "friction_angle_residual", "friction_angle_start",
+                                             "mobilisation_strain", "dilatancy_angle_peak", "internal_length",
+                                             "youngs_modulus"]
+    assert c.kinds == ["stress_ratio", "volumetric_strain", "ln_width"] and c.targets[0].seeds == [1, 2, 3, 4]
+    assert c.bins[0] == pytest.approx(0.025 * 0.03) and c.bins[-1] == 0.03  # the loading ends at 3 %
+    assert c.load_step == pytest.approx(0.03 / 40) and c.coarse_element_size == 4
+    plain = standard_calibration(QUICK, "1,3", [Setting("continuum", "law", "mohr_coulomb", "")])
+    assert plain["quantities"] == ["stress_ratio", "volumetric_strain"]
+    assert "internal_length" not in [p["key"] for p in plain["parameters"]]
+    with pytest.raises(diptych.SceneError, match="two seeds"):
+        standard_calibration(QUICK, "1", [])
