@@ -36,11 +36,12 @@ def quantity(folder, name):
 
 
 def running_on(folder):
-    """Whether some process has the folder on its command line."""
+    """Whether some process has a file of the folder open: all have its lock."""
     for number in filter(str.isdigit, os.listdir("/proc")):
         try:
-            if folder.encode() in content(f"/proc/{number}/cmdline"):
-                return True
+            for name in os.listdir(f"/proc/{number}/fd"):
+                if os.readlink(f"/proc/{number}/fd/{name}").startswith(folder):
+                    return True
         except OSError:
             pass
     return False

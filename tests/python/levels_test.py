@@ -134,11 +134,11 @@ def test_an_ensemble_gets_rows_in_the_limit():
 
 def test_a_study_gives_means_in_the_limit(tmp_path):
     scene = tmp_path / "scene.json"
-    scene.write_text(json.dumps({"sample": {"grains": 100}, "loading": {"axial_strain": 0.01,
-                                                                        "inertial_number": 2e-3}}))
+    loading = {"axial_strain": 0.01, "inertial_number": 2e-3}
+    scene.write_text(json.dumps({"sample": {"grains": 100}, "loading": loading}))
     words = ["study", scene, "--vary", "discrete/friction=0.1,0.6", "--seeds", "1-7", "--panels", "discrete",
              "--levels", "auto"]
-    done = subprocess.run([sys.executable, "-m", "diptych.campaigns", *words, "--output", tmp_path / "out"],
+    done = subprocess.run([sys.executable, "-m", "diptych", *words, "--output", tmp_path / "out"],
                           capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     found = Campaign.load(tmp_path / "out")

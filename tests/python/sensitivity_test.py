@@ -15,7 +15,7 @@ from scipy.stats import qmc
 from studies_test import expect_explained
 
 import diptych
-from diptych.campaigns import __main__ as program
+from diptych import __main__ as program
 from diptych.campaigns.studies.points import points_of
 from diptych.campaigns.studies.sensitivity import sobol_indices
 from diptych.campaigns.studies.study_file import read_study

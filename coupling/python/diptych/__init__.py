@@ -46,11 +46,10 @@ def __getattr__(name: str) -> object:
 
 __all__ = [
     "Band", "BandReport", "CalibrationResult", "Campaign", "Comparison", "Contacts", "ContinuumPanel",
-    "ContinuumSnapshot", "DiscretePanel",
-    "DiscreteSnapshot", "History", "Homogenised", "Interval", "Mesh", "NotConverged", "PanelResults", "PlanResult",
-    "Record", "Results", "SceneError", "SceneWarning", "Stopped", "StressMap",
-    "__version__", "benchmarks_dir", "biaxial", "calibrate", "compare", "contacts", "displacement_gradient", "ensemble",
-    "find_bands", "grid", "homogenise", "increment", "integrate",
-    "keys", "load", "map_stress", "notebooks_dir", "plan", "principal", "probe", "scene", "shear_strain", "solve",
-    "strips", "study", "theory_lines",
+    "ContinuumSnapshot", "DiscretePanel", "DiscreteSnapshot", "History", "Homogenised", "Interval", "Mesh",
+    "NotConverged", "PanelResults", "PlanResult", "Record", "Results", "SceneError", "SceneWarning", "Stopped",
+    "StressMap", "__version__", "benchmarks_dir", "biaxial", "calibrate", "compare", "contacts",
+    "displacement_gradient", "ensemble", "find_bands", "grid", "homogenise", "increment", "integrate", "keys", "load",
+    "map_stress", "notebooks_dir", "plan", "principal", "probe", "scene", "shear_strain", "solve", "strips", "study",
+    "theory_lines",
 ]

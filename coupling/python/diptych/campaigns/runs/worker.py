@@ -38,7 +38,10 @@ def main(parent: int) -> None:
         return
     answers = os.fdopen(os.dup(1), "w")
     for line in sys.stdin:
-        print(do(json.loads(line), compiled), file=answers, flush=True)
+        try:
+            print(do(json.loads(line), compiled), file=answers, flush=True)
+        except BrokenPipeError:  # nobody waits for the answer
+            return
 
 
 if __name__ == "__main__":
