@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "continuum/laws/options.h"
-
 namespace diptych::continuum
 {
   namespace
@@ -19,10 +17,10 @@ namespace diptych::continuum
   } // namespace
 
   // The densest and most mobilised state is either the initial one or the one that the initial density allows.
-  void CriticalStateHardening::check(const LawOptions &o, const LawKind law)
+  void CriticalStateHardening::check(const CriticalStateOptions &o, const LawKind law, const char *hardening)
   {
-    require_keys(!traits(law).is_gradient, {"law", "hardening"}, "law = ", name_of(law),
-                 " with hardening = ", name_of(o.hardening), ": take another hardening, or a law with rotations");
+    require_keys(!traits(law).is_gradient, {"law", "hardening"}, "law = ", name_of(law), " with hardening = ", hardening,
+                 ": take another hardening, or a law with rotations");
     const double start    = o.start_solid_fraction();
     const double possible = o.critical_stress_ratio +
                             o.strength_by_density * o.critical_solid_fraction * std::log(start / o.critical_solid_fraction);
@@ -37,7 +35,7 @@ namespace diptych::continuum
       }
   }
 
-  CriticalStateHardening::CriticalStateHardening(const LawOptions &o, bool)
+  CriticalStateHardening::CriticalStateHardening(const CriticalStateOptions &o, bool)
       : solid_fraction_start(o.start_solid_fraction()),
         stress_ratio(o.critical_stress_ratio),
         start_excess(o.stress_ratio_start - o.critical_stress_ratio),

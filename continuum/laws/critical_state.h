@@ -5,11 +5,11 @@
 #include <array>
 #include <optional>
 
-#include "continuum/laws/strength.h"
+#include "continuum/laws/decay_hardening.h"
 
 namespace diptych::continuum
 {
-  struct CriticalStateOptions
+  struct CriticalStateOptions : DecayOptions
   {
     double                critical_stress_ratio   = 0.26; // t/s of steady flow [-]
     double                critical_solid_fraction = 0.82; // solid fraction of steady flow [-]
@@ -54,8 +54,8 @@ namespace diptych::continuum
         "critical_stress_ratio", "critical_solid_fraction", "strength_by_density", "dilatancy_ratio",
         "stress_ratio_start",    "solid_fraction_start",    "mobilisation_strain", "cohesion"};
 
-    static void check(const LawOptions &o, LawKind law);
-    CriticalStateHardening(const LawOptions &o, bool is_nonlocal);
+    static void check(const CriticalStateOptions &o, LawKind law, const char *hardening = name);
+    CriticalStateHardening(const CriticalStateOptions &o, bool is_nonlocal);
 
     // Both sines are cut off, because the rate of an angle diverges at 1.
     static constexpr double largest_sine = 0.95;

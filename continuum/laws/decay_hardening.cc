@@ -4,30 +4,28 @@
 
 #include <cmath>
 
-#include "continuum/laws/options.h"
-
 namespace diptych::continuum
 {
   namespace
   {
-    StrengthPoint peak_of(const LawOptions &o)
+    StrengthPoint peak_of(const DecayOptions &o)
     {
       return {0, o.friction_angle_peak * one_degree, o.dilatancy_angle_peak * one_degree, o.cohesion};
     }
   } // namespace
 
-  void ConstantHardening::check(const LawOptions &o, LawKind)
+  void ConstantHardening::check(const DecayOptions &o, LawKind)
   {
     check_strength("at the peak", {"dilatancy_angle_peak", "friction_angle_peak", "cohesion"}, o.friction_angle_peak,
                    o.dilatancy_angle_peak, o.cohesion);
   }
 
-  ConstantHardening::ConstantHardening(const LawOptions &o, bool)
+  ConstantHardening::ConstantHardening(const DecayOptions &o, bool)
       : peak(peak_of(o))
   {}
 
   // All values decay with the same factor, so checking both ends is sufficient.
-  void ExponentialHardening::check(const LawOptions &o, const LawKind law)
+  void ExponentialHardening::check(const DecayOptions &o, const LawKind law)
   {
     ConstantHardening::check(o, law);
     const double cohesion = o.cohesion_residual.value_or(o.cohesion);
@@ -43,7 +41,7 @@ namespace diptych::continuum
                    o.friction_angle_residual, o.dilatancy_angle_residual, cohesion);
   }
 
-  ExponentialHardening::ExponentialHardening(const LawOptions &o, bool)
+  ExponentialHardening::ExponentialHardening(const DecayOptions &o, bool)
       : peak(peak_of(o)),
         residual{0, o.friction_angle_residual * one_degree, o.dilatancy_angle_residual * one_degree,
                  o.cohesion_residual.value_or(o.cohesion)},
@@ -61,7 +59,7 @@ namespace diptych::continuum
 
   // phi - psi is a + b exp(-k/k_s) - c exp(-k/k_m), which has at most one stationary point. Checking that point and both ends
   // is sufficient.
-  void MobilisationHardening::check(const LawOptions &o, const LawKind law)
+  void MobilisationHardening::check(const DecayOptions &o, const LawKind law)
   {
     ExponentialHardening::check(o, law);
     require_keys(o.friction_angle_start <= o.friction_angle_peak, {"friction_angle_start", "friction_angle_peak"},
@@ -83,7 +81,7 @@ namespace diptych::continuum
                    o.dilatancy_angle_residual + (o.dilatancy_angle_peak - o.dilatancy_angle_residual) * softened, 1);
   }
 
-  MobilisationHardening::MobilisationHardening(const LawOptions &o, const bool is_nonlocal)
+  MobilisationHardening::MobilisationHardening(const DecayOptions &o, const bool is_nonlocal)
       : ExponentialHardening(o, is_nonlocal),
         unmobilised((o.friction_angle_peak - o.friction_angle_start) * one_degree),
         mobilisation_strain(o.mobilisation_strain)

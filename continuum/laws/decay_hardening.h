@@ -53,8 +53,8 @@ namespace diptych::continuum
     static constexpr const char name[] = "constant";
     static constexpr std::array keys   = {"friction_angle_peak", "dilatancy_angle_peak", "cohesion"};
 
-    static void check(const LawOptions &o, LawKind law);
-    ConstantHardening(const LawOptions &o, bool is_nonlocal);
+    static void check(const DecayOptions &o, LawKind law);
+    ConstantHardening(const DecayOptions &o, bool is_nonlocal);
 
     Strength falling(double) const { return {peak.friction, 0, peak.dilatancy, 0, peak.cohesion, 0}; }
     Strength rising(double) const { return {}; }
@@ -71,8 +71,8 @@ namespace diptych::continuum
                                           "friction_angle_residual", "dilatancy_angle_residual", "cohesion_residual",
                                           "softening_strain"};
 
-    static void check(const LawOptions &o, LawKind law);
-    ExponentialHardening(const LawOptions &o, bool is_nonlocal);
+    static void check(const DecayOptions &o, LawKind law);
+    ExponentialHardening(const DecayOptions &o, bool is_nonlocal);
 
     Strength falling(double kappa) const;
     Strength rising(double) const { return {}; }
@@ -90,8 +90,8 @@ namespace diptych::continuum
                                           "friction_angle_residual", "dilatancy_angle_residual", "cohesion_residual",
                                           "softening_strain",        "friction_angle_start",     "mobilisation_strain"};
 
-    static void check(const LawOptions &o, LawKind law);
-    MobilisationHardening(const LawOptions &o, bool is_nonlocal);
+    static void check(const DecayOptions &o, LawKind law);
+    MobilisationHardening(const DecayOptions &o, bool is_nonlocal);
 
     Strength rising(double kappa) const;
 

@@ -4,13 +4,11 @@
 
 #include <cmath>
 
-#include "continuum/laws/options.h"
-
 namespace diptych::continuum
 {
-  void KinematicHardening::check(const LawOptions &o, const LawKind law)
+  void KinematicHardening::check(const KinematicOptions &o, const LawKind law)
   {
-    CriticalStateHardening::check(o, law);
+    CriticalStateHardening::check(o, law, name);
     require_keys(o.elastic_stress_ratio < o.critical_stress_ratio, {"elastic_stress_ratio", "critical_stress_ratio"},
                  "elastic_stress_ratio = ", o.elastic_stress_ratio,
                  " must be below critical_stress_ratio = ", o.critical_stress_ratio);
@@ -18,7 +16,7 @@ namespace diptych::continuum
                  " with hardening = kinematic: take drucker_prager, or a law with rotations");
   }
 
-  KinematicHardening::KinematicHardening(const LawOptions &o, const bool is_nonlocal)
+  KinematicHardening::KinematicHardening(const KinematicOptions &o, const bool is_nonlocal)
       : CriticalStateHardening(o, is_nonlocal),
         start(o.stress_ratio_start),
         elastic(o.elastic_stress_ratio),

@@ -6,7 +6,7 @@
 
 namespace diptych::continuum
 {
-  struct KinematicOptions
+  struct KinematicOptions : CriticalStateOptions
   {
     double elastic_stress_ratio = 0.05; // half the elastic range of t/s after long shear [-]
   };
@@ -36,8 +36,8 @@ namespace diptych::continuum
         "stress_ratio_start",    "solid_fraction_start",    "mobilisation_strain", "cohesion",
         "elastic_stress_ratio"};
 
-    static void check(const LawOptions &o, LawKind law);
-    KinematicHardening(const LawOptions &o, bool is_nonlocal);
+    static void check(const KinematicOptions &o, LawKind law);
+    KinematicHardening(const KinematicOptions &o, bool is_nonlocal);
 
     double radius(double equivalent_plastic_strain) const;
 

@@ -28,10 +28,7 @@ namespace diptych::continuum
 
   bool follows_solid_fraction(const HardeningKind hardening)
   {
-    bool follows = false;
-    with_type(hardening,
-              [&](const auto chosen) { follows = std::is_base_of_v<CriticalStateHardening, typename decltype(chosen)::Type>; });
-    return follows;
+    return hardening == HardeningKind::critical_state || hardening == HardeningKind::kinematic;
   }
 
   LawOptions in_units(LawOptions o, const Units &units)

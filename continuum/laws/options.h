@@ -93,7 +93,7 @@ namespace diptych::continuum
   };
 
   // Parameters of all laws, as a scene sets them; each law reads its own. Stresses and lengths in Units.
-  struct LawOptions : DecayOptions, CriticalStateOptions, KinematicOptions, TableOptions
+  struct LawOptions : KinematicOptions, TableOptions
   {
     ElasticOptions elastic;
     HardeningKind  hardening          = HardeningKind::exponential;

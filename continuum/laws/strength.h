@@ -11,7 +11,6 @@
 
 namespace diptych::continuum
 {
-  struct LawOptions;
 
   constexpr double one_degree = 3.14159265358979323846 / 180;
 

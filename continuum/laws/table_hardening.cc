@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "continuum/laws/options.h"
-
 namespace diptych::continuum
 {
   namespace
@@ -31,7 +29,7 @@ namespace diptych::continuum
   } // namespace
 
   // Values are linear between the points, so checking the points is sufficient.
-  void TableHardening::check(const LawOptions &o, LawKind)
+  void TableHardening::check(const TableOptions &o, LawKind)
   {
     const std::size_t n = o.table_strain.size();
     require_keys(n > 0, {"table_strain", "hardening"}, "hardening = table needs table_strain, a list that ascends from 0");
@@ -53,7 +51,7 @@ namespace diptych::continuum
   }
 
   // A rise read at the softening variable of m > 1 would soften at a constant kbar, and the solution would lose its length.
-  TableHardening::TableHardening(const LawOptions &o, const bool is_nonlocal)
+  TableHardening::TableHardening(const TableOptions &o, const bool is_nonlocal)
   {
     for (std::size_t k = 0; k < o.table_strain.size(); ++k)
       falls.push_back({o.table_strain[k], o.table_friction_angle[k] * one_degree, o.table_dilatancy_angle[k] * one_degree,

@@ -35,8 +35,8 @@ namespace diptych::continuum
     static constexpr const char name[] = "table";
     static constexpr std::array keys   = {"table_strain", "table_friction_angle", "table_dilatancy_angle", "table_cohesion"};
 
-    static void check(const LawOptions &o, LawKind law);
-    TableHardening(const LawOptions &o, bool is_nonlocal);
+    static void check(const TableOptions &o, LawKind law);
+    TableHardening(const TableOptions &o, bool is_nonlocal);
 
     Strength falling(double kappa) const;
     Strength rising(double kappa) const;

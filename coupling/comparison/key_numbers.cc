@@ -112,10 +112,10 @@ namespace diptych::coupling
     return text;
   }
 
-  std::string origin_of_law(const Scene &scene)
+  std::string origin_of_law(const std::string &parameters_from)
   {
-    if (const std::string &from = scene.comparison.parameters_from; !from.empty())
-      return "parameters of the continuum: " + from;
+    if (!parameters_from.empty())
+      return "parameters of the continuum: " + parameters_from;
     const std::string text = "The parameters of the continuum were not fitted to these grains. To fit them: diptych calibrate "
                              "SCENE --seeds 1-4";
     return isatty(STDOUT_FILENO) != 0 ? "\033[1m" + text + "\033[0m" : text;

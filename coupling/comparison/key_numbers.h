@@ -89,5 +89,5 @@ namespace diptych::coupling
   std::string text_of(const std::vector<KeyNumber> &numbers); // a table for a terminal, one line per quantity
 
   // Where the parameters of the continuum come from; bold on a terminal if nobody fitted them.
-  std::string origin_of_law(const Scene &scene);
+  std::string origin_of_law(const std::string &parameters_from);
 } // namespace diptych::coupling

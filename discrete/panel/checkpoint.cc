@@ -204,8 +204,10 @@ namespace diptych::discrete
       for (std::size_t k = 0; k < n; k += 2)
         {
           PairImpulse pair{body[k], body[k + 1], impulse[k], impulse[k + 1]};
-          pair.normal_change = change[k], pair.tangential_change = change[k + 1];
-          pair.rolling = rolling[k], pair.rolling_change = rolling[k + 1];
+          pair.normal_change     = change[k];
+          pair.tangential_change = change[k + 1];
+          pair.rolling           = rolling[k];
+          pair.rolling_change    = rolling[k + 1];
           p.state.impulses.push_back(pair);
         }
       for (std::size_t k = 0; k < n_window; k += 2)

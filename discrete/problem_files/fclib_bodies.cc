@@ -100,13 +100,19 @@ namespace diptych::discrete
       const auto   spin = [&](const int b) { return g.is_disc(b) ? g.radius[b] * g.radius[b] * g.inverse_mass[3 * b + 2] : 0.; };
       const double wnn = mi + nx * nx * jx + ny * ny * jy, wtt = mi + ny * ny * jx + nx * nx * jy + spin(i) + spin(j);
       ContactRow   row;
-      row.nx = nx, row.ny = ny;
-      row.i = i, row.j = j;
-      row.ki = spin(i), row.kj = spin(j);
-      row.jx = jx, row.jy = jy;
-      row.normal_term = g.offset[2 * k], row.tangential_term = g.offset[2 * k + 1];
-      row.friction    = friction;
-      row.inverse_wnn = 1 / wnn, row.inverse_wtt = 1 / wtt;
+      row.nx              = nx;
+      row.ny              = ny;
+      row.i               = i;
+      row.j               = j;
+      row.ki              = spin(i);
+      row.kj              = spin(j);
+      row.jx              = jx;
+      row.jy              = jy;
+      row.normal_term     = g.offset[2 * k];
+      row.tangential_term = g.offset[2 * k + 1];
+      row.friction        = friction;
+      row.inverse_wnn     = 1 / wnn;
+      row.inverse_wtt     = 1 / wtt;
       return row;
     }
 

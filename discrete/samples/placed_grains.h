@@ -3,12 +3,9 @@
 #pragma once
 
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "discrete/files/out_of_memory.h"
-#include "discrete/files/wrong_keys.h"
 #include "discrete/samples/sample_file.h"
 #include "discrete/samples/sample_options.h"
 
@@ -21,25 +18,6 @@ namespace diptych::discrete
   double default_wall_mass(const Grains &grains);
 
   void set_sides(State &state, const PreparationSetting &setting);
-
-  // Reads the file of a key. Wrong input and a lack of memory are reported with file and key. Other exceptions pass.
-  template <class Read> auto read_for(const std::string &key, const std::string &file, Read &&read)
-  {
-    try
-      {
-        return read(file);
-      }
-    catch (const WrongKeys &)
-      {
-        throw;
-      }
-    catch (const std::exception &error)
-      {
-        if (dynamic_cast<const std::invalid_argument *>(&error) == nullptr && !is_out_of_memory(error))
-          throw;
-        throw_wrong_input("sample/" + key, file, error);
-      }
-  }
 
   struct FileSample
   {

@@ -6,8 +6,6 @@
 #include <stdexcept>
 
 #include "discrete/files/csv_file.h"
-#include "discrete/files/wrong_keys.h"
-#include "discrete/samples/placed_grains.h"
 
 namespace diptych::discrete
 {

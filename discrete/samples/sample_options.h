@@ -3,11 +3,14 @@
 #pragma once
 
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "discrete/bodies/boundary.h"
 #include "discrete/choices.h"
+#include "discrete/files/out_of_memory.h"
+#include "discrete/files/wrong_keys.h"
 #include "discrete/samples/radius_distribution.h"
 #include "discrete/solvers/solver_options.h"
 
@@ -136,6 +139,25 @@ namespace diptych::discrete
     double           pressure = 1;
     Eigen::Vector2d  gravity  = Eigen::Vector2d::Zero();
   };
+
+  // Reads the file of a key. Wrong input and a lack of memory are reported with file and key. Other exceptions pass.
+  template <class Read> auto read_for(const std::string &key, const std::string &file, Read &&read)
+  {
+    try
+      {
+        return read(file);
+      }
+    catch (const WrongKeys &)
+      {
+        throw;
+      }
+    catch (const std::exception &error)
+      {
+        if (dynamic_cast<const std::invalid_argument *>(&error) == nullptr && !is_out_of_memory(error))
+          throw;
+        throw_wrong_input("sample/" + key, file, error);
+      }
+  }
 
   // Throws std::invalid_argument with key and range if options contradict each other.
   void validate(const SampleOptions &options);

@@ -4,12 +4,13 @@
 
 from __future__ import annotations
 
+import shlex
 import sys
 from collections.abc import Sequence
 
 from . import _diptych
 from .campaigns.commands import do
-from .campaigns.runs.engine import DONE, code_and_text, complain, on_first_process
+from .campaigns.runs.engine import DONE, SYSTEM_FAILURE, code_and_text, complain, on_first_process
 
 
 def main(words: Sequence[str]) -> int:
@@ -17,10 +18,12 @@ def main(words: Sequence[str]) -> int:
     try:
         do(words)
         return DONE
-    except (ValueError, OSError, RuntimeError, MemoryError, ImportError) as error:
+    except MemoryError:
+        code, text = SYSTEM_FAILURE, f"{shlex.join(words)}: not enough memory, or this process may not have more (ulimit -v)"
+    except (ValueError, OSError, RuntimeError, ImportError) as error:
         code, text = code_and_text(error)
-        complain(f"diptych: {text}")
-        return code
+    complain(f"diptych: {text}")
+    return code
 
 
 if __name__ == "__main__":

@@ -163,7 +163,7 @@ def _write(scene: Any, record: dict[str, Any], options: Options, phase: tuple[st
     _diptych.record_files(directory, "ensemble")
     if record["summary"]:
         say(options, summaries.text_of(record["summary"]))
-        say(options, _diptych.origin_of_law(scene))
+        say(options, _diptych.origin_of_law(scene.dict()["comparison"]["parameters_from"]))
 
 
 def _member_scene(scene: Any, seed: int) -> Any:
