@@ -245,7 +245,7 @@ class Failures(Study):
                     self.assertIn(word, result.stderr)
         self.assertIn("with scene and axes", diptych("study", write(os.path.join(self.work, "empty.json"), "")).stderr)
         self.assertIn("not valid JSON", diptych("study", write(os.path.join(self.work, "broken.json"), "{")).stderr)
-        self.assertIn("--set", diptych("study", self.study_file(STUDY), "--step").stderr)
+        self.assertIn("--resume", diptych("study", self.study_file(STUDY), "--step").stderr)
         self.assertFalse(os.path.exists(self.folder))
 
 
