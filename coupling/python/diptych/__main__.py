@@ -19,7 +19,8 @@ def main(words: Sequence[str]) -> int:
         do(words)
         return DONE
     except MemoryError:
-        code, text = SYSTEM_FAILURE, f"{shlex.join(words)}: not enough memory, or this process may not have more (ulimit -v)"
+        code = SYSTEM_FAILURE
+        text = f"{shlex.join(words)}: not enough memory, or this process may not have more (ulimit -v)"
     except (ValueError, OSError, RuntimeError, ImportError) as error:
         code, text = code_and_text(error)
     complain(f"diptych: {text}")
