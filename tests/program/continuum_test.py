@@ -248,6 +248,9 @@ class Processes(Folder):
 
     def test_one_by_itself_shares_no_session_folder(self):
         """With one, those that start at once fail: the first that ends removes the folder of all."""
+        version = subprocess.run(["mpirun", "--version"], capture_output=True, text=True, check=True).stdout
+        if "(Open MPI) 4" not in version:
+            self.skipTest("OpenMPI 5 always makes a session folder, but one for each process")
         taken = write(os.path.join(self.work, f"ompi.{socket.gethostname()}.{os.geteuid()}"), "not a folder")
         result = subprocess.run([PROGRAM, "material-point", QUICK, "--output", self.folder, "--quiet"],
                                 capture_output=True, text=True, env=dict(ENVIRONMENT, TMPDIR=self.work))
