@@ -12,9 +12,15 @@ namespace diptych::python
 {
   namespace
   {
+    // nan: a row without a value
+    std::vector<double> column_of(const Numbers &values)
+    {
+      return {values.data(), values.data() + values.size()};
+    }
+
     coupling::HistoryTable line_of(const Numbers &x, const Numbers &y)
     {
-      coupling::HistoryTable table = {{"progress", numbers_of(x, "x")}, {"y", numbers_of(y, "y")}};
+      coupling::HistoryTable table = {{"progress", numbers_of(x, "x")}, {"y", column_of(y)}};
       if (table["progress"].empty() || table["progress"].size() != table["y"].size())
         throw std::invalid_argument("x and y need the same number of entries, at least one");
       return table;
@@ -24,7 +30,7 @@ namespace diptych::python
     {
       coupling::HistoryTable table;
       for (const auto &[name, values] : columns)
-        table[name] = numbers_of(values, name);
+        table[name] = column_of(values);
       return table;
     }
 

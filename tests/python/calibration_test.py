@@ -18,7 +18,7 @@ from diptych.campaigns.calibration.findings import predictions
 from diptych.campaigns.calibration.grains import mean_of
 from diptych.campaigns.calibration.noise import Data, Noise, Observable
 from diptych.campaigns.calibration.profiles import PROFILE, STRIPS
-from diptych.campaigns.calibration.observations import Observation, Path, observe_curve
+from diptych.campaigns.calibration.observations import CURVE_POINTS, Observation, Path, observe_curve
 from diptych.campaigns.calibration.search import least_squares
 from diptych.campaigns.calibration.trials import Trials
 from diptych.campaigns.runs.histories import mean_over
@@ -312,7 +312,8 @@ def test_friction_of_noisy_grains_is_found_within_its_interval():
         def samples(point):
             friction = float(point[0].value) if point else 0.3
             own = drawn(USUAL, observables, 0 * x, 8, int(1e6 * friction)).values
-            return [Observation(values=mean(friction) + 0.95 * a + 0.3 * b) for a, b in zip(common, own)]
+            return [Observation(values=mean(friction) + 0.95 * a + 0.3 * b, progress=np.linspace(0, 0.03, CURVE_POINTS))
+                    for a, b in zip(common, own)]
 
         given = np.sqrt(np.diag(noise.covariance(USUAL, Data(observables=observables, values=0 * x))) / 16)
         path = path_of(c.targets[0], Data(observables=observables, values=lab, given=given, runs=8))
