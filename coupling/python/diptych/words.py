@@ -77,7 +77,7 @@ def _block(title: str, actions: Sequence[argparse.Action]) -> str:
 
 def number(low: float, high: float, is_whole: bool = False) -> Callable[[str], Any]:
     """The type of an option with a range."""
-    kind, texts = "a whole number" if is_whole else "a number", [_diptych.text_of_number(end) for end in (low, high)]
+    kind, texts = ("a whole number" if is_whole else "a number"), [f"{end:.15g}" for end in (low, high)]
 
     def read(text: str) -> Any:
         try:
