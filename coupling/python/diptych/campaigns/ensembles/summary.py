@@ -8,6 +8,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from ...arrays import ends_text
 from ..runs.key_numbers import QUANTITIES
 from ..runs.statistics import Interval, line_statistics, statistics, words_of
 
@@ -39,5 +40,4 @@ def text_of(rows: Sequence[dict[str, Any]]) -> str:
 
 
 def _with_ends(number: Interval) -> str:
-    ends = f" [{number.low:.4g}, {number.high:.4g}]" if math.isfinite(number.low) else ""
-    return f"{number.value:.4g}{ends}" if math.isfinite(number.value) else "-"
+    return f"{number.value:.4g}{ends_text(number.low, number.high)}" if math.isfinite(number.value) else "-"
