@@ -342,7 +342,7 @@ def test_a_profile_gives_the_internal_length_and_no_more_for_finer_strips(parts)
     c, truth, held, deviations = calibration([parameter("internal_length", "logarithm", 3, 0.8, 8)]), 2.0, 0, []
     mean, c.noise = banded([Setting("continuum", "internal_length", str(truth), "")],
                            observables), Noise(width_discrepancy=1e-3)
-    for seed in range(8):
+    for seed in range(12):
         data = drawn(replace(noise.NO_SCATTER, profile_stretch=0.2, profile_noise=0.08), observables, mean, 4, seed)
         record = empty_record("c")
         calibrate(Trials(c, Coordinates(c.parameters, {}), [path_of(c.targets[0], data)], lambda on, points, fine,
@@ -351,7 +351,8 @@ def test_a_profile_gives_the_internal_length_and_no_more_for_finer_strips(parts)
         [p] = record["parameters"]
         held += p["number_low"] < truth < p["number_high"]
         deviations.append(np.log(p["draws"]).std())
-    assert held >= 7 and 0.08 < np.mean(deviations) < 0.15
+    # Twelve intervals of 90 %: fewer than 9 hold the truth in 3 of 100 such tests.
+    assert held >= 9 and 0.08 < np.mean(deviations) < 0.15
 
 
 def test_element_tests_have_their_own_scatter_and_no_bands(tmp_path):
