@@ -1,4 +1,4 @@
-// diptych: description of a number, and whether it may be NaN or infinite
+// diptych: description of a number: whether it may be NaN or infinite, or is measured on the clock
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -14,7 +14,14 @@ namespace diptych::discrete
     {}
     operator const char *() const { return text; }
 
+    static Meaning of_clock(const char *text) // another one in every run
+    {
+      Meaning meaning(text);
+      meaning.is_clock = true;
+      return meaning;
+    }
+
     const char *text;
-    bool        may_be_nan, may_be_infinite;
+    bool        may_be_nan, may_be_infinite, is_clock = false;
   };
 } // namespace diptych::discrete

@@ -24,8 +24,7 @@ namespace diptych::continuum
     double                         progress = 0, step = 0, last_step = 0;
     bool                           motion_is_smooth = false;
     std::array<Eigen::Vector2d, 2> platen_force{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}; // on the sample
-    std::optional<double>          localisation_progress;
-    double                         localisation_angle = 0;
+    std::optional<double>          localisation_progress, localisation_angle;
     int    steps = 0, cut_backs = 0, newton_iterations = 0, refinements = 0, linear_iterations = 0, factorisations = 0;
     double point_cpu_s = 0, assembly_cpu_s = 0, geometry_cpu_s = 0, solve_cpu_s = 0;
 

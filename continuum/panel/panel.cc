@@ -243,8 +243,9 @@ namespace diptych::continuum
       report.progress          = now.progress;
       report.axial_strain      = now.axial_strain;
       report.shear_strain      = now.shear_strain;
-      report.n_cells           = problem_.discretisation().triangulation.n_global_active_cells();
-      report.n_unknowns        = problem_.discretisation().dof_handler.n_dofs();
+      report.n_cells           = int(problem_.discretisation().triangulation.n_global_active_cells());
+      report.n_unknowns        = int(problem_.discretisation().dof_handler.n_dofs());
+      report.processes         = int(dealii::Utilities::MPI::n_mpi_processes(communicator_));
       report.steps             = driver_.state().count.steps;
       report.cut_backs         = driver_.state().count.cut_backs;
       report.newton_iterations = driver_.state().count.newton_iterations;

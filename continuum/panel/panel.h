@@ -4,7 +4,6 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,30 +13,12 @@
 #include "continuum/mesh/quad_mesh.h"
 #include "continuum/options.h"
 #include "continuum/panel/checkpoint.h"
+#include "continuum/report.h"
 #include "continuum/snapshot.h"
 #include "continuum/stopping.h"
 
 namespace diptych::continuum
 {
-  enum class Status
-  {
-    finished,
-    stopped_by_user,
-    not_converged
-  };
-
-  struct Report
-  {
-    Status                status       = Status::finished;
-    double                progress     = 0;                   // loading variable reached
-    double                axial_strain = 0, shear_strain = 0; // reached
-    std::string           message;                            // empty when finished
-    unsigned int          n_cells = 0, n_unknowns = 0;
-    int                   steps = 0, cut_backs = 0, newton_iterations = 0;
-    std::optional<double> localisation_progress;  // at the first negative determinant of the acoustic tensor
-    double                localisation_angle = 0; // of the band that could form there [degrees from the horizontal]
-  };
-
   // All optional. On several processes all of them call check_stop, stop_requested and before_step; the first alone calls the
   // others.
   struct Hooks

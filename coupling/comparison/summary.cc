@@ -117,7 +117,7 @@ namespace diptych::coupling
     const double unit_of_time = scene.sample.mean_diameter * std::sqrt(scene.sample.density / scene.loading.pressure);
     if (s.mean_inertial_number != 0)
       s.solver_noise = s.residual * s.step_length / unit_of_time / s.mean_inertial_number;
-    s.grain_stress_error = s.facts.residual_factor * s.residual;
+    s.grain_stress_error = s.facts.error_over_residual * s.residual;
     return s;
   }
 

@@ -37,20 +37,20 @@ namespace diptych::coupling
 
   struct DiscreteSummary
   {
-    int           grains = 0, steps = 0;
-    double        sweeps = 0, step_length = NAN; // [-], [time]
-    double        max_penetration      = NAN;    // [mean diameters]
-    double        mean_inertial_number = NAN;
-    double        impact_share         = NAN; // of the dissipation from 0.3 % strain on
-    double        energy_residual = NAN, momentum_residual = NAN, residual = NAN;
-    double        solver_noise       = NAN; // residual x step [d sqrt(rho/P)] / mean inertial number
-    double        grain_stress_error = NAN; // error / residual x residual; NaN if it was not measured
-    PanelNumbers  numbers;
-    double        spin_term_share             = NAN;
-    double        kinetic_energy_ratio_median = NAN, kinetic_energy_ratio_largest = NAN;
-    double        contacts = NAN, coordination_number = NAN, rattlers = NAN; // at the end
-    PlatenBalance balance;
-    DiscreteFacts facts;
+    int              grains = 0, steps = 0;
+    double           sweeps = 0, step_length = NAN; // [-], [time]
+    double           max_penetration      = NAN;    // [mean diameters]
+    double           mean_inertial_number = NAN;
+    double           impact_share         = NAN; // of the dissipation from 0.3 % strain on
+    double           energy_residual = NAN, momentum_residual = NAN, residual = NAN;
+    double           solver_noise       = NAN; // residual x step [d sqrt(rho/P)] / mean inertial number
+    double           grain_stress_error = NAN; // error / residual x residual; NaN if it was not measured
+    PanelNumbers     numbers;
+    double           spin_term_share             = NAN;
+    double           kinetic_energy_ratio_median = NAN, kinetic_energy_ratio_largest = NAN;
+    double           contacts = NAN, coordination_number = NAN, rattlers = NAN; // at the end
+    PlatenBalance    balance;
+    discrete::Report facts;
   };
 
   struct ContinuumSummary
@@ -64,7 +64,7 @@ namespace diptych::coupling
     std::string           law;
     std::optional<double> internal_length; // [mean diameters]; empty: the law has none, and the mesh sets the width of its band
     std::string           parameters_from;
-    ContinuumFacts        facts;
+    continuum::Report     facts;
   };
 
   // CPU seconds of phases; empty if the phase did not run.

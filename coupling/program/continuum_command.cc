@@ -36,7 +36,7 @@ namespace diptych::coupling
       const discrete::Snapshot *pointer() const { return snapshot ? &*snapshot : nullptr; }
     };
 
-    ContinuumFacts facts_of_part(const RunFacts &facts, const ContinuumPart &part)
+    const continuum::Report &facts_of_part(const RunFacts &facts, const ContinuumPart &part)
     {
       return part.is_coarse ? facts.continuum_coarse : facts.continuum;
     }
@@ -47,26 +47,6 @@ namespace diptych::coupling
       return facts_of_part(read_run_facts(scene.output.directory), part).finished &&
              !std::filesystem::exists(part.checkpoint()) &&
              count_continuum_snapshots(continuum_h5(part.directory)) == stages(scene.loading).size() + 1;
-    }
-
-    ContinuumFacts facts_of(const continuum::Report &report)
-    {
-      ContinuumFacts f;
-      f.cells     = int(report.n_cells);
-      f.unknowns  = int(report.n_unknowns);
-      f.steps     = report.steps;
-      f.processes = int(n_processes());
-      if (report.localisation_progress)
-        {
-          f.localisation_strain = *report.localisation_progress;
-          f.localisation_angle  = report.localisation_angle;
-        }
-      f.finished             = report.status == continuum::Status::finished;
-      f.reached_progress     = report.progress;
-      f.reached_axial_strain = report.axial_strain;
-      f.reached_shear_strain = report.shear_strain;
-      f.message              = report.message;
-      return f;
     }
 
     int take_grains(const CommandLine &line, const Scene &scene, const ContinuumTask &task, Grains &grains)
@@ -117,7 +97,7 @@ namespace diptych::coupling
       if (report.localisation_progress)
         text << "\n  from " << text_of(rows.back().loading_variable, *report.localisation_progress)
              << " on at least one point of the mesh may localise (singular acoustic tensor), band at "
-             << report.localisation_angle << " degrees";
+             << *report.localisation_angle << " degrees";
       if (const double share = largest(&continuum::HistoryRow::viscous_share).viscous_share; share > 0)
         text << "\n  viscosity carries up to " << 100 * share << " % of the shear strength where the sample yields";
       if (const double share = largest(&continuum::HistoryRow::unstable_share).unstable_share; share > 0)
@@ -170,18 +150,19 @@ namespace diptych::coupling
       });
       const PhaseTimer  timer(part.name);
       RecordedContinuum recorded(line, scene, part, grains.pointer(), grains.solid_fraction, resume);
-      recorded.keeps_snapshots       = task.results != nullptr;
-      const continuum::Report report = recorded.run();
-      PhaseCost               cost   = timer.stop();
-      cost.cpu_s                     = sum_over_processes(cost.cpu_s);
+      recorded.keeps_snapshots = task.results != nullptr;
+      continuum::Report report = recorded.run();
+      report.finished          = report.status == continuum::Status::finished;
+      PhaseCost cost           = timer.stop();
+      cost.cpu_s               = sum_over_processes(cost.cpu_s);
       on_first_process([&] {
         record_phases(scene.output.directory, {scene.name, {scene.sample.seed}, line.text}, {cost});
-        record_facts(scene.output.directory, part.name, facts_of(report));
+        record_facts(scene.output.directory, part.name, report);
         say_result(line, scene, part, report,
                    resume ? discrete::read_rows<continuum::HistoryRow>(continuum_csv(part.directory)) : recorded.results.rows);
         if (task.results != nullptr && !resume)
           {
-            recorded.results.facts                                       = facts_of(report);
+            recorded.results.facts                                       = report;
             (part.is_coarse ? task.results->coarse : task.results->fine) = std::move(recorded.results);
           }
         return 0;

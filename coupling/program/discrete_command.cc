@@ -42,41 +42,6 @@ namespace diptych::coupling
       return count;
     }
 
-    DiscreteFacts facts_of(const discrete::Report &r, const Rows &rows)
-    {
-      DiscreteFacts f;
-      f.preparation_solid_fraction         = r.preparation.solid_fraction;
-      f.preparation_friction               = r.preparation.friction;
-      f.preparation_steps                  = r.preparation.steps;
-      f.preparation_residual               = r.preparation.residual;
-      f.preparation_unbalanced_force       = r.preparation.unbalanced_force;
-      f.preparation_settling_steps         = r.preparation.settling_steps;
-      f.preparation_largest_overlap        = r.preparation.largest_overlap;
-      f.initial_height                     = r.initial_height;
-      f.platen_speed                       = r.platen_speed;
-      f.step                               = r.step;
-      f.step_bound                         = r.step_bound;
-      f.tolerance                          = r.tolerance;
-      f.expected_strength_error            = r.expected.strength;
-      f.expected_dilation_error            = r.expected.dilation();
-      f.halved_steps                       = r.halved_steps;
-      f.kinetic_energy_bursts              = bursts(rows);
-      f.ns_per_update                      = r.updates > 0 ? 1e9 * r.solver_cpu_s / double(r.updates) : 0;
-      f.solver_share_of_cpu                = r.loading_cpu_s > 0 ? r.solver_cpu_s / r.loading_cpu_s : 0;
-      f.residual_factor                    = r.error_over_residual;
-      f.residual_factor_reference_residual = r.reference_residual;
-      f.residual_factor_error              = r.reference_error;
-      f.residual_factor_estimate           = r.estimated_error;
-      f.snapshots_sampled                  = r.snapshots_sampled;
-      f.snapshots_accurate                 = r.snapshots_accurate;
-      f.finished                           = r.status == discrete::Status::finished;
-      f.reached_progress                   = r.progress;
-      f.reached_axial_strain               = r.axial_strain;
-      f.reached_shear_strain               = r.shear_strain;
-      f.message                            = r.message;
-      return f;
-    }
-
     // Grains of a file may be anywhere: where the pressure finds none to carry it, t/s is that of a few that fly.
     void doubt_idle_grains(const Rows &rows, const Scene &scene, std::ostream &out)
     {
@@ -180,7 +145,6 @@ namespace diptych::coupling
     void record(const CommandLine      &line,
                 const Scene            &scene,
                 const discrete::Report &report,
-                const DiscreteFacts    &facts,
                 const PhaseTimer       &timer,
                 const bool              prepared_before)
     {
@@ -193,7 +157,7 @@ namespace diptych::coupling
           loading.wall_s -= report.preparation_cpu_s;
         }
       record_phases(scene.output.directory, {scene.name, {scene.sample.seed}, line.text}, {preparation, loading});
-      record_facts(scene.output.directory, facts);
+      record_facts(scene.output.directory, report);
     }
 
     int say_how_it_ended(const CommandLine &line, const Scene &scene, const discrete::Report &report)
@@ -250,27 +214,28 @@ namespace diptych::coupling
       forget_fact(directory, "discrete");
 
     const PhaseTimer timer("discrete");
-    const bool       before   = checkpoint.has_value() || prepared != nullptr; // the timer began
-    RecordedGrains  &recorded = prepared ? *prepared : *(prepared = std::make_unique<RecordedGrains>(line, scene, checkpoint));
-    recorded.keeps_snapshots  = results != nullptr;
-    const discrete::Report &report = recorded.run();
-    const std::string       csv    = discrete_csv(directory);
-    const Rows              rows   = !checkpoint                    ? recorded.results.rows
-                                     : std::filesystem::exists(csv) ? discrete::read_rows<discrete::HistoryRow>(csv)
-                                                                    : Rows();
-    DiscreteFacts           facts  = facts_of(report, rows);
-    facts.warnings                 = doubts(rows, report, scene);
-    record(line, scene, report, facts, timer, before);
+    const bool       before      = checkpoint.has_value() || prepared != nullptr; // the timer began
+    RecordedGrains  &recorded    = prepared ? *prepared : *(prepared = std::make_unique<RecordedGrains>(line, scene, checkpoint));
+    recorded.keeps_snapshots     = results != nullptr;
+    discrete::Report  report     = recorded.run();
+    const std::string csv        = discrete_csv(directory);
+    const Rows        rows       = !checkpoint                    ? recorded.results.rows
+                                   : std::filesystem::exists(csv) ? discrete::read_rows<discrete::HistoryRow>(csv)
+                                                                  : Rows();
+    report.finished              = report.status == discrete::Status::finished;
+    report.kinetic_energy_bursts = bursts(rows);
+    report.warnings              = doubts(rows, report, scene);
+    record(line, scene, report, timer, before);
     say_result(line, scene, rows);
     recorded.warnings += reference_text(report);
-    tell_doubts(facts.warnings);
+    tell_doubts(report.warnings);
     if (!recorded.warnings.empty() && report.snapshots_accurate < report.snapshots_sampled)
       std::cerr << recorded.warnings << std::flush;
     else if (!recorded.warnings.empty())
       say(line, recorded.warnings.substr(0, recorded.warnings.size() - 1));
     if (results != nullptr && !checkpoint)
       {
-        recorded.results.facts = facts;
+        recorded.results.facts = report;
         *results               = std::move(recorded.results);
       }
     return say_how_it_ended(line, scene, report);

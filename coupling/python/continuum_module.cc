@@ -125,24 +125,6 @@ namespace diptych::python
       std::unique_ptr<Driven> driven;
     };
 
-    py::dict report_of(const ContinuumPanel &panel)
-    {
-      const continuum::Report &r = panel.driver().panel().report();
-      py::dict                 report;
-      report["message"]               = r.message;
-      report["progress"]              = r.progress;
-      report["axial_strain"]          = r.axial_strain;
-      report["shear_strain"]          = r.shear_strain;
-      report["n_cells"]               = r.n_cells;
-      report["n_unknowns"]            = r.n_unknowns;
-      report["steps"]                 = r.steps;
-      report["cut_backs"]             = r.cut_backs;
-      report["newton_iterations"]     = r.newton_iterations;
-      report["localisation_progress"] = r.localisation_progress;
-      report["localisation_angle"]    = r.localisation_angle;
-      return report;
-    }
-
     // Raises what makes all samples with these seeds fail; prints their resources.
     void check(const coupling::Scene &scene, const std::vector<int> &seeds, const py::dict &options)
     {
@@ -165,7 +147,7 @@ namespace diptych::python
         .def("snapshot", &ContinuumPanel::snapshot)
         .def("stage", [](const ContinuumPanel &panel) { return panel.driver().panel().stage(); })
         .def("history", [](const ContinuumPanel &panel) { return columns_dict(panel.driver().rows()); })
-        .def("report", &report_of)
+        .def("report", [](const ContinuumPanel &panel) { return panel.driver().report(); })
         .def("results", [](const ContinuumPanel &panel, const ContinuumSnapshots &snapshots) {
           return ContinuumResults{panel.driver().rows(), snapshots};
         });

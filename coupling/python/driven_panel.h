@@ -71,6 +71,12 @@ namespace diptych::python
         throw std::runtime_error("the panel is closed");
       return *panel_;
     }
+    py::dict report() const // entries of the panel's report
+    {
+      py::dict dict;
+      visit_facts(panel().report(), [&](const char *name, const auto &value, const char *, const char *) { dict[name] = value; });
+      return dict;
+    }
     const std::vector<Row> &rows() const
     {
       demand_rest();

@@ -41,30 +41,6 @@ namespace diptych::python
         throw std::runtime_error("no snapshot before prepare()");
       return std::make_shared<discrete::Snapshot>(panel.snapshot());
     }
-
-    py::dict report_of(const GrainPanel &panel)
-    {
-      const discrete::Report &r = panel.panel().report();
-      py::dict                report;
-      report["message"]                 = r.message;
-      report["progress"]                = r.progress;
-      report["axial_strain"]            = r.axial_strain;
-      report["shear_strain"]            = r.shear_strain;
-      report["solid_fraction"]          = r.preparation.solid_fraction;
-      report["largest_overlap"]         = r.preparation.largest_overlap;
-      report["initial_height"]          = r.initial_height;
-      report["step"]                    = r.step;
-      report["tolerance"]               = r.tolerance;
-      report["steps"]                   = r.steps;
-      report["sweeps"]                  = r.sweeps;
-      report["halved_steps"]            = r.halved_steps;
-      report["expected_strength_error"] = r.expected.strength;
-      report["expected_dilation_error"] = r.expected.dilation();
-      report["preparation_cpu_s"]       = r.preparation_cpu_s;
-      report["loading_cpu_s"]           = r.loading_cpu_s;
-      return report;
-    }
-
   } // namespace
 
   void bind_grains(py::module_ &m)
@@ -76,7 +52,7 @@ namespace diptych::python
       .def("snapshot", &snapshot_of)
       .def("stage", [](const GrainPanel &panel) { return panel.panel().stage(); })
       .def("history", [](const GrainPanel &panel) { return columns_dict(panel.rows()); })
-      .def("report", &report_of)
+      .def("report", &GrainPanel::report)
       .def("results", [](const GrainPanel &panel, const GrainSnapshots &snapshots) {
         return GrainResults{panel.rows(), snapshots};
       });

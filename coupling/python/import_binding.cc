@@ -118,8 +118,8 @@ namespace diptych::python
     // facts: JSON with the names of `discrete` in provenance.json
     void record_grains(const std::string &directory, const std::string &facts)
     {
-      const nlohmann::json      json = nlohmann::json::parse(facts);
-      coupling::DiscreteFacts   taken;
+      const nlohmann::json      json  = nlohmann::json::parse(facts);
+      discrete::Report          taken = coupling::unknown_report<discrete::Report>();
       coupling::NumbersFromJson reader{json};
       list_numbers(taken, reader);
       coupling::record_facts(directory, taken);

@@ -20,7 +20,7 @@ namespace diptych::coupling
     constexpr double  most_count = 1e9;
     const char       *length     = "length";
     const char       *law_states = "values"; // of nodes and points
-    const std::string format     = "diptych continuum checkpoint 3";
+    const std::string format     = "diptych continuum checkpoint 4";
 
     // Cells' names hold no blank.
     std::string text_of(const Lines &lines)

@@ -138,34 +138,34 @@ namespace diptych::coupling
         stored.push_back(row);
     }
 
-    template <class Facts> Facts get_facts(const json &record, const char *part)
+    template <class Facts> void get_facts(const json &record, const std::string &part, Facts &facts)
     {
-      Facts facts;
       if (const auto found = record.find(part); found != record.end())
         {
           NumbersFromJson reader{*found};
           list_numbers(facts, reader);
         }
-      return facts;
     }
 
     FileSums sums_of(const std::string &directory, const json &record, const std::string &part)
     {
-      return from_record(path_of(directory), [&] { return get_facts<FileSums>(record, (part + "_files").c_str()); });
+      FileSums sums;
+      from_record(path_of(directory), [&] { get_facts(record, part + "_files", sums); });
+      return sums;
     }
 
     RunFacts run_facts_of(const json &record)
     {
-      RunFacts facts{get_facts<DiscreteFacts>(record, "discrete"),
-                     get_facts<ContinuumFacts>(record, "continuum"),
-                     get_facts<ContinuumFacts>(record, "continuum_coarse"),
-                     get_facts<FileSums>(record, "discrete_files"),
-                     get_facts<FileSums>(record, "continuum_files"),
-                     get_facts<FileSums>(record, "continuum_coarse_files"),
-                     get_facts<FileSums>(record, "comparison_files"),
-                     get_facts<FileSums>(record, "ensemble_files"),
-                     get_facts<SceneHashes>(record, "hashes"),
-                     {}};
+      RunFacts facts;
+      get_facts(record, "discrete", facts.discrete);
+      get_facts(record, "continuum", facts.continuum);
+      get_facts(record, "continuum_coarse", facts.continuum_coarse);
+      get_facts(record, "discrete_files", facts.discrete_files);
+      get_facts(record, "continuum_files", facts.continuum_files);
+      get_facts(record, "continuum_coarse_files", facts.continuum_coarse_files);
+      get_facts(record, "comparison_files", facts.comparison_files);
+      get_facts(record, "ensemble_files", facts.ensemble_files);
+      get_facts(record, "hashes", facts.hashes);
       for (const json &row : record.value("phases", json::array()).get<std::vector<json>>())
         {
           NumbersFromJson reader{row};
@@ -288,14 +288,14 @@ namespace diptych::coupling
     write_record(directory, record);
   }
 
-  void record_facts(const std::string &directory, const DiscreteFacts &facts)
+  void record_facts(const std::string &directory, const discrete::Report &report)
   {
-    put_facts(directory, "discrete", facts);
+    put_facts(directory, "discrete", report);
   }
 
-  void record_facts(const std::string &directory, const std::string &part, const ContinuumFacts &facts)
+  void record_facts(const std::string &directory, const std::string &part, const continuum::Report &report)
   {
-    put_facts(directory, part, facts);
+    put_facts(directory, part, report);
   }
 
   void record_scene(const std::string &directory, const RunOrigin &origin, const SceneHashes &hashes)

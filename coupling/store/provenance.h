@@ -40,8 +40,8 @@ namespace diptych::coupling
   void record_phases(const std::string &directory, const RunOrigin &origin, const std::vector<PhaseCost> &phases);
 
   // Records the facts of one part ("discrete", "continuum" or "continuum_coarse") and the checksums of its files.
-  void record_facts(const std::string &directory, const DiscreteFacts &facts);
-  void record_facts(const std::string &directory, const std::string &part, const ContinuumFacts &facts);
+  void record_facts(const std::string &directory, const discrete::Report &report);
+  void record_facts(const std::string &directory, const std::string &part, const continuum::Report &report);
 
   // Checksum of a file's bytes (FNV-1a, 64 bits, hexadecimal); empty if there is no file.
   std::string sum_over(const std::string &file);

@@ -263,7 +263,7 @@ namespace diptych::coupling
     if (!has_report(facts))
       remove_results(directory, {"report.html"});
     remove_results(directory, {"movie.gif"}); // of the earlier panels; `report --movie` draws it
-    if (facts.continuum_coarse.cells == 0)
+    if (facts.continuum_coarse.n_cells == 0)
       remove_results(directory, {"coarse"});
     if (facts.continuum.finished)
       remove_results(directory, {"continuum_checkpoint.h5"});

@@ -19,7 +19,7 @@ namespace diptych::coupling
 {
   namespace
   {
-    DiscreteResults discrete_results(const std::string &folder, const DiscreteFacts &facts)
+    DiscreteResults discrete_results(const std::string &folder, const discrete::Report &facts)
     {
       const std::string table = discrete_csv(folder);
       DiscreteResults results{discrete::read_history<discrete::HistoryRow>(table), discrete::read_snapshots(discrete_h5(folder)),
@@ -29,7 +29,7 @@ namespace diptych::coupling
       return results;
     }
 
-    ContinuumResults continuum_results(const std::string &folder, const ContinuumFacts &facts)
+    ContinuumResults continuum_results(const std::string &folder, const continuum::Report &facts)
     {
       const std::string table = continuum_csv(folder);
       ContinuumResults  results{discrete::read_history<continuum::HistoryRow>(table),

@@ -19,14 +19,14 @@ namespace diptych::coupling
   {
     std::vector<discrete::HistoryRow> rows;
     std::vector<discrete::Snapshot>   snapshots; // the prepared sample first, then one per stage
-    DiscreteFacts                     facts;
+    discrete::Report                  facts = unknown_report<discrete::Report>();
   };
 
   struct ContinuumResults
   {
     std::vector<continuum::HistoryRow> rows;
     std::vector<continuum::Snapshot>   snapshots; // the state at rest first, then one per stage
-    ContinuumFacts                     facts;
+    continuum::Report                  facts = unknown_report<continuum::Report>();
   };
 
   // Everything that a comparison needs. It comes from panels that ran in this process or from files; both give the same bits.

@@ -13,56 +13,35 @@ namespace diptych::discrete
 {
   namespace
   {
-    // The only list of scalars, for reading and writing: visit(name, member).
+    // The only list of scalars, for reading and writing: visit(name, member). The entries of the report are in its own list.
     template <class Visit> void visit_scalars(Checkpoint &p, Visit &&visit)
     {
       Report &r = p.report;
-      visit("time", p.state.time);
-      visit("stage", p.stage);
-      visit("steps_left", p.steps_left);
-      visit("step", p.step);
-      visit("interval", p.interval);
-      visit("window_time", p.window.time);
-      visit("reference_height", p.reference.height);
-      visit("reference_area", p.reference.area);
-      visit("reference_grain_area", p.reference.grain_area);
-      visit("reference_kinetic_energy", p.reference.kinetic_energy);
-      visit("reference_platen_kinetic_energy", p.reference.platen_kinetic_energy);
-      visit("reference_strain_rate", p.reference.strain_rate);
-      visit("reference_mean_density", p.reference.mean_density);
-      visit("reference_platen_x", p.reference.platen.x());
-      visit("reference_platen_y", p.reference.platen.y());
-      visit("progress", r.progress);
-      visit("axial_strain", r.axial_strain);
-      visit("shear_strain", r.shear_strain);
-      visit("report_step", r.step);
-      visit("steps", r.steps);
-      visit("sweeps", r.sweeps);
-      visit("updates", r.updates);
-      visit("preparation_cpu_s", r.preparation_cpu_s);
-      visit("loading_cpu_s", r.loading_cpu_s);
-      visit("solver_cpu_s", r.solver_cpu_s);
-      visit("initial_height", r.initial_height);
-      visit("platen_speed", r.platen_speed);
-      visit("error_over_residual", r.error_over_residual);
-      visit("reference_residual", r.reference_residual);
-      visit("reference_error", r.reference_error);
-      visit("estimated_error", r.estimated_error);
-      visit("halved_steps", r.halved_steps);
-      visit("snapshots_sampled", r.snapshots_sampled);
-      visit("snapshots_accurate", r.snapshots_accurate);
-      visit("preparation_quiet", r.preparation.quiet);
-      visit("preparation_steps", r.preparation.steps);
-      visit("preparation_residual", r.preparation.residual);
-      visit("preparation_unbalanced", r.preparation.unbalanced_force);
-      visit("preparation_solid_fraction", r.preparation.solid_fraction);
-      visit("preparation_overlap", r.preparation.soft_overlap);
-      visit("report_tolerance", r.tolerance);
-      visit("expected_strength_error", r.expected.strength);
-      visit("expected_dilation_loss", r.expected.dilation_loss);
-      visit("preparation_settling_steps", r.preparation.settling_steps);
-      visit("preparation_largest_overlap", r.preparation.largest_overlap);
-      visit("preparation_friction", r.preparation.friction);
+      visit("scalars/time", p.state.time);
+      visit("scalars/stage", p.stage);
+      visit("scalars/steps_left", p.steps_left);
+      visit("scalars/step", p.step);
+      visit("scalars/interval", p.interval);
+      visit("scalars/window_time", p.window.time);
+      visit("scalars/reference_height", p.reference.height);
+      visit("scalars/reference_area", p.reference.area);
+      visit("scalars/reference_grain_area", p.reference.grain_area);
+      visit("scalars/reference_kinetic_energy", p.reference.kinetic_energy);
+      visit("scalars/reference_platen_kinetic_energy", p.reference.platen_kinetic_energy);
+      visit("scalars/reference_strain_rate", p.reference.strain_rate);
+      visit("scalars/reference_mean_density", p.reference.mean_density);
+      visit("scalars/reference_platen_x", p.reference.platen.x());
+      visit("scalars/reference_platen_y", p.reference.platen.y());
+      visit("scalars/steps", r.steps);
+      visit("scalars/sweeps", r.sweeps);
+      visit("scalars/updates", r.updates);
+      visit("scalars/preparation_cpu_s", r.preparation_cpu_s);
+      visit("scalars/loading_cpu_s", r.loading_cpu_s);
+      visit("scalars/solver_cpu_s", r.solver_cpu_s);
+      visit("scalars/preparation_quiet", r.preparation.quiet);
+      visit("scalars/preparation_overlap", r.preparation.soft_overlap);
+      visit("scalars/expected_dilation_loss", r.expected.dilation_loss);
+      visit_facts(r, [&](const std::string &name, auto &value, const char *, const char *) { visit("report/" + name, value); });
     }
 
     std::vector<double> numbers(HistoryRow row)
@@ -292,11 +271,13 @@ namespace diptych::discrete
     file.write("reference/position", p.reference.position);
     file.write("row", numbers(p.row));
     file.write("n_rows", std::vector<double>{double(checkpoint.n_rows)});
-    visit_scalars(p, [&](const char *name, const auto &value) {
-      file.write(std::string("scalars/") + name, std::vector<double>{double(value)});
+    visit_scalars(p, [&](const std::string &name, const auto &value) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>)
+        file.write_string(name, value);
+      else
+        file.write(name, std::vector<double>{double(value)});
     });
     file.write_string("scene", checkpoint.scene);
-    file.write_string("step_bound", p.report.step_bound);
     file.finish();
   }
 
@@ -321,12 +302,15 @@ namespace diptych::discrete
       check_sizes(path, p, row.size() == width);
       p.row             = row_of(row.data());
       checkpoint.n_rows = read_number<long>(file, "n_rows");
-      visit_scalars(p, [&](const char *name, auto &value) {
-        value = read_number<std::decay_t<decltype(value)>>(file, std::string("scalars/") + name);
+      visit_scalars(p, [&](const std::string &name, auto &value) {
+        using Value = std::decay_t<decltype(value)>;
+        if constexpr (std::is_same_v<Value, std::string>)
+          value = file.read_string(name);
+        else
+          value = read_number<Value>(file, name);
       });
       check_scalars(path, checkpoint);
-      checkpoint.scene    = file.read_string("scene");
-      p.report.step_bound = file.read_string("step_bound");
+      checkpoint.scene = file.read_string("scene");
       return checkpoint;
     }
   catch (const std::out_of_range &)

@@ -292,6 +292,7 @@ namespace diptych::discrete
       const double  begin         = cpu_seconds();
       const bool    done          = advance_by(now.step, penalty() ? 0 : most_halvings);
       now.report.loading_cpu_s += cpu_seconds() - begin;
+      note_costs(now.report);
       const Strains strains   = strains_of(now.state, now.reference);
       now.report.axial_strain = strains.axial;
       now.report.shear_strain = strains.shear;

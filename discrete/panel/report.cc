@@ -21,7 +21,14 @@ namespace diptych::discrete
 
   void note(Report &report, const ExpectedErrors &errors)
   {
-    report.expected.strength      = std::max(report.expected.strength, errors.strength);
-    report.expected.dilation_loss = std::max(report.expected.dilation_loss, errors.dilation_loss);
+    report.expected.strength       = std::max(report.expected.strength, errors.strength);
+    report.expected.dilation_loss  = std::max(report.expected.dilation_loss, errors.dilation_loss);
+    report.expected_dilation_error = report.expected.dilation();
+  }
+
+  void note_costs(Report &report)
+  {
+    report.ns_per_update       = report.updates > 0 ? 1e9 * report.solver_cpu_s / double(report.updates) : 0;
+    report.solver_share_of_cpu = report.loading_cpu_s > 0 ? report.solver_cpu_s / report.loading_cpu_s : 0;
   }
 } // namespace diptych::discrete

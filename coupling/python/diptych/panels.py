@@ -58,7 +58,7 @@ class _Panel:
 
     @property
     def report(self) -> Record:
-        """State of the panel: steps, cost, message."""
+        """The facts of the run so far, with the names of provenance.json: reached_progress, step, message and more."""
         return Record(self._panel.report())
 
     def snapshot(self) -> Any:

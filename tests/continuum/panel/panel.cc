@@ -161,8 +161,8 @@ namespace
     // s1 at peak: 2.0775 + 0.0288: elastic strain (s1 - 1) 0.96/500 = 0.0021.
     EXPECT_GT(*c.report.localisation_progress, 0.0021);
     EXPECT_LT(*c.report.localisation_progress, 0.004);
-    EXPECT_GT(std::abs(c.report.localisation_angle), 51 - 1);
-    EXPECT_LT(std::abs(c.report.localisation_angle), 55.25 + 1);
+    EXPECT_GT(std::abs(*c.report.localisation_angle), 51 - 1);
+    EXPECT_LT(std::abs(*c.report.localisation_angle), 55.25 + 1);
     EXPECT_FALSE(finished(mesh, straight_loading(1, {0, -1}, {0.002}), options).report.localisation_progress.has_value());
   }
 

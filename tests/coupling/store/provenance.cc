@@ -73,7 +73,7 @@ namespace
   TEST_F(Provenance, TheRecordOfARunIsRead)
   {
     (void)recorded(folder);
-    DiscreteFacts facts;
+    discrete::Report facts;
     facts.finished = true, facts.step = 0.25;
     record_facts(folder, facts);
     EXPECT_EQ(recorded_scene(folder), "mine");
@@ -85,7 +85,7 @@ namespace
   {
     (void)recorded(folder);
     std::ofstream(folder / "discrete.csv") << "a\n";
-    record_facts(folder, DiscreteFacts());
+    record_facts(folder, discrete::Report());
     EXPECT_NO_THROW(check_files(folder));
     std::ofstream(folder / "discrete.csv") << "b\n";
     EXPECT_THROW(check_files(folder), std::invalid_argument);

@@ -97,12 +97,12 @@ namespace
       r.mean_density);
     b(p.row, p.window.sums, p.window.spin, p.window.time, p.stage, double(p.steps_left), p.step, double(p.interval));
     const Report &q = p.report;
-    b(q.progress, q.axial_strain, q.shear_strain, double(q.preparation.quiet), q.preparation.steps, q.preparation.residual,
-      q.preparation.unbalanced_force, q.preparation.solid_fraction, q.preparation.soft_overlap, q.preparation.friction,
-      q.preparation.settling_steps, q.preparation.largest_overlap);
     b(double(q.steps), double(q.sweeps), double(q.updates), q.preparation_cpu_s, q.loading_cpu_s, q.solver_cpu_s,
-      q.initial_height, q.platen_speed, q.error_over_residual, q.reference_residual, q.reference_error, q.estimated_error);
-    b(q.snapshots_sampled, q.snapshots_accurate);
+      double(q.preparation.quiet), q.preparation.soft_overlap, q.expected.dilation_loss);
+    visit_facts(q, [&](const char *, const auto &value, const char *, const char *) {
+      if constexpr (!std::is_same_v<std::decay_t<decltype(value)>, std::string>)
+        b(double(value));
+    });
     return b.words;
   }
 
@@ -161,13 +161,19 @@ namespace
 
   inline void fill_report(Dice &dice, Report &q)
   {
-    q.progress = dice(), q.axial_strain = dice(), q.shear_strain = dice(), q.steps = dice.whole(), q.sweeps = 123456789012345,
-    q.updates           = 9007199254740991; // 2^53 - 1
-    q.preparation       = {true, dice.whole(), dice(), dice(), dice(), dice(), dice.whole(), dice(), dice()};
-    q.preparation_cpu_s = dice(), q.loading_cpu_s = dice(), q.solver_cpu_s = dice(), q.initial_height = dice();
-    q.platen_speed = dice(), q.reference_error = dice(), q.snapshots_sampled = 12, q.snapshots_accurate = 7;
-    q.estimated_error = std::numeric_limits<double>::infinity(); // error_over_residual and reference_residual stay NaN
-    q.step_bound      = "forces";
+    visit_facts(q, [&](const char *, auto &value, const char *, const char *) {
+      using Value = std::decay_t<decltype(value)>;
+      if constexpr (std::is_same_v<Value, double>)
+        value = dice();
+      else if constexpr (std::is_same_v<Value, int>)
+        value = dice.whole();
+    });
+    q.steps = dice.whole(), q.sweeps = 123456789012345, q.updates = 9007199254740991; // 2^53 - 1
+    q.preparation.quiet = true, q.preparation.soft_overlap = dice(), q.expected.dilation_loss = dice();
+    q.preparation_cpu_s = dice(), q.loading_cpu_s = dice(), q.solver_cpu_s = dice();
+    q.estimated_error     = std::numeric_limits<double>::infinity();
+    q.error_over_residual = q.reference_residual = std::numeric_limits<double>::quiet_NaN();
+    q.step_bound                                 = "forces";
   }
 
   inline StoredCheckpoint random_checkpoint()
