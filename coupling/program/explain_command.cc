@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <iostream>
-#include <sstream>
 #include <stdexcept>
 
 #include <nlohmann/json.hpp>
 
+#include "coupling/numbers/record_file.h"
 #include "coupling/program/python_package.h"
 #include "coupling/program/result_entries.h"
 #include "coupling/scene/keys.h"
@@ -29,25 +28,6 @@ namespace diptych::coupling
     {
       const auto same = [](const unsigned char a, const unsigned char b) { return std::tolower(a) == std::tolower(b); };
       return std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end();
-    }
-
-    // Files that a room of the Python package writes: file, entry, shape, unit and meaning, separated by tabs.
-    void add_python(const std::string &room, ResultList &result)
-    {
-      const std::string path = python_package() + "/diptych/" + room + "/result_entries.tsv";
-      std::ifstream     in(path);
-      if (!in)
-        throw std::runtime_error(path + " cannot be read; the installation is broken");
-      std::string line;
-      std::getline(in, line); // the names of the columns
-      while (std::getline(in, line))
-        {
-          std::istringstream fields(line);
-          ResultEntry        entry;
-          for (std::string *field : {&entry.file, &entry.name, &entry.shape, &entry.unit, &entry.meaning})
-            std::getline(fields, *field, '\t');
-          result.push_back(entry);
-        }
     }
 
     nlohmann::ordered_json schema(const std::vector<std::function<ResultList()>> &lists)
@@ -110,11 +90,14 @@ namespace diptych::coupling
 
   ResultList python_result_entries()
   {
-    ResultList result;
-    for (const char *room : {"campaigns/ensembles", "campaigns/studies", "campaigns/plans", "campaigns/calibration", "importers",
-                             "campaigns/element"})
-      add_python(room, result);
-    return result;
+    const std::string    path   = python_package() + "/diptych/result_entries.json"; // the build wrote it
+    const nlohmann::json record = read_record_file(path);
+    return from_record(path, [&] {
+      ResultList result;
+      for (const nlohmann::json &one : record.at("results"))
+        result.push_back({one.at("file"), one.at("entry"), one.at("shape"), one.at("unit"), one.at("meaning")});
+      return result;
+    });
   }
 
   int explain(const CommandLine &line, const std::vector<std::function<ResultList()>> &lists)

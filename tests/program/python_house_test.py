@@ -16,11 +16,11 @@ PACKAGE = os.path.join(SOURCE, "coupling", "python", "diptych")
 FOLDERS = ("discrete", "continuum", "coupling", "tests", "benchmarks")
 
 # The rooms of the package from the ground up: a folder or a module. A room imports itself and those before it.
-ROOMS = ("errors", "words", "files", "compiled", "scenes", "plotting", "arrays", "operators", "laws", "panels",
-         "problems", "results", "sheets", "averaging_width", "homogenisation", "shipped", "importers", "report/data",
-         "report/charts", "report/tables", "report/page", "report", "campaigns/runs", "campaigns/studies",
-         "campaigns/ensembles", "campaigns/calibration", "campaigns/plans", "campaigns/exchange", "campaigns/element",
-         "campaigns", "")
+ROOMS = ("errors", "words", "files", "entries", "compiled", "scenes", "plotting", "arrays", "operators", "laws",
+         "panels", "problems", "results", "sheets", "averaging_width", "homogenisation", "shipped", "importers",
+         "report/data", "report/charts", "report/tables", "report/page", "report", "campaigns/runs",
+         "campaigns/studies", "campaigns/ensembles", "campaigns/calibration", "campaigns/plans", "campaigns/exchange",
+         "campaigns/element", "campaigns", "")
 
 
 def text_of(path):

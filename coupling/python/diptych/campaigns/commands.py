@@ -7,6 +7,7 @@ from __future__ import annotations
 import importlib
 from collections.abc import Sequence
 
+from ..entries import described
 from ..words import Parser
 from . import arguments
 from .runs.engine import Options
@@ -40,3 +41,10 @@ def do(words: Sequence[str]) -> None:
     line = parser.parse(with_joined_per_cent(words[1:]))
     loaded = importlib.import_module("." + module, __package__)
     getattr(loaded, function)(line, Options.of(line, words))
+
+
+def result_entries() -> list[dict[str, str]]:
+    """Descriptions of the entries of all files that the commands write."""
+    for _, module, _ in COMMANDS.values():
+        importlib.import_module("." + module, __package__)
+    return described()

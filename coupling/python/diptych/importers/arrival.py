@@ -9,10 +9,46 @@ from typing import Any, Sequence
 import numpy as np
 
 from .. import _diptych
+from ..entries import describe
 from ..errors import SceneError
 from .checks import check_arrival
 from .frames import Frame, Options, completed, refused
 from .touching import Instant, take_contacts, total
+
+describe("import.json", """\
+format (text): format of the files
+files (list): files that were read
+thickness [length]: thickness by which forces and masses were divided
+mean_diameter [length]: mean diameter d of the grains, or the value of --mean-diameter
+density [mass/length^2]: mass of the grains / their area, per unit thickness; null: unknown
+remarks (list): notes on data that were reordered, reversed or left out
+lacking (list): quantities that the files do not contain; absent from all results
+doubtful (list): findings of the checks that a user should look at
+frames/: one per frame
+    frame (text): name of the frame in the files
+    time [time]: time of the frame; null: not in the files
+    axial_strain: descent of the upper wall / height in the first frame
+    grains: number of grains
+    contacts: number of contacts between grains with a force
+    lower_contacts: number of contacts with the lower wall with a force
+    upper_contacts: number of contacts with the upper wall with a force
+    left_contacts: number of contacts with the left wall with a force
+    right_contacts: number of contacts with the right wall with a force
+    mass [mass]: mass of all grains, per unit thickness
+    solid_fraction: area of the grains / area between the walls
+    balance_against_resultants (yes or no): true: contact forces are compared with the resultant in the file; false: \
+        with zero
+    balance_rms: rms over grains of contact forces plus weight minus resultant (or 0) / mean contact force; without \
+        resultants and with free sides only the vertical component counts
+    balance_worst: largest such residual of a grain
+    balance_worst_grain: id of that grain
+    contact_stress (tensor) [pressure]: sum over contacts of force (x) branch / area
+    wall_stress (tensor) [pressure]: sum over wall contacts of force on the wall (x) contact point, less weights (x) \
+        centres, / area
+    stress_difference: largest component of their difference / largest component of the wall stress; inertia or an error
+    wall_force_difference: wall forces in the files against the sums of contacts, relative
+    largest_overlap [mean diameters]: largest overlap of two grains or of a grain and a wall
+""")
 
 
 @dataclass(kw_only=True, repr=False)

@@ -8,9 +8,33 @@ from typing import Any, Sequence
 import numpy as np
 
 from .. import _diptych
+from ..entries import describe
 from ..errors import SceneError
 
 FORMATS = ("lammps", "csv", "dump")
+
+describe("discrete/stage_NNNN.vtu", """\
+mean_stress (numbers) [pressure]: half the trace of the internal moment of the last step over the area of the disc; \
+    the other arrays are those of grains/ in discrete.h5
+""")
+
+describe("discrete_contacts/stage_NNNN.vtu", """\
+normal_force (numbers) [pressure length]: force along the normal at both ends of each line, positive in compression; \
+    contacts that carry force in the last step
+tangential_force (numbers) [pressure length]: force on the first body along the normal turned by +90 degrees
+gap (numbers) [length]: distance of the surfaces; negative: penetration
+status (whole numbers): 1 sticking, 2 slipping, 3 unknown (imported)
+""")
+
+describe("grains.dump", """\
+type (whole numbers): 1 free, 2 held at its velocity, 3 and 4 part of the lower and upper platen; the other columns \
+    have the names of discrete.h5 or of LAMMPS
+""")
+
+describe("contacts.dump", """\
+fx, fy (numbers) [pressure length]: normal part of the force on patom1; force: its size; patom1 and patom2 count from 1
+p1, p2 (numbers) [pressure length]: tangential part of the force on patom1
+""")
 
 
 def _exact(value: float) -> str:

@@ -13,6 +13,7 @@ from typing import Any
 import pandas as pd
 
 from ... import _diptych
+from ...entries import describe
 from ...errors import NotConverged, SceneError, Stopped
 from .curves import BINS, Curves, key_numbers, observed, rms_differences, table_of
 from ..runs.engine import DONE, WRONG_INPUT, Options, say
@@ -22,6 +23,44 @@ from ..runs.input_file import Setting, read_seeds, settings_of
 from ..studies.points import on_sample, scene_run
 
 FOLLOW_DENSITY = ("critical_state", "kinematic")  # kinds of hardening that know the solid fraction
+
+describe("element.json", """\
+format: version of this file's format
+scene (text): name of the scene
+revision (text): revision of the program
+command (text): command line
+bins: equal parts of the path's progress over which the curves are averaged
+seeds (list): requested samples
+done (list): samples with results
+walk (text): loading variable: path, axial_strain, shear_strain or time
+failed/: samples that ended before the end of the path
+    seed: seed of the sample
+    message (text): reason
+law/: the law's point
+    failure (text): reason why it ended before the end of the path; empty: it did not
+quantities/: key numbers, each with its unit
+    quantity (text): largest: of the mean over a twentieth of the path; last: mean over the last twentieth; then a \
+        NAME of element.csv
+    unit (text): unit of the numbers; P: pressure of the start
+    grains (interval) [as unit says]: mean over the samples (Student)
+    law [as unit says]: of the law; null where it has none
+    difference (interval) [as unit says]: law minus grains
+rms/: differences over the whole path
+    quantity (text): a NAME of element.csv
+    unit (text): unit of the numbers
+    value [as unit says]: root mean square of law minus mean of the grains
+    error [as unit says]: its standard error, jackknife over the samples
+    noise [as unit says]: root mean square of the standard errors of the grains
+""")
+
+describe("element.csv", """\
+progress [strain or time]: middle of the part of the path to which the row belongs
+grains_NAME [as in both panels' tables]: mean over the samples. NAME: stress_ratio, mean_stress [P], \
+    volumetric_strain, stress_direction, fabric_anisotropy, fabric_direction, coordination, solid_fraction, sxx, syy, \
+    sxy, exx, eyy, exy
+grains_NAME_error [as grains_NAME]: standard error of this mean; nan for one sample
+law_NAME [as grains_NAME]: of the law's point, which has no fabric and no contacts
+""")
 
 
 def _read(run: SceneRun) -> SceneRun:

@@ -9,8 +9,143 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ...arrays import ends_text
+from ...entries import describe
 from ..runs.key_numbers import QUANTITIES
 from ..runs.statistics import Interval, line_statistics, statistics, words_of
+
+MEAN = """\
+unit (text): unit of the quantity
+n: number of members with a value
+mean [as in unit]: mean over the members
+deviation [as in unit]: standard deviation of one member
+low [as in unit]: lower end of the 95 % Student interval of the mean
+high [as in unit]: upper end of the same interval
+"""
+
+describe("ensemble.json", """\
+format: version of this file's format
+scene (text): name of the scene
+seeds (list): requested seeds
+done (list): seeds of the finished members
+failed/: seeds whose run ended with an exit code other than 0
+    seed: seed of the member
+    exit_code: exit code of its run; 128 + signal if a signal ended it
+    message (text): last line of its log
+interrupted (list): seeds that were stopped or not started
+margins/: margins of the scene
+    margin_angle [degrees]: largest difference of the bands' inclinations that counts as equivalent in an ensemble of \
+        seeds
+    margin_thickness: largest difference of the bands' 10-90 % widths that counts as equivalent in an ensemble of \
+        seeds, relative to the mean of the grains
+    margin_peak_stress_ratio: largest difference of peak stress ratios, and of strengths (T/S beyond 0.3 % strain), \
+        that counts as equivalent in an ensemble of seeds, relative to the mean of the grains
+    margin_volumetric_strain: largest difference of the volumetric strains at the end that counts as equivalent in an \
+        ensemble of seeds (absolute)
+walk (text): loading variable: axial_strain, shear_strain or time
+folded (yes or no): true if mirror images of bands were folded together
+student_t_95: half width of the intervals in standard errors; null for less than two members
+summary/: the numbers that a user asks for first, with the rows of the summary of a single run
+    key (text): key of the quantity
+    quantity (text): name of the quantity
+    unit (text): unit of the numbers
+    grains (interval) [as unit says]: mean of the grains over the samples
+    continuum (interval) [as unit says]: mean of the continuum over the samples
+    difference (interval) [as unit says]: mean of continuum minus grains, sample by sample
+    verdict (text): equivalent, different or cannot tell, with the margin; or not in both panels
+levels/: with --levels only: means of the grains in the limit of short steps
+    cheap: discrete/accuracy of all samples
+    fine: discrete/accuracy of the second run of some samples, the pairs
+    seeds (list): seeds of the pairs
+    quantities/: quantities of the grains whose bias follows the rule of the step
+        key (text): key of the quantity
+        quantity (text): name of the quantity
+        unit (text): unit of the quantity
+        n: number of samples with a value
+        pairs: number of pairs with both values
+        ratio: expected error of the fine setting divided by that of the cheap one
+        cheap [as in unit]: mean of all samples at the cheap setting
+        difference [as in unit]: mean of cheap minus fine over the pairs
+        limit (interval) [as in unit]: mean in the limit of short steps
+        error_samples [as in unit]: standard error of the limit due to the scatter of samples and pairs
+        error_order [as in unit]: standard error of the limit due to the order of the bias in the step
+        fine (list) [as in unit]: values at the fine setting, in the order of done; null without a pair
+quantities/: every number of comparison.json that may be averaged
+    name (text): name of the quantity: stage or window, panel and key of comparison.json
+""")
+describe("ensemble.json", MEAN, below="quantities/")
+describe("ensemble.json", """\
+quantities/values (list) [as in unit]: values of the members, in the order of done; null if a member has none
+bands/: number of bands found
+    name (text): window and panel
+    none: number of members without a band
+    one: number of members with one band
+    two: number of members with two bands
+    text (text): the same as text
+verdicts/: verdicts on the differences of the panels
+    key (text): key of the quantity in summary; that of a band stands in every window
+    quantity (text): compared quantity: continuum minus grains, member by member
+    unit (text): unit of the quantity
+    margin [as in unit]: largest difference that counts as equivalent
+    relative (yes or no): true if margin and difference are relative to the mean of the grains
+    difference (interval) [as in unit]: mean difference; the interval holds all known parts of u_val
+    difference_90 (interval) [as in unit]: mean difference with its 90 % interval, on which the verdict equivalent rests
+    n: number of pairs
+    verdict (text): equivalent, different or cannot tell
+    discrete (list) [as in unit]: values of the grains, in the order of done
+    continuum (list) [as in unit]: values of the continuum, in the order of done
+validation/: errors and standard uncertainties as in ASME V&V 20, in the order of verdicts
+    key (text): key of the quantity, as in verdicts
+    quantity (text): compared quantity
+    unit (text): unit of the quantity
+    n: number of samples with a value in both panels
+    S [as in unit]: mean of the continuum over these samples
+    D [as in unit]: mean of the grains over the same samples
+    E (interval) [as in unit]: error S - D; the interval holds all known parts of u_val
+    u_num [as in unit]: uncertainty of the numerical methods: the known ones of the parts; null if none is known
+    u_input [as in unit]: uncertainty of the calibrated parameters; null without posterior.csv
+    u_D [as in unit]: standard error of the mean difference over the samples; null for less than two
+    u_val [as in unit]: root of the sum of squares of u_num, u_input and u_D; parts that are not known count as 0
+    ratio: |E| / u_val
+    parts/: parts of u_num; null if not known
+        grains_step [as in unit]: uncertainty from the time step of the grains
+        mesh [as in unit]: uncertainty from the mesh of the continuum
+        load_step [as in unit]: uncertainty from the load step of the continuum
+    not_known (list): parts that are not known
+    verdict (text): equivalent, different or cannot tell
+continuum_runs/: runs of the continuum on the coarse mesh for load step and parameters
+    seed: seed of their sample; null without runs
+    scenes (list): hashes of their scenes: half the load step, then draws of the parameters
+    quantities (list): names of the quantities
+    values (list): a row per run with the values of the quantities; null without a value
+""")
+
+describe("ensemble.csv", "quantity: stage or window, panel and key of comparison.json; the members are columns seed_N",
+         "column")
+describe("ensemble.csv", MEAN, "column")
+
+describe("ensemble.h5", """\
+progress (numbers) [strain or time]: progress; points of the curves
+seeds (whole numbers): seeds; seeds of the members, one per row
+averaging_width (attribute, number) [strain or time]: width of the running means
+""")
+
+describe("ensemble.h5, groups PANEL/stress_ratio and PANEL/volumetric_strain", """\
+members (rows of numbers): every member; running mean, one row per seed; nan beyond the end of a history
+mean (numbers): mean; mean over all members; nan if a member has no value
+low (numbers): lower end; lower end of the 95 % Student interval of the mean; nan like the mean
+high (numbers): upper end; upper end of the same interval; nan like the mean
+""")
+
+describe("ensemble.h5, groups window_N/profile/PANEL", """\
+distance (numbers) [mean diameters]: distance from the band; middles of the strips, along the band's normal
+""")
+
+describe("ensemble.h5, groups window_N/profile/PANEL/CURVE", """\
+mean (numbers) [as in comparison.h5]: mean; mean over the members with a value; nan: fewer than two
+standard_error (numbers) [as in comparison.h5]: standard error; standard error of this mean; nan: fewer than two
+low (numbers) [as in comparison.h5]: low; lower end of its 95 % Student interval; nan: fewer than two
+high (numbers) [as in comparison.h5]: high; upper end of the same interval; nan: fewer than two
+""")
 
 
 def summary(member: Mapping[str, dict[str, Any]], record: dict[str, Any]) -> list[dict[str, Any]]:

@@ -16,6 +16,7 @@ import numpy as np
 
 from ... import _diptych
 from ...compiled import continuum
+from ...entries import describe
 from ...errors import NotConverged, Stopped
 from ..runs.engine import Options, tell
 from ..runs.folders import Folder, Runs, write_json, write_text
@@ -29,6 +30,48 @@ from ..studies.points import RunResult, on_sample, result_of, scene_run
 LEAST_SHARE_THAT_FINISHES = 0.75  # other samples are left out, as long as they are few
 SHARED_SAMPLES = 4  # that give the cost of both panels together
 SPARE_SAMPLES = 8
+
+describe("plan.json", """\
+format: version of this file's format
+scene (text): file name of the scene
+revision (text): revision of the program's source
+accuracy: required accuracy, relative
+pilot_cpu_s [s]: CPU time of the pilot's runs
+total_cpu_s [s]: CPU time of all planned samples, predicted; shared runs of both panels count once
+panels/: planned panels
+    panel (text): panel: discrete or continuum
+    command (text): command that computes its quantities
+    settings (list): settings that the plan chose
+    seeds (list): seeds of the samples; empty: the one sample of the scene
+    reaches (yes or no): true if the plan reaches the required accuracy
+    cpu_s [s]: CPU time of one sample, predicted
+    total_cpu_s [s]: CPU time of all samples, predicted
+    peak_memory_mb [MB]: peak memory of one sample, predicted
+    decisions (list): findings on every setting, as text
+    levels/: empty, or a plan with two levels: seeds, settings and cpu_s are those of the cheap one
+        cheap: discrete/accuracy of all samples
+        fine: discrete/accuracy of the pairs, the first samples
+        pairs: number of pairs
+        fine_cpu_s [s]: CPU time of one sample at the fine setting, predicted
+    quantities/: quantities with their error budgets
+        name (text): name of the quantity
+        mean [as the quantity says]: mean in the pilot
+        scatter: standard deviation of one sample, relative (angles: to 45 degrees)
+        total: sum of the parts: upper estimate of the error of the mean, relative
+        bias: expected error of the method: sum of the parts with their signs, relative
+        parts/: parts of the error; that of the samples is half a 95 % interval
+            cause (text): cause of this part of the error
+            error: upper estimate of this part, relative
+            bias: expected error with its sign, relative; positive: too large; 0: chance only
+            deviation: standard deviation of that estimate; null: unknown
+    outcome_cpu_s [s]: CPU time of one sample, measured; null before --run
+    outcomes/: results of --run
+        name (text): name of the quantity
+        n: number of samples
+        mean [as the quantity says]: mean over the samples
+        scatter: standard deviation of one sample, relative (angles: to 45 degrees)
+        half_interval: half the 95 % interval of the mean, relative
+""")
 
 
 def _cpu_s(result: RunResult, name: str = "") -> float:

@@ -14,6 +14,7 @@ import numpy as np
 import pandas as pd
 
 from ...arrays import Interval
+from ...entries import describe
 from .points import Point
 from ..runs.statistics import line_statistics, line_turn, statistics
 from .study_file import Family, Study
@@ -23,6 +24,18 @@ PANELS = {"discrete": "grains", "continuum": "continuum", "difference": "differe
 MOST_SAMPLES = 1000
 _ROUNDING = 1e-10  # smaller changes, relative to the values, are none
 _WIDEST_TABLE = 6  # points in a row of the terminal
+
+describe("effects.csv", """\
+family: family of the point, if there are several; the parameters follow, a column each by the names of the axes
+quantity: name of the quantity
+panel: grains, continuum, difference (continuum minus grains), material point or comparison
+unit: unit of the numbers
+n: samples with a value
+mean [as unit says]: mean over the samples; angles of lines: mean direction
+low [as unit says]: lower end of the 95 % interval of the mean (Student); empty for less than two samples
+high [as unit says]: upper end
+deviation [as unit says]: standard deviation of one sample
+""", "column")
 
 
 def change_between(values: np.ndarray) -> tuple[Interval, float]:

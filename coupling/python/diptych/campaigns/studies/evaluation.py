@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ...entries import describe
 from .effects import mean_of
 from .levels import Limit
 from .points import Point, RunResult
@@ -19,6 +20,30 @@ from ..runs.engine import WRONG_INPUT
 
 CLASSES = ("right", "wrong, warned", "silently wrong", "struggled", "stopped", "refused", "unjudged", "not run")
 Results = Sequence[Sequence[RunResult]]  # [point][sample]
+
+describe("study_cost.json", """\
+format: version of this file's format
+phases (list): phases that count
+disturbed: runs during which the machine was busy with other work
+runs: runs that ended
+total_cpu_s [s]: CPU time of all phases of all runs
+points/: finished points
+    point: index of the point in study.json
+    cpu_s [s]: CPU time of the phases that count, mean over the samples
+    peak_memory_mb [MB]: peak memory of the worst run
+    disturbed: runs during which the machine was busy with other work
+    front_of (list): quantities for which no point is both cheaper and closer to the reference
+    phases/: phases of a run
+        name (text): name of the phase
+        cpu_s [s]: CPU time, mean over the samples
+cheapest/: cheapest point within each accuracy
+    quantity (text): quantity within the accuracy; empty: all with a limit
+    accuracy [as errors]: required accuracy; for all quantities: a multiple of their limits
+    reference: reference of the points that compete: index in study.json
+    point: cheapest point within the accuracy: index in study.json; -1: none
+    cpu_s [s]: CPU time of this point
+    certain (yes or no): true if the 95 % intervals of the errors are within the accuracy, too
+""")
 
 
 def is_finished(runs: Sequence[RunResult]) -> bool:

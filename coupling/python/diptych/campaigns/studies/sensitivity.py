@@ -19,6 +19,7 @@ import numpy as np
 import pandas as pd
 
 from ...arrays import Array, Interval, ends_text
+from ...entries import describe
 from ..runs.coordinates import Parameter
 from .effects import PANELS, text_of_quantity
 from .evaluation import Results, is_finished
@@ -30,6 +31,21 @@ ENOUGH = 0.9  # Q2 below this: the indices say little about the quantity
 _MOST_TERMS, _HIGHEST_DEGREE = 500, 12
 _ROUNDING = 1e-9  # a smaller scatter, relative to the values, is none
 _FIELDS = ("first", "first_low", "first_high", "total", "total_low", "total_high")
+
+describe("sensitivity.csv", """\
+quantity: name of the quantity
+panel: grains, continuum, difference (continuum minus grains), material point or comparison
+parameter: key of the parameter
+first: first Sobol index: share of the variance that the parameter causes alone
+first_low: lower end of its 95 % interval
+first_high: upper end
+total: total Sobol index: share that it causes alone and together with others
+total_low: lower end of its 95 % interval
+total_high: upper end
+correlation: rank correlation of parameter and quantity
+q2: share of the variance that the polynomials predict at points that their fit has not seen
+used: points with a value
+""", "column")
 
 
 class Sobol(NamedTuple):

@@ -19,6 +19,7 @@ import numpy as np
 import pandas as pd
 
 from ... import _diptych
+from ...entries import describe
 from ...errors import NotConverged, Stopped
 from ..runs.engine import Options, complain, say
 from .effects import changes_of, effects_table, text_of_changes, text_of_means, text_of_quantity
@@ -36,6 +37,149 @@ _CURVES = (("stress_ratio", "stress ratio t/s", "running mean, averaged over the
             "sample has no value"),
            ("volumetric_strain", "volumetric strain", "running mean, averaged over the samples, one row per point; "
             "dilation negative; nan beyond the end of a history"))
+
+describe("study.json", """\
+format: version of this file's format
+title (text): title of the study
+name (text): name of the study
+scene (text): file name of the scene
+command (text): command that every point runs
+revision (text): revision of the program's source
+settings (list): settings of all points
+seeds (list): seeds of the samples; empty: the one sample of the scene
+student_t_95: half width of the intervals in standard errors; null for less than two samples
+levels/: with --levels only: the two settings of the quantities in the limit of short steps, and their pairs
+    cheap: discrete/accuracy of all samples
+    fine: discrete/accuracy of the pairs, the first samples of every point
+    pairs: number of pairs of a point
+quantities/: measured quantities
+    name (text): name of the quantity
+    key (text): key of a key number; empty: another quantity
+    unit (text): unit of its values
+    source (text): panel or comparison that it is read from; difference: continuum minus grains
+    reduction (text): way to reduce a column to one number
+    column (text): column of the panel's table, or name of the comparison's number
+    from [strain or time]: start of the range, or the progress
+    to [strain or time]: end of the range, or its width
+    relative (yes or no): true if errors are relative to the reference's mean
+    limit [as errors]: largest error that counts as right; null: no limit
+families/: families of points
+    name (text): name of the family
+    grid (yes or no): true: all combinations of the axes; false: the k-th points of all axes together
+    axes/: axes of the family
+        name (text): name of the axis
+        converges (yes or no): true if results have a limit as the values go to 0
+        own_reference (yes or no): true if each point is compared with the reference at that point
+        points/: points of the axis
+            label (text): label of the point
+            value: value of its key, if it is a number
+borders/: borders beyond which a method fails by theory
+    label (text): label of the border
+    family (text): family that it belongs to
+    x (text): axis x
+    y (text): axis y: y = coefficient x^exponent
+    coefficient: coefficient of the border
+    exponent: exponent of the border
+points/: all points, references first
+    family (text): family of the point; references have none
+    reference: index in this list of its reference point; missing if the study has no reference, like class, certain, \
+        and pairs, error, scatter, verdict of the quantities
+    labels (list): labels of its places on the axes; references add the name of the axis
+    settings (list): settings beyond those of all points
+    folders (list): folders of its runs, one per sample
+    class (text): class: right; wrong, warned; silently wrong; struggled; stopped; refused; unjudged; not run
+    certain (yes or no): true if the intervals confirm the class
+    words (text): message of the first run that did not finish
+    warned: runs in which a panel warned
+    halved_steps: steps halved because the sweeps stalled, in the worst run
+    cut_backs: load steps that were halved, in the worst run
+    quantities/: in the order of the study's quantities
+        values (list) [as the quantity says]: values of the samples; null if a sample has none
+        mean [as the quantity says]: mean over the samples
+        deviation [as the quantity says]: standard deviation of one sample
+        n: samples with a value; without a reference only
+        low [as the quantity says]: lower end of the 95 % interval of the mean (Student); without a reference only
+        high [as the quantity says]: upper end of the 95 % interval of the mean; without a reference only
+        pairs: samples with a value here and in the reference
+        error (interval) [as the quantity says]: point minus reference, sample by sample, with its 95 % interval \
+            (Student; relative errors: Fieller)
+        scatter [as errors]: standard deviation of one sample about the reference's mean
+        verdict (text): within, beyond or cannot tell
+orders/: orders of convergence
+    family (text): family of the line
+    axis (text): axis along which the line runs
+    quantity (text): fitted quantity
+    labels (list): labels of the points on the other axes
+    points: number of points on the line
+    order (interval): p of value = limit + coefficient h^p, with the interval of a jackknife over the samples
+    limit (interval) [as the quantity says]: limit as h goes to 0
+    coefficient: coefficient of the fit
+changes/: changes along every parameter; empty if the study has a reference
+    family (text): family of the points
+    parameter (text): name of the axis; axes that move together are one parameter; other parameters are averaged over
+    quantity (text): name of the quantity
+    panel (text): grains, continuum, difference (continuum minus grains), material point or comparison
+    unit (text): unit of the quantity
+    samples: samples with a value at every point; the others do not count here
+    smallest [as unit says]: smallest mean of a point
+    smallest_at (text): label of this point
+    largest [as unit says]: largest mean of a point
+    largest_at (text): label of this point
+    change (interval) [as unit says]: largest minus smallest mean; the interval covers the differences of all pairs of \
+        points (Tukey)
+    verdict (text): resolved: the interval excludes 0; not resolved; no change: all means are equal; unknown: fewer \
+        than two samples
+    samples_needed: if it is not resolved: samples whose interval would be narrower than this change; null: more than \
+        1000
+sensitivity/: Sobol indices; only if the study has ranges
+    points: number of points
+    parameters/: keys that vary, with their ranges
+        key (text): section/key
+        coordinate (text): number that is uniform between low and high: value, logarithm, share_of (key / of) or \
+            drop_from (1 - key / of)
+        of (text): key that a share or drop refers to; empty: none
+        low [as the key says]: lower end of the range; of a share or drop: a ratio
+        high [as the key says]: upper end of the range
+    indices/: in the order of the study's quantities
+        quantity (text): name of the quantity
+        panel (text): grains, continuum, difference (continuum minus grains), material point or comparison
+        unit (text): unit of the quantity
+        used: points with a value, to which the polynomials are fitted
+        failed: points with a run that ended with an exit code other than 0
+        without_value: other points without a value: without a band, or not run
+        q2: share of the variance that the polynomials predict at points that their fit has not seen; below 0.9 the \
+            indices say little
+        degree: degree of the polynomials; 0: none were fitted
+        mean [as unit says]: mean over the used points
+        deviation [as unit says]: standard deviation over the used points
+        parameters/: in the order of the ranges; empty if no polynomials were fitted
+            parameter (text): key of the parameter
+            first (interval): first Sobol index: share of the variance that the parameter causes alone
+            total (interval): total Sobol index: share that it causes alone and together with others
+            correlation: rank correlation (Spearman) of parameter and quantity; positive: the quantity grows with it
+""")
+
+describe("study.csv", """\
+point: index of the point in study.json
+family: family of the point
+settings: settings beyond those of all points, separated by ;
+sample: seed of the sample; empty: the one sample of the scene
+class: class of the point, from all its samples; missing without a reference
+exit_code: exit code of this run; empty: not run
+halved_steps: halved steps of the grains
+cut_backs: halved load steps of the continuum
+sweeps: sweeps of the contact solver
+newton_iterations: Newton iterations of the continuum
+peak_memory_mb [MB]: peak memory of the run
+folder: result folder of the run; then for each range its key, for each quantity its value and its error against the \
+    reference (relative [-] unless the limit is absolute), and for each phase its CPU time [s]
+""", "column")
+
+_H5 = "study.h5, groups discrete, continuum and material_point"
+describe(_H5, "progress (numbers) [strain or time]: progress; points of the curves")
+describe(_H5, "averaging_width (attribute, number) [strain or time]: width of the running means")
+for _name, _title, _meaning in _CURVES:
+    describe(_H5, f"{_name} (rows of numbers): {_title}; {_meaning}")
 
 
 def study_record(study: Study, points: Sequence[Point], records: Sequence[dict[str, Any]]) -> dict[str, Any]:
