@@ -176,6 +176,14 @@ namespace diptych::coupling
     }
   } // namespace
 
+  bool is_held(const CommandLine &line, const Scene &scene, const std::string &part, bool (ResultFolder::*holds)() const)
+  {
+    if (line.resume || line.overwrite || !(ResultFolder(scene).*holds)())
+      return false;
+    say(line, scene.output.directory + " holds the finished " + part + " of this scene; --overwrite starts again");
+    return true;
+  }
+
   std::unique_ptr<RecordedGrains> prepared_early(const CommandLine &line, const Scene &scene)
   {
     const bool is_there = line.resume && (std::filesystem::exists(grain_checkpoint(scene.output.directory)) ||
@@ -245,11 +253,8 @@ namespace diptych::coupling
   {
     if (scene.discrete.method.method == discrete::Method::imported)
       (void)load_imported(scene);
-    if (!line.resume && !line.overwrite && ResultFolder(scene).holds_finished_grains())
-      {
-        say(line, scene.output.directory + " holds the finished grains of this scene; --overwrite runs them again");
-        return done;
-      }
+    if (is_held(line, scene, "grains", &ResultFolder::holds_finished_grains))
+      return done;
     announce_resources(line, scene, {true, false});
     return writing(scene.output.directory, [&](FolderLock &lock) {
       std::unique_ptr<RecordedGrains> prepared;

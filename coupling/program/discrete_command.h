@@ -7,6 +7,7 @@
 
 #include "coupling/grains/recorded_grains.h"
 #include "coupling/program/command_line.h"
+#include "coupling/store/result_folder.h"
 
 namespace diptych::coupling
 {
@@ -17,6 +18,9 @@ namespace diptych::coupling
                      const Scene                    &scene,
                      std::unique_ptr<RecordedGrains> prepared,
                      std::optional<DiscreteResults> *results = nullptr);
+
+  // True, and says so, if the folder holds the finished `part` of the scene and no option asks for it again.
+  bool is_held(const CommandLine &line, const Scene &scene, const std::string &part, bool (ResultFolder::*holds)() const);
 
   // Prepares the sample before the folder is changed, because some faults of a sample show only during its preparation. Empty if
   // --resume finds grains, or for imported grains. Throws std::invalid_argument if a wanted solid fraction cannot be reached or a

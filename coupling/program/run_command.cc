@@ -55,9 +55,8 @@ namespace diptych::coupling
     require_continuum(scene);
     check_comparable(scene);
     require_platen_travel(scene);
-    if (!line.resume && !line.overwrite && ResultFolder(scene).holds_finished_run())
+    if (is_held(line, scene, "run", &ResultFolder::holds_finished_run))
       {
-        say(line, scene.output.directory + " holds the finished run of this scene; --overwrite runs it again");
         if (scene.output.report)
           say(line, "report: " + report_file(scene.output.directory));
         return done;
