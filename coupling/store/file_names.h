@@ -7,79 +7,35 @@
 
 namespace diptych::coupling
 {
-  inline std::string scene_prm(const std::string &folder) // the resolved scene
+  // discrete_csv("results/quick") is results/quick/discrete.csv
+  struct FileName
   {
-    return folder + "/scene.prm";
-  }
-  inline std::string import_json(const std::string &folder)
-  {
-    return folder + "/import.json";
-  }
-  inline std::string discrete_csv(const std::string &folder)
-  {
-    return folder + "/discrete.csv";
-  }
-  inline std::string discrete_h5(const std::string &folder)
-  {
-    return folder + "/discrete.h5";
-  }
-  inline std::string grain_checkpoint(const std::string &folder)
-  {
-    return folder + "/checkpoint.h5";
-  }
+    const char *name;
+    std::string operator()(const std::string &folder) const { return folder + "/" + name; }
+  };
+  inline constexpr FileName scene_prm{"scene.prm"}; // the resolved scene
+  inline constexpr FileName import_json{"import.json"};
+  inline constexpr FileName discrete_csv{"discrete.csv"};
+  inline constexpr FileName discrete_h5{"discrete.h5"};
+  inline constexpr FileName grain_checkpoint{"checkpoint.h5"};
+  inline constexpr FileName continuum_csv{"continuum.csv"};
+  inline constexpr FileName continuum_h5{"continuum.h5"};
+  inline constexpr FileName continuum_checkpoint{"continuum_checkpoint.h5"};
+  inline constexpr FileName sample_msh{"sample.msh"};
+  inline constexpr FileName coarse_folder{"coarse"}; // the continuum on the coarse mesh
+  inline constexpr FileName material_point_csv{"material_point.csv"};
+  inline constexpr FileName comparison_json{"comparison.json"};
+  inline constexpr FileName comparison_csv{"comparison.csv"};
+  inline constexpr FileName summary_csv{"summary.csv"}; // the numbers that a user asks for first
+  inline constexpr FileName comparison_h5{"comparison.h5"};
+  inline constexpr FileName fields_series{"fields"}; // fields on the continuum's mesh: .pvd and a folder of stages
+  inline constexpr FileName report_html{"report.html"};
+
   // A stored contact problem; stages are counted from 1.
   inline std::string contact_problem(const std::string &folder, const int stage)
   {
     char name[32];
     std::snprintf(name, sizeof name, "/problem_%04d.h5", stage);
     return folder + name;
-  }
-  inline std::string continuum_csv(const std::string &folder)
-  {
-    return folder + "/continuum.csv";
-  }
-  inline std::string continuum_h5(const std::string &folder)
-  {
-    return folder + "/continuum.h5";
-  }
-  inline std::string continuum_checkpoint(const std::string &folder)
-  {
-    return folder + "/continuum_checkpoint.h5";
-  }
-  inline std::string sample_msh(const std::string &folder)
-  {
-    return folder + "/sample.msh";
-  }
-  inline std::string coarse_folder(const std::string &folder) // the continuum on the coarse mesh
-  {
-    return folder + "/coarse";
-  }
-  inline std::string material_point_csv(const std::string &folder)
-  {
-    return folder + "/material_point.csv";
-  }
-  inline std::string comparison_json(const std::string &folder)
-  {
-    return folder + "/comparison.json";
-  }
-  inline std::string comparison_csv(const std::string &folder)
-  {
-    return folder + "/comparison.csv";
-  }
-  inline std::string summary_csv(const std::string &folder) // the numbers that a user asks for first
-  {
-    return folder + "/summary.csv";
-  }
-  inline std::string comparison_h5(const std::string &folder)
-  {
-    return folder + "/comparison.h5";
-  }
-  inline std::string fields_series(const std::string &folder) // fields on the continuum's mesh: .pvd and a folder of stages
-  {
-    return folder + "/fields";
-  }
-  inline std::string report_html(const std::string &folder)
-  {
-    return folder + "/report.html";
   }
 } // namespace diptych::coupling
