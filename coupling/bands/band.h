@@ -22,11 +22,14 @@ namespace diptych::coupling
 
   // The numbers of a band with their 95 % intervals (band_intervals.h), each in its unit in Band. Unknown ends are NaN. Angles
   // are unwrapped around the value.
-  struct BandIntervals
+  struct BandValues
   {
     Interval angle_deg, half_width, width_10_90, offset, jump, dilation_deg;
-    int      resamples  = 0;   // resamples that held the band
-    double   lost_share = NAN; // share of the resamples in which the fit failed or found no band; NaN: no resamples were drawn
+  };
+  struct BandIntervals : BandValues
+  {
+    int    resamples  = 0;   // resamples that held the band
+    double lost_share = NAN; // share of the resamples in which the fit failed or found no band; NaN: no resamples were drawn
   };
 
   // A band along s = (cos, sin)(angle) with normal n = (-sin, cos)(angle), n_y >= 0. Across it the displacement increment is

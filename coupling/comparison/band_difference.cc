@@ -29,12 +29,12 @@ namespace diptych::coupling
                                 })->interval};
   }
 
-  BandDifference band_difference(const Increment &increment)
+  BandValues band_difference(const Increment &increment)
   {
     const auto [a, b]   = compared_bands(increment);
     const Interval turn = difference_of(a.angle_deg, b.angle_deg);
     const double   line = line_turn(turn.value, 0) - turn.value; // whole half turns
-    BandDifference result;
+    BandValues     result;
     result.angle_deg    = {turn.value + line, turn.low + line, turn.high + line};
     result.half_width   = difference_of(a.half_width, b.half_width);
     result.width_10_90  = difference_of(a.width_10_90, b.width_10_90);

@@ -20,9 +20,5 @@ namespace diptych::coupling
   };
   ComparedBands compared_bands(const Increment &increment);
 
-  struct BandDifference
-  {
-    Interval angle_deg, half_width, width_10_90, offset, jump, dilation_deg;
-  };
-  BandDifference band_difference(const Increment &increment);
+  BandValues band_difference(const Increment &increment);
 } // namespace diptych::coupling

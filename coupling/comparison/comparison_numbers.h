@@ -91,6 +91,15 @@ namespace diptych::coupling
     v({"arthur_deg", "degrees", "inclination to the minor principal stress after Arthur, 45° + (φ + ψ)/4"}, t.arthur_deg);
   }
 
+  template <class Visitor> void list_numbers(const PanelNumbers &n, Visitor &v)
+  {
+    for (const KeyQuantity &q : key_quantities)
+      if (q.of_panel)
+        v({q.key, q.unit, q.meaning}, value_of(n.compared, q));
+    v({"strain_at_peak", "strain or time", "progress at the peak of the stress ratio"}, n.peak.progress);
+    v({"early_strength", "-", "strength T/S up to 0.3 % strain: mean of t over mean of s"}, n.early_strength);
+  }
+
   template <class Visitor> void list_numbers(const DiscreteSummary &s, Visitor &v)
   {
     v({"grains", "-", "number of grains"}, s.grains);
@@ -105,13 +114,7 @@ namespace diptych::coupling
     v({"residual", "-", "largest contact residual (natural map, relative)"}, s.residual);
     v({"solver_noise", "-", "solver noise: contact residual × step / mean inertial number"}, s.solver_noise);
     v({"grain_stress_error", "-", "error of the stress of single grains"}, s.grain_stress_error);
-    v({"peak_stress_ratio", "-", "largest running mean of the stress ratio t/s"}, s.numbers.peak.value);
-    v({"strain_at_peak", "strain or time", "progress at the peak of the stress ratio"}, s.numbers.peak.progress);
-    v({"early_strength", "-", "strength T/S up to 0.3 % strain: mean of t over mean of s"}, s.numbers.strength.early);
-    v({"strength", "-", "strength T/S from 0.3 % strain to the end"}, s.numbers.strength.later);
-    v({"platen_force_pd", "P d", "mean vertical force of the platens from 0.3 % strain to the end"}, s.numbers.platen_force);
-    v({"final_volumetric_strain", "-", "volumetric strain at the end, positive in compression"},
-      s.numbers.final_volumetric_strain);
+    list_numbers(s.numbers, v);
     v({"spin_term_share", "-", "largest ratio of spin term to mean stress"}, s.spin_term_share);
     v({"kinetic_energy_ratio_median", "-", "median of kinetic energy / (M|V|²/4)"}, s.kinetic_energy_ratio_median);
     v({"kinetic_energy_ratio_largest", "-", "largest value of kinetic energy / (M|V|²/4)"}, s.kinetic_energy_ratio_largest);
@@ -132,13 +135,7 @@ namespace diptych::coupling
     v({"element_size_d", "mean diameters", "element size"}, s.element_size);
     v({"newton_iterations", "-", "total number of Newton iterations"}, s.newton_iterations);
     v({"cut_backs", "-", "number of load steps that were repeated with a smaller step"}, s.cut_backs);
-    v({"peak_stress_ratio", "-", "largest running mean of the stress ratio t/s"}, s.numbers.peak.value);
-    v({"strain_at_peak", "strain or time", "progress at the peak of the stress ratio"}, s.numbers.peak.progress);
-    v({"early_strength", "-", "strength T/S up to 0.3 % strain: mean of t over mean of s"}, s.numbers.strength.early);
-    v({"strength", "-", "strength T/S from 0.3 % strain to the end"}, s.numbers.strength.later);
-    v({"platen_force_pd", "P d", "mean vertical force of the platens from 0.3 % strain to the end"}, s.numbers.platen_force);
-    v({"final_volumetric_strain", "-", "volumetric strain at the end, positive in compression"},
-      s.numbers.final_volumetric_strain);
+    list_numbers(s.numbers, v);
     v({"share_zz_not_intermediate", "-", "largest share of the area in which σ_zz is not the intermediate principal stress"},
       s.share_zz_not_intermediate);
     v({"viscous_share", "-", "largest share of the strength that is due to viscosity"}, s.viscous_share);

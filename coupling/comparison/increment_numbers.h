@@ -73,7 +73,7 @@ namespace diptych::coupling
     v.group("profile", "fits to the profiles across the band, whose curves are arrays of comparison.h5", p.profile);
   }
 
-  template <class Visitor> void list_numbers(const BandDifference &d, Visitor &v)
+  template <class Visitor> void list_numbers(const BandValues &d, Visitor &v)
   {
     v({"angle_deg", "degrees", "rotation from the grains' band to the continuum's, anticlockwise"}, d.angle_deg);
     v({"half_width_d", "mean diameters", "difference of the half widths", Kind::number, true}, d.half_width);

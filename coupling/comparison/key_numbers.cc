@@ -31,9 +31,7 @@ namespace diptych::coupling
 
     KeyNumber of_band(const KeyQuantity &q, const Increment &window)
     {
-      const auto take = [&](const auto &band) {
-        return q.margin.of == Difference::line ? band.angle_deg : times(1 / window.frame.mean_diameter, band.width_10_90);
-      };
+      const auto          take   = [&](const BandValues &band) { return q.of_band(band, window.frame.mean_diameter); };
       const ComparedBands bands  = compared_bands(window);
       KeyNumber           number = key_number(q, take(bands.grains), take(bands.continuum), take(band_difference(window)));
       char                where[64];
@@ -59,12 +57,13 @@ namespace diptych::coupling
 
   std::vector<KeyNumber> key_numbers(const Comparison &c)
   {
-    const std::map<std::string, double> grains = by_key(c.discrete.numbers), continuum = by_key(c.continuum.numbers);
-    std::vector<KeyNumber>              numbers;
+    std::vector<KeyNumber> numbers;
     for (const KeyQuantity &q : key_quantities)
-      if (!q.is_of_band)
-        numbers.push_back(key_number(q, Interval{grains.at(q.key)}, Interval{continuum.at(q.key)},
-                                     Interval{continuum.at(q.key) - grains.at(q.key)}));
+      if (q.of_panel)
+        {
+          const double grains = value_of(c.discrete.numbers.compared, q), nodes = value_of(c.continuum.numbers.compared, q);
+          numbers.push_back(key_number(q, Interval{grains}, Interval{nodes}, Interval{nodes - grains}));
+        }
       else if (!c.windows.empty())
         numbers.push_back(of_band(q, c.windows.back()));
     return numbers;

@@ -7,43 +7,12 @@
 #include <vector>
 
 #include "coupling/comparison/comparison.h"
+#include "coupling/comparison/key_quantities.h"
 #include "coupling/numbers/number_entry.h"
 #include "coupling/statistics/interval.h"
 
 namespace diptych::coupling
 {
-  // A quantity by which the panels are compared. An ensemble calls them equivalent within a margin.
-  enum class Difference
-  {
-    absolute,
-    relative, // to the grains
-    line      // rotation of a line [degrees]
-  };
-  constexpr auto choices(Difference)
-  {
-    return std::array{std::pair{Difference::absolute, "absolute"}, std::pair{Difference::relative, "relative"},
-                      std::pair{Difference::line, "line"}};
-  }
-  struct Margin
-  {
-    const char *key; // in the section comparison of a scene
-    Difference  of;
-  };
-  struct KeyQuantity
-  {
-    const char *key; // as in discrete_summary and continuum_summary; of a band: band_ and its key in windows/PANEL/bands
-    const char *name, *unit;
-    Margin      margin;
-    bool        is_of_band;
-  };
-  constexpr std::array<KeyQuantity, 6> key_quantities = {
-    {{"peak_stress_ratio", "peak t/s", "-", {"margin_peak_stress_ratio", Difference::relative}, false},
-     {"strength", "strength T/S from 0.3 % strain", "-", {"margin_peak_stress_ratio", Difference::relative}, false},
-     {"platen_force_pd", "platen force from 0.3 % strain", "P d", {"margin_peak_stress_ratio", Difference::relative}, false},
-     {"final_volumetric_strain", "volumetric strain at the end", "-", {"margin_volumetric_strain", Difference::absolute}, false},
-     {"band_angle_deg", "inclination of the band", "degrees", {"margin_angle", Difference::line}, true},
-     {"band_width_10_90_d", "10-90 % width of the band", "mean diameters", {"margin_thickness", Difference::relative}, true}}};
-
   // One quantity of both panels. Ends of intervals are NaN where one sample gives none. The difference is continuum - grains.
   struct KeyNumber
   {

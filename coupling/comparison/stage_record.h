@@ -72,9 +72,9 @@ namespace diptych::coupling
     std::vector<StressDifference> stress_differences; // for cells, 3 d, 6 d
     std::string                   stress_verdict;
 
-    Interval       stress_ratio_difference;            // continuum minus grains
-    double         volumetric_strain_difference = NAN; // continuum minus grains
-    BandDifference band_difference;
+    Interval   stress_ratio_difference;            // continuum minus grains
+    double     volumetric_strain_difference = NAN; // continuum minus grains
+    BandValues band_difference;
   };
 
   // increment: the stage's increment; seed: of the bootstrap. The caller adds histories and the intervals of the stress ratio.

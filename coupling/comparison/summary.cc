@@ -32,15 +32,6 @@ namespace diptych::coupling
       return {values.begin() + (column(history, "progress").front() == 0 ? 1 : 0), values.end()};
     }
 
-    double platen_force(const Scene &scene, const HistoryTable &h)
-    {
-      const double end = column(h, "progress").back();
-      if (scene.loading.mode == discrete::LoadingMode::time || !is_beyond(end, early_strain))
-        return NAN;
-      const auto mean = [&](const char *name) { return mean_over_progress(h, name, early_strain, end); };
-      return (mean("lower_fy") - mean("upper_fy")) / 2 / (scene.loading.pressure * scene.sample.mean_diameter);
-    }
-
     // Over the range of the later strength. NaN along time and without dissipation.
     double impact_share(const discrete::LoadingMode mode, const HistoryTable &h)
     {
@@ -54,14 +45,6 @@ namespace diptych::coupling
       return sum > 0 ? impacts / sum : NAN;
     }
 
-    Strength strength_of(const discrete::LoadingMode mode, const HistoryTable &history)
-    {
-      if (mode == discrete::LoadingMode::time)
-        return {};
-      return {ratio_of_means(history, 0, early_strain),
-              ratio_of_means(history, early_strain, column(history, "progress").back())};
-    }
-
     double platen_unbalance(const HistoryTable &history)
     {
       const double lower = column(history, "lower_fy").back(), upper = column(history, "upper_fy").back();
@@ -72,20 +55,7 @@ namespace diptych::coupling
 
   PanelNumbers panel_numbers(const Scene &scene, const HistoryTable &h)
   {
-    PanelNumbers numbers;
-    numbers.peak                    = peak_of_running_mean(h, "stress_ratio", averaging_width(scene));
-    numbers.strength                = strength_of(scene.loading.mode, h);
-    numbers.platen_force            = platen_force(scene, h);
-    numbers.final_volumetric_strain = column(h, "volumetric_strain").back();
-    return numbers;
-  }
-
-  std::map<std::string, double> by_key(const PanelNumbers &n)
-  {
-    return {{"peak_stress_ratio", n.peak.value},
-            {"strength", n.strength.later},
-            {"platen_force_pd", n.platen_force},
-            {"final_volumetric_strain", n.final_volumetric_strain}};
+    return {panel_values(scene, h), peak_of_running_mean(h, "stress_ratio", averaging_width(scene)), early_strength(scene, h)};
   }
 
   DiscreteSummary summary_of(const Scene              &scene,

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "coupling/comparison/key_quantities.h"
 #include "coupling/comparison/platen_balance.h"
 #include "coupling/scene/scene.h"
 #include "coupling/statistics/history_table.h"
@@ -14,26 +14,13 @@
 
 namespace diptych::coupling
 {
-  // T/S of a loading along strain. Early: up to this strain, which depends on the start and on the solver's accuracy. Later:
-  // the rest. NaN if the history ends before, or along time.
-  constexpr double early_strain = 0.003;
-  struct Strength
-  {
-    double early = NAN, later = NAN;
-  };
-
-  // Numbers of a panel's history that are compared.
   struct PanelNumbers
   {
-    Peak     peak; // of the running mean of t/s
-    Strength strength;
-    double   platen_force            = NAN; // [P d], vertical, mean of both platens over the range of the later strength
-    double   final_volumetric_strain = NAN;
+    PanelValues compared;
+    Peak        peak; // of the running mean of t/s
+    double      early_strength = NAN;
   };
   PanelNumbers panel_numbers(const Scene &scene, const HistoryTable &history);
-
-  // Compared values by the keys of key_quantities.
-  std::map<std::string, double> by_key(const PanelNumbers &numbers);
 
   struct DiscreteSummary
   {

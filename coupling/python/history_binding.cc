@@ -40,7 +40,7 @@ namespace diptych::python
       for (const coupling::KeyQuantity &q : coupling::key_quantities)
         list.append(py::dict(py::arg("key") = q.key, py::arg("name") = q.name, py::arg("unit") = q.unit,
                              py::arg("margin") = q.margin.key, py::arg("difference") = discrete::name_of(q.margin.of),
-                             py::arg("is_of_band") = q.is_of_band));
+                             py::arg("is_of_band") = q.of_panel == nullptr));
       return list;
     }
   } // namespace
@@ -51,8 +51,8 @@ namespace diptych::python
     m.attr("LARGEST_ERROR_OF_THE_TOTAL") = coupling::largest_error_of_the_total;
     m.def("key_quantities", &quantities);
     m.def("origin_of_law", &coupling::origin_of_law);
-    m.def("panel_numbers", [](const coupling::Scene &scene, const std::map<std::string, Numbers> &columns) {
-      return coupling::by_key(coupling::panel_numbers(scene, table_of(columns)));
+    m.def("panel_values", [](const coupling::Scene &scene, const std::map<std::string, Numbers> &columns) {
+      return coupling::panel_values(scene, table_of(columns));
     });
     m.def("stress_ratio_of_means", [](const std::map<std::string, Numbers> &columns, const double from, const double to) {
       return coupling::ratio_of_means(table_of(columns), from, to);

@@ -52,7 +52,7 @@ namespace
         // The major stress is vertical, the minor one horizontal.
         EXPECT_NEAR(band.to_minor_stress_deg.value, 45, 0.02);
       }
-    const BandDifference d = band_difference(example().windows[0]);
+    const BandValues d = band_difference(example().windows[0]);
     EXPECT_NEAR(d.angle_deg.value, 0, 0.02);
     EXPECT_NEAR(d.half_width.value, 0, 0.02);
   }

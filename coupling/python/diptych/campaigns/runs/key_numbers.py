@@ -1,7 +1,7 @@
 # diptych: the key numbers of a run, which studies take when a user names no quantity
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The rows of summary.csv: peak, strength, platen force, volume, inclination and width of the band in the last window.
-Their keys, names and margins are those of coupling/comparison/key_numbers.h."""
+Their keys, names and margins are those of coupling/comparison/key_quantities.h."""
 
 from __future__ import annotations
 
@@ -21,7 +21,6 @@ QUANTITIES: dict[str, dict[str, Any]] = {one["key"]: one for one in _diptych.key
 OF_PANEL = [key for key, one in QUANTITIES.items() if not one["is_of_band"]]  # grains alone have no bands here
 BAND_OPTIONS = ("max_bands", "huber_threshold", "correlation_length", "minimum_jump", "residual_floor")
 SAME_PROGRESS = 1e-6
-_COLUMNS = ("progress", "stress_ratio", "sxx", "sxy", "syx", "syy", "lower_fy", "upper_fy", "volumetric_strain")
 _ROWS = {"discrete": "grains", "continuum": "continuum", "difference": "difference"}
 
 
@@ -37,7 +36,7 @@ def summary_of(folder: str) -> dict[str, dict[str, Any]]:
 
 def panel_values(scene: Any, table: pd.DataFrame) -> dict[str, float]:
     """The key numbers of a panel's table, by key."""
-    return _diptych.panel_numbers(scene, columns_of(table, *_COLUMNS))
+    return _diptych.panel_values(scene, columns_of(table, *table.select_dtypes("number")))
 
 
 def key_values(folder: str, scene: Any, tables: dict[str, pd.DataFrame | None]) -> dict[tuple[str, str], float]:
