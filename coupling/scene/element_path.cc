@@ -66,14 +66,8 @@ namespace diptych::coupling
     path.values = point.values;
     for (std::size_t row = 0; row < path.values.size(); ++row)
       path.progress.push_back(point.progress_at(row));
-    try
-      {
-        discrete::validate(path);
-      }
-    catch (const std::invalid_argument &error)
-      {
-        throw SceneError(option.text + ": " + error.what());
-      }
+    if (path.values.size() < 2)
+      throw SceneError(option.text + ": the path of a cell needs at least two rows");
     return path;
   }
 } // namespace diptych::coupling

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "continuum/laws/point_path.h"
-#include "discrete/panel/cell_path.h"
+#include "discrete/panel/options.h"
 
 namespace diptych::coupling
 {

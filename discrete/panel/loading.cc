@@ -8,6 +8,7 @@
 
 #include "discrete/contacts/lattice_motion.h"
 #include "discrete/files/out_of_memory.h"
+#include "discrete/files/wrong_keys.h"
 #include "discrete/samples/placed_grains.h"
 #include "discrete/samples/sample_file.h"
 #include "discrete/samples/sample_preparation.h"
@@ -53,6 +54,19 @@ namespace diptych::discrete
           break;
         }
       return {0, 0};
+    }
+
+    // Largest change of a control between two rows, as a strain.
+    double strain_between(const CellPath &path, const std::size_t row, const double pressure)
+    {
+      constexpr double of_pressure = 0.01; // strain of a stress that changes by the pressure
+      double           largest     = 0;
+      for (int k = 0; k < 3; ++k)
+        {
+          const double change = std::abs(path.values[row][k] - path.values[row - 1][k]);
+          largest = std::max(largest, change / (path.is_stress[k] ? pressure / of_pressure : path.form.row(k).maxCoeff()));
+        }
+      return largest;
     }
 
     void set_lateral_drives(State &state, const LoadingStart &start)
@@ -112,6 +126,23 @@ namespace diptych::discrete
         lattice.rate = start_rate(lattice.drive);
     }
   } // namespace
+
+  void validate(const CellPath &path)
+  {
+    if (path.values.size() < 2 || path.progress.size() != path.values.size())
+      throw WrongKeys({"loading/path"}, "loading/path: the path of a cell needs at least two rows, each with its progress");
+    for (std::size_t row = 1; row < path.values.size(); ++row)
+      if (!(path.progress[row] > path.progress[row - 1]) || !(strain_between(path, row, 1) > 0))
+        throw WrongKeys({"loading/path"}, "loading/path: row " + std::to_string(row) + " (counted from 0) changes nothing");
+  }
+
+  std::vector<double> times_of(const CellPath &path, const double pressure, const double strain_rate)
+  {
+    std::vector<double> times(path.values.size(), 0.);
+    for (std::size_t row = 1; row < times.size(); ++row)
+      times[row] = times[row - 1] + strain_between(path, row, pressure) / strain_rate;
+    return times;
+  }
 
   DriveOption::DriveOption(const std::string &text)
   {
