@@ -12,6 +12,7 @@
 #include <deal.II/base/mpi.h>
 
 #include "continuum/panel/law_variables.h"
+#include "continuum/snapshot_fields.h"
 
 namespace diptych::continuum
 {
@@ -133,7 +134,7 @@ namespace diptych::continuum
       Eigen::Vector2d       position, displacement;
       double                rotation = 0, weight = 0;
     };
-    constexpr unsigned int entry_length = 9, n_state = 39;
+    constexpr unsigned int entry_length = 9;
 
     void append(std::vector<double> &message, const NodeEntry &n)
     {
@@ -141,35 +142,15 @@ namespace diptych::continuum
                                      n.displacement.y(), n.rotation, n.weight});
     }
 
-    void append(std::vector<double> &message, const CellState &s)
+    // Calls visit(number) for every number of a state, in the order of its fields.
+    template <class AnyCell, class Visit> void each_number(AnyCell &state, const Visit &visit)
     {
-      for (const auto *tensor : {&s.stress, &s.strain, &s.plastic_strain})
-        message.insert(message.end(), tensor->data(), tensor->data() + 9);
-      message.insert(message.end(), {s.couple_stress.x(), s.couple_stress.y(), s.area, s.equivalent_plastic_strain, s.dissipation,
-                                     s.overstress, s.share_zz_not_intermediate, s.acoustic_determinant, s.localisation_angle,
-                                     s.friction_angle, s.solid_fraction, s.nonlocal_plastic_strain});
-    }
-
-    CellState read_state(const double *m)
-    {
-      CellState s;
-      for (auto *tensor : {&s.stress, &s.strain, &s.plastic_strain})
-        {
-          std::copy(m, m + 9, tensor->data());
-          m += 9;
-        }
-      s.couple_stress             = {m[0], m[1]};
-      s.area                      = m[2];
-      s.equivalent_plastic_strain = m[3];
-      s.dissipation               = m[4];
-      s.overstress                = m[5];
-      s.share_zz_not_intermediate = m[6];
-      s.acoustic_determinant      = m[7];
-      s.localisation_angle        = m[8];
-      s.friction_angle            = m[9];
-      s.solid_fraction            = m[10];
-      s.nonlocal_plastic_strain   = m[11];
-      return s;
+      visit_cell_fields(state, [&](const char *, auto &field, const char *, const char *) {
+        if constexpr (std::is_arithmetic_v<std::decay_t<decltype(field)>>)
+          visit(field);
+        else
+          std::for_each(field.data(), field.data() + field.size(), visit);
+      });
     }
 
     // Maps deal.II's order of FE_Q(2) to corners counter-clockwise, midpoints of the edges, centre.
@@ -214,10 +195,11 @@ namespace diptych::continuum
       return result;
     }
 
-    void add_cell(Snapshot                                      &snapshot,
-                  std::map<std::array<double, 3>, unsigned int> &node_of_key,
-                  const double                                  *message,
-                  const bool                                     rotates)
+    // Returns the end of the message.
+    const double *add_cell(Snapshot                                      &snapshot,
+                           std::map<std::array<double, 3>, unsigned int> &node_of_key,
+                           const double                                  *message,
+                           const bool                                     rotates)
     {
       std::array<unsigned int, 9> nodes;
       for (unsigned int k = 0; k < 9; ++k, message += entry_length)
@@ -238,12 +220,13 @@ namespace diptych::continuum
       for (unsigned int k = 0; k < 9; ++k)
         ordered[k] = nodes[vtk_order[k]];
       snapshot.cells.push_back(ordered);
-      snapshot.cell_state.push_back(read_state(message));
+      CellState &state = snapshot.cell_state.emplace_back();
+      each_number(state, [&](double &number) { number = *message++; });
       for (LawVariable &variable : snapshot.variables)
-        variable.of_cells.push_back(message[n_state + (&variable - snapshot.variables.data())]);
-      const auto &state = snapshot.cell_state.back();
+        variable.of_cells.push_back(*message++);
       snapshot.mean_stress += state.area * state.stress;
       snapshot.area += state.area;
+      return message;
     }
 
     double stress_ratio(const Eigen::Matrix3d &stress)
@@ -348,7 +331,8 @@ namespace diptych::continuum
       {
         for (const auto &node : cell_nodes(problem, shape, c))
           append(mine, node);
-        append(mine, cell_state(problem, shape, c));
+        const CellState state = cell_state(problem, shape, c);
+        each_number(state, [&](const double number) { mine.push_back(number); });
         const std::vector<double> variables = variables_of(problem, c);
         mine.insert(mine.end(), variables.begin(), variables.end());
       }
@@ -357,8 +341,8 @@ namespace diptych::continuum
     set_progress(problem, loading, snapshot);
     std::map<std::array<double, 3>, unsigned int> node_of_key;
     for (const auto &part : gathered(mine, mesh.communicator()))
-      for (std::size_t at = 0; at < part.size(); at += 9 * entry_length + n_state + snapshot.variables.size())
-        add_cell(snapshot, node_of_key, &part[at], mesh.kind == ElementKind::q2_cosserat);
+      for (const double *at = part.data(); at != part.data() + part.size();)
+        at = add_cell(snapshot, node_of_key, at, mesh.kind == ElementKind::q2_cosserat);
     snapshot.mean_stress /= std::max(snapshot.area, 1e-300);
     snapshot.lower_platen_force = problem.platen_force(false);
     snapshot.upper_platen_force = problem.platen_force(true);
