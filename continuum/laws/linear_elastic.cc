@@ -3,7 +3,6 @@
 #include "continuum/laws/linear_elastic.h"
 
 #include <cmath>
-#include <limits>
 
 namespace diptych::continuum
 {
@@ -21,15 +20,5 @@ namespace diptych::continuum
     if (!std::isfinite(answer.state.stress.norm()))
       answer.verdict = Verdict::failed;
     return answer;
-  }
-
-  double LinearElastic::yield_function(const MaterialState &) const
-  {
-    return -std::numeric_limits<double>::infinity();
-  }
-
-  double LinearElastic::shear_strength(const MaterialState &) const
-  {
-    return std::numeric_limits<double>::infinity();
   }
 } // namespace diptych::continuum

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <limits>
+
 #include "continuum/laws/elasticity.h"
 #include "continuum/laws/hardening.h"
 
@@ -20,10 +22,10 @@ namespace diptych::continuum
     MaterialUpdate update(const MaterialState &s0, const Strain &d_strain, double d_time) const;
 
     // Yield function of a state without its viscous part [pressure]. It is positive outside the elastic range.
-    double yield_function(const MaterialState &state) const;
+    double yield_function(const MaterialState &) const { return -std::numeric_limits<double>::infinity(); }
 
     // Radius of the yield surface at the state's pressure and hardening variable [pressure]; infinite here.
-    double shear_strength(const MaterialState &state) const;
+    double shear_strength(const MaterialState &) const { return std::numeric_limits<double>::infinity(); }
 
     // Hardening of the law; nullptr if it has no strength.
     const Hardening *hardening() const { return nullptr; }
