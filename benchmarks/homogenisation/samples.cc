@@ -41,7 +41,7 @@ namespace diptych::benchmarks
     loading.inertial_number = 1e-4;
     loading.stages          = {0.02, 0.025, 0.03, 0.035, 0.04};
     discrete::Options options;
-    options.time.step = 0.5;
+    options.stepping.step = 0.5;
     discrete::Panel                 panel({}, loading, options);
     discrete::Status                status = panel.prepare();
     std::vector<discrete::Snapshot> snapshots{panel.snapshot()};

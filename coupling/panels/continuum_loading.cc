@@ -326,7 +326,7 @@ namespace diptych::coupling
     loading.pressure   = scene.loading.pressure;
     loading.lateral    = lateral_of(scene.discrete.lateral, drives[3][0], rate);
     loading.body_force = scene.sample.density * sample.solid_fraction *
-                         Eigen::Vector2d(scene.discrete.time.gravity_x, scene.discrete.time.gravity_y);
+                         Eigen::Vector2d(scene.discrete.stepping.gravity_x, scene.discrete.stepping.gravity_y);
     loading.stages            = stages(scene.loading);
     loading.loading_variable  = continuum_walk(scene.loading.mode);
     loading.time_per_progress = loading.loading_variable == continuum::LoadingVariable::time ? 1. : 1 / rate;

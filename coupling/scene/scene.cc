@@ -48,7 +48,7 @@ namespace diptych::coupling
       is_driven = is_driven || !drive.is_auto();
     });
     return scene.loading.mode == discrete::LoadingMode::descent && scene.loading.horizontal_over_vertical == 0 && !is_driven &&
-           scene.discrete.time.gravity_x == 0;
+           scene.discrete.stepping.gravity_x == 0;
   }
 
   double inertial_number(const Scene &scene)

@@ -66,7 +66,7 @@ namespace diptych::discrete
         !penalty, method,
         {"step", "accuracy", "tolerance", "max_sweeps", "snapshot_accuracy", "snapshot_max_sweeps", "reference_sweeps"});
       unused.unless(!springs, method, {"penetration_correction"});
-      unused.unless(penalty || !o.time.step || !o.accuracy.tolerance, "discrete/step and discrete/tolerance are given",
+      unused.unless(penalty || !o.stepping.step || !o.accuracy.tolerance, "discrete/step and discrete/tolerance are given",
                     {"accuracy"});
       unused.unless(o.lateral.lateral == Lateral::end_grains, lateral, {"band_height", "end_grains"});
       unused.unless(o.lateral.lateral == Lateral::rigid_walls, lateral, {"wall_friction", "wall_rolling_friction"});
@@ -133,8 +133,8 @@ namespace diptych::discrete
   {
     if (options.method.method == Method::imported)
       return 0;
-    if (options.method.method != Method::penalty && options.time.step)
-      return *options.time.step;
+    if (options.method.method != Method::penalty && options.stepping.step)
+      return *options.stepping.step;
     if (!(loading.pressure > 0))
       return 0;
     if (options.method.method == Method::penalty)
@@ -202,8 +202,8 @@ namespace diptych::discrete
                        "loading/inertial_number", "loading/strain_rate"},
                       "the loading would take " + exact_text(std::ceil(steps)) + " steps, but at most 1e+09 are allowed: " +
                         (penalty ? "discrete/penalty_stiffness and penalty_step_fraction give the step"
-                         : options.time.step
-                           ? "discrete/step = " + exact_text(*options.time.step)
+                         : options.stepping.step
+                           ? "discrete/step = " + exact_text(*options.stepping.step)
                            : "discrete/step = auto gives " + exact_text(expected_step(sample, loading, options)) +
                                " for discrete/accuracy = " + exact_text(options.accuracy.accuracy)) +
                         "; loading/inertial_number or strain_rate gives the duration");
@@ -220,7 +220,9 @@ namespace diptych::discrete
 
   PreparationSetting preparation_setting(const Loading &loading, const Options &options)
   {
-    return {
-      lateral_condition(options.lateral), options.solver, loading.pressure, {options.time.gravity_x, options.time.gravity_y}};
+    return {lateral_condition(options.lateral),
+            options.solver,
+            loading.pressure,
+            {options.stepping.gravity_x, options.stepping.gravity_y}};
   }
 } // namespace diptych::discrete

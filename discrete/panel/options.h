@@ -59,7 +59,7 @@ namespace diptych::discrete
   struct Options
   {
     MethodOptions     method;
-    StepOptions       time;
+    StepOptions       stepping;
     AccuracyOptions   accuracy;
     ContactLawOptions law;
     SolverOptions     solver;
@@ -73,7 +73,7 @@ namespace diptych::discrete
   template <class Visitor> void visit_parameters(Options &o, Visitor &&visitor)
   {
     visit_parameters(o.method, visitor);
-    visit_parameters(o.time, visitor);
+    visit_parameters(o.stepping, visitor);
     visit_parameters(o.accuracy, visitor);
     visit_parameters(o.law, visitor);
     visit_parameters(o.solver, visitor);

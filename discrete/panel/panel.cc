@@ -39,7 +39,7 @@ namespace diptych::discrete
           rate_(strain_rate(loading, sample.mean_diameter, sample.density))
     {
       validate(sample, loading, options);
-      setting_.time          = options.time;
+      setting_.stepping      = options.stepping;
       setting_.law           = options.law;
       setting_.solver        = options.solver;
       setting_.lateral       = lateral_condition(options.lateral);
@@ -195,8 +195,8 @@ namespace diptych::discrete
     {
       if (penalty())
         return penalty_step(now.state.grains, options_.penalty.stiffness * loading_.pressure, options_.penalty.step_fraction);
-      if (options_.time.step)
-        return *options_.time.step;
+      if (options_.stepping.step)
+        return *options_.stepping.step;
       const StepChoice choice = choose_step(now.state, setting_, flow());
       if (!std::isfinite(choice.step))
         throw std::invalid_argument("discrete/step = auto needs motion or pressure, and there is neither: give a discrete/step");

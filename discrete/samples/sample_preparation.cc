@@ -104,8 +104,8 @@ namespace diptych::discrete
     {
       StepSetting setting;
       setting.step               = step_of_preparation(options, preparation.pressure);
-      setting.time.gravity_x     = preparation.gravity.x();
-      setting.time.gravity_y     = preparation.gravity.y();
+      setting.stepping.gravity_x = preparation.gravity.x();
+      setting.stepping.gravity_y = preparation.gravity.y();
       setting.law                = same_friction(friction);
       setting.solver             = preparation.solver;
       setting.solver.tolerance   = options.preparation_tolerance;
@@ -137,7 +137,7 @@ namespace diptych::discrete
       StepSetting motion            = setting;
       motion.step *= longer;
       if (longer > 1) // position sweeps cannot remove the overlap that a residual leaves in large regions
-        motion.time.penetration_correction = PenetrationCorrection::soft_velocity;
+        motion.stepping.penetration_correction = PenetrationCorrection::soft_velocity;
       StepCache cache;
       while (!report.quiet && report.steps < 10 * steps && progress(report.steps, steps))
         {

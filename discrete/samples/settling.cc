@@ -22,11 +22,11 @@ namespace diptych::discrete
   {
     // A residual e leaves an overlap of about e h^2 P/m. An overlap of 1e-4 d at a step of 0.2 d sqrt(rho/P) requires this
     // tolerance.
-    constexpr double tolerance          = 5e-5;
-    constexpr int    max_sweeps         = 2000;
-    setting.time.penetration_correction = PenetrationCorrection::velocity;
-    setting.solver.tolerance            = std::min(setting.solver.tolerance, tolerance);
-    setting.solver.max_sweeps           = std::max(setting.solver.max_sweeps, max_sweeps);
+    constexpr double tolerance              = 5e-5;
+    constexpr int    max_sweeps             = 2000;
+    setting.stepping.penetration_correction = PenetrationCorrection::velocity;
+    setting.solver.tolerance                = std::min(setting.solver.tolerance, tolerance);
+    setting.solver.max_sweeps               = std::max(setting.solver.max_sweeps, max_sweeps);
     Settled   settled;
     StepCache cache;
     stop(state);

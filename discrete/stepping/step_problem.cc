@@ -151,11 +151,11 @@ namespace diptych::discrete
     return free;
   }
 
-  double corrected_share(const StepOptions &time)
+  double corrected_share(const StepOptions &stepping)
   {
-    if (time.penetration_correction == PenetrationCorrection::velocity)
+    if (stepping.penetration_correction == PenetrationCorrection::velocity)
       return 1;
-    return time.penetration_correction == PenetrationCorrection::soft_velocity ? 0.2 : 0.;
+    return stepping.penetration_correction == PenetrationCorrection::soft_velocity ? 0.2 : 0.;
   }
 
   Friction friction_of(const State &state, const StepSetting &setting, const int body_j)
@@ -191,7 +191,7 @@ namespace diptych::discrete
     if (const Lattice *lattice = state.lattice())
       problem.lattice = LatticeProblem{places(state.grains, *lattice),
                                        lattice_motion(*lattice, state.time, setting.step).mobility};
-    const double share = corrected_share(setting.time);
+    const double share = corrected_share(setting.stepping);
     for (std::size_t k = 0; k < contacts.size(); ++k)
       {
         const Contact &c   = contacts[k];

@@ -50,7 +50,7 @@ namespace diptych::discrete
   }
 
   // Share of its penetration that a closed contact removes within the step through its normal term.
-  double corrected_share(const StepOptions &time);
+  double corrected_share(const StepOptions &stepping);
 
   // Coefficients of a contact with body j.
   struct Friction

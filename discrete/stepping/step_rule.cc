@@ -137,7 +137,7 @@ namespace diptych::discrete
     const bool         end_grains = std::holds_alternative<EndGrains>(setting.lateral);
     const DriveDemands demands    = drive_demands(state);
     const double       speed      = std::max(fastest(state), demands.speed),
-                 gravity          = std::hypot(setting.time.gravity_x, setting.time.gravity_y);
+                 gravity          = std::hypot(setting.stepping.gravity_x, setting.stepping.gravity_y);
 
     StepChoice choice = step_at_rest({double(state.grains.size()), unit_of_time(state, setting, flow), end_grains}, flow);
     bound(choice, speed > 0 ? 0.1 * d / speed : infinity, "motion");

@@ -97,7 +97,7 @@ namespace diptych::discrete
   struct StepSetting
   {
     double            step = 1; // h [time]
-    StepOptions       time;     // its `step` is the value from the scene
+    StepOptions       stepping; // its `step` is the value from the scene
     ContactLawOptions law;
     SolverOptions     solver;
     Compliance        compliance;

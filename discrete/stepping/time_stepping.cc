@@ -52,7 +52,7 @@ namespace diptych::discrete
 
   std::vector<Eigen::Vector2d> applied_forces(const State &state, const StepSetting &setting)
   {
-    const Eigen::Vector2d        gravity(setting.time.gravity_x, setting.time.gravity_y);
+    const Eigen::Vector2d        gravity(setting.stepping.gravity_x, setting.stepping.gravity_y);
     std::vector<Eigen::Vector2d> force(state.grains.size(), Eigen::Vector2d::Zero());
     for (std::size_t i = 0; i < force.size(); ++i)
       if (!state.grains.fixed[i])
@@ -97,13 +97,13 @@ namespace diptych::discrete
     const std::vector<BodyVelocity> v_new  = velocities(problem, result.impulses, acting);
     static_cast<StepLedger &>(result)      = step_ledger(
            {trial, problem, result.contacts, result.impulses, acting, result.applied_force, v, v_new, h},
-           setting.law.normal_restitution == 0 && corrected_share(setting.time) > 0);
+           setting.law.normal_restitution == 0 && corrected_share(setting.stepping) > 0);
     if (compliant)
       count_springs(work_at_bounds(problem, v_new, result.impulses), result);
 
     take_velocities(v_new, trial);
     drift(trial, 0.5 * h);
-    if (!compliant && setting.time.penetration_correction == PenetrationCorrection::projection)
+    if (!compliant && setting.stepping.penetration_correction == PenetrationCorrection::projection)
       correct_positions(trial, {problem, result.contacts, result.impulses, v_new, h}, 1e-4 * setting.mean_diameter, *cache.team);
     keep_impulses(result.contacts, result.impulses, previous.impulses, acting, trial);
     trial.time += h;

@@ -111,7 +111,7 @@ namespace diptych::tests
   inline Options quick_options()
   {
     Options options;
-    options.time.step          = 0.1;
+    options.stepping.step      = 0.1;
     options.accuracy.tolerance = 1e-4;
     return options;
   }

@@ -184,10 +184,10 @@ namespace
     auto [state, first, h, report] = discrete::prepare_sample(options, preparation, [](int, int) { return true; });
 
     discrete::StepSetting setting;
-    setting.step           = 0.1;
-    setting.lateral        = preparation.lateral;
-    setting.time.gravity_x = preparation.gravity.x();
-    setting.time.gravity_y = preparation.gravity.y();
+    setting.step               = 0.1;
+    setting.lateral            = preparation.lateral;
+    setting.stepping.gravity_x = preparation.gravity.x();
+    setting.stepping.gravity_y = preparation.gravity.y();
     setting.solver.tolerance =
       1e-3; // the identity needs no accurate solution, because the impulses determine the velocities in any case
     const auto            reference = discrete::make_reference(state, 1, 0.);

@@ -113,10 +113,10 @@ namespace
   // Grains of density 3 fill 0.8 of the area: 3 x 0.8 x (0.5, -2).
   TEST(ContinuumLoading, WeightFollowsFromTheGrains)
   {
-    Scene scene                   = scene_with(LoadingMode::descent);
-    scene.sample.density          = 3;
-    scene.discrete.time.gravity_x = 0.5;
-    scene.discrete.time.gravity_y = -2;
+    Scene scene                       = scene_with(LoadingMode::descent);
+    scene.sample.density              = 3;
+    scene.discrete.stepping.gravity_x = 0.5;
+    scene.discrete.stepping.gravity_y = -2;
     EXPECT_LT((continuum_loading(scene, sample).body_force - Eigen::Vector2d(1.2, -4.8)).norm(), 1e-14);
   }
 

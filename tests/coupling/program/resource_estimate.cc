@@ -51,7 +51,7 @@ namespace
   TEST(ResourceEstimate, LongHistoriesTakeRoom)
   {
     Scene scene                            = scene_of(100);
-    scene.discrete.time.step               = 0.01;
+    scene.discrete.stepping.step           = 0.01;
     scene.loading.inertial_number          = 1e-3;
     scene.discrete.method.history_interval = 0;
     const ResourceEstimate every           = estimate_resources(scene, {true, false});

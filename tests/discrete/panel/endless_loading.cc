@@ -22,10 +22,10 @@ namespace
     Loading loading         = far_as_one_percent();
     loading.inertial_number = 1e-9;
     Options options         = quick_options();
-    options.time.step       = 1e-3; // 0.01 / 1e-9 / 1e-3 = 1e10
+    options.stepping.step   = 1e-3; // 0.01 / 1e-9 / 1e-3 = 1e10
     const auto check        = [&] { validate(small_sample(150), loading, options); };
     expect_refused({"1e+10 steps"}, check);
-    options.time.step.reset();
+    options.stepping.step.reset();
     options.accuracy.tolerance.reset();
     expect_refused({"discrete/step = auto"}, check);
     const double fast = [&] { return loading.inertial_number = 2e-5, expected_steps(small_sample(150), loading, options); }();
@@ -41,7 +41,7 @@ namespace
     write_text(folder / "steep.csv", "time,velocity\n0,0\n1e-12,-0.02\n3,-0.02\n");
     Options options         = quick_options();
     options.lateral.lateral = Lateral::rigid_walls;
-    options.time.step.reset();
+    options.stepping.step.reset();
     options.drives.upper_y = "velocity " + folder / "steep.csv";
     Loading loading        = far_as_one_percent();
     loading.mode           = LoadingMode::time;

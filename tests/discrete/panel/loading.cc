@@ -267,7 +267,7 @@ namespace
     for (const int count : {3, 5, 7})
       {
         Options options            = quick_options();
-        options.time.step          = 0.25;
+        options.stepping.step      = 0.25;
         options.lateral.end_grains = count;
         Loading loading            = one_percent();
         loading.stages             = {0.02};
@@ -321,8 +321,8 @@ namespace
     add_grain(state.grains, {0.02, 0.01}, 0.45, 1.);
     StepSetting setting = exact_setting(0.01);
     EXPECT_EQ(rattlers(advance(state, setting), state.grains)[6], 1);
-    setting.time.gravity_y = -10;
-    bool carried           = false;
+    setting.stepping.gravity_y = -10;
+    bool carried               = false;
     for (int k = 0; k < 30; ++k)
       carried = rattlers(advance(state, setting), state.grains)[6] == 0;
     EXPECT_TRUE(carried);

@@ -24,7 +24,7 @@ namespace
     if (k % 5 == 1)
       options.law.friction = 0.2;
     if (k % 5 == 2)
-      options.time.step = 0.05;
+      options.stepping.step = 0.05;
     if (k % 5 == 3)
       options.lateral.lateral = Lateral::periodic;
     if (k % 5 == 4)

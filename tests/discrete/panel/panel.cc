@@ -57,7 +57,7 @@ namespace
         loading.pressure        = pressure;
         scaled.density          = density;
         scaled.preparation_step = 0.2 * time;
-        *options.time.step *= time;
+        *options.stepping.step *= time;
         const Course b = loaded(scaled, loading, options);
         ASSERT_EQ(a.rows.size(), b.rows.size());
         EXPECT_NEAR(b.rows.back().time, time * a.rows.back().time, 1e-9);

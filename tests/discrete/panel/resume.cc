@@ -110,7 +110,7 @@ namespace
   TEST(Resume, AutomaticStepAndRowsFarApart)
   {
     Options options = quick_options();
-    options.time.step.reset();
+    options.stepping.step.reset();
     expect_same_from(small_sample(150), {1, 1e-3, 1, {0.004, 0.01}}, options, {0, 3, 5, 8});
   }
 
@@ -130,14 +130,14 @@ namespace
 
   TEST(Resume, WallsThatFollowATable)
   {
-    Options options         = sampled_options();
-    options.lateral.lateral = Lateral::rigid_walls;
-    options.drives.right_x  = "force -20";
-    options.drives.lower_x  = "velocity 0.01";
-    options.time.gravity_y  = -0.01;
-    Loading loading         = two_stages();
-    loading.mode            = LoadingMode::time;
-    loading.stages          = {1, 2};
+    Options options            = sampled_options();
+    options.lateral.lateral    = Lateral::rigid_walls;
+    options.drives.right_x     = "force -20";
+    options.drives.lower_x     = "velocity 0.01";
+    options.stepping.gravity_y = -0.01;
+    Loading loading            = two_stages();
+    loading.mode               = LoadingMode::time;
+    loading.stages             = {1, 2};
     expect_same_from(small_sample(150), loading, options, {0, 4, 10, 15});
   }
 

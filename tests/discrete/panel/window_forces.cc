@@ -25,7 +25,7 @@ namespace
   StepSetting on_the_floor(const double step)
   {
     StepSetting setting         = exact_setting(step);
-    setting.time.gravity_y      = -g;
+    setting.stepping.gravity_y  = -g;
     setting.law.platen_friction = mu;
     return setting;
   }

@@ -17,9 +17,9 @@ namespace
          {std::tuple{1, ContactSolver::nsgs, 1e-14}, {8, ContactSolver::nsgs, 1e-12}, {8, ContactSolver::psor, 1e-12}})
       {
         const double g = 9.81, step = 0.01;
-        StepSetting  setting   = exact_setting(step);
-        setting.solver.solver  = solver;
-        setting.time.gravity_y = -g;
+        StepSetting  setting       = exact_setting(step);
+        setting.solver.solver      = solver;
+        setting.stepping.gravity_y = -g;
         State state;
         state.walls = {{{0, 0}, {0, 1}}};
         for (int k = 0; k < n; ++k)
@@ -54,8 +54,8 @@ namespace
       {
         const double slope                  = s.angle;
         StepSetting  setting                = exact_setting(step);
-        setting.time.gravity_x              = g * std::sin(slope);
-        setting.time.gravity_y              = -g * std::cos(slope);
+        setting.stepping.gravity_x          = g * std::sin(slope);
+        setting.stepping.gravity_y          = -g * std::cos(slope);
         setting.law.platen_friction         = s.friction;
         setting.law.platen_rolling_friction = s.rolling;
         State state                         = disc_on_floor({0, 0}, radius);
@@ -73,7 +73,7 @@ namespace
   {
     const double g = 10, mu = 0.3, v0 = 3, step = 0.001, slip_time = v0 / (3 * mu * g);
     StepSetting  setting        = exact_setting(step);
-    setting.time.gravity_y      = -g;
+    setting.stepping.gravity_y  = -g;
     setting.law.platen_friction = mu;
     State  state                = disc_on_floor({v0, 0});
     double time_of_rolling      = NAN;

@@ -95,7 +95,7 @@ namespace
   {
     const double g                 = 10;
     StepSetting  setting           = exact_setting(step);
-    setting.time.gravity_y         = -g;
+    setting.stepping.gravity_y     = -g;
     setting.law.normal_restitution = e;
     State state                    = disc_on_floor({0, 0});
     state.grains.position[0].y() += 1;

@@ -22,9 +22,9 @@ namespace
   TEST(Compliant, DiscOnAFloorRestsAtItsWeightOverTheStiffnessAfterLongSteps)
   {
     const double stiffness = 1e4, g = 9.81, step = 1;
-    State        state     = disc_on_floor({0, 0});
-    StepSetting  setting   = compliant_setting(step, stiffness);
-    setting.time.gravity_y = -g;
+    State        state         = disc_on_floor({0, 0});
+    StepSetting  setting       = compliant_setting(step, stiffness);
+    setting.stepping.gravity_y = -g;
     const double weight = state.grains.mass[0] * g, z = step * step * stiffness / state.grains.mass[0];
     EXPECT_NEAR(advance(state, setting).wall_force[0].y(), weight * z / (1 + z), 1e-10 * weight);
     for (int k = 0; k < 6; ++k)
@@ -48,8 +48,8 @@ namespace
       {
         State       state                   = disc_on_floor({0, 0}, radius);
         StepSetting setting                 = compliant_setting(step, stiffness);
-        setting.time.gravity_x              = g * std::sin(s.angle);
-        setting.time.gravity_y              = -g * std::cos(s.angle);
+        setting.stepping.gravity_x          = g * std::sin(s.angle);
+        setting.stepping.gravity_y          = -g * std::cos(s.angle);
         setting.law.platen_friction         = s.friction;
         setting.law.platen_rolling_friction = s.rolling;
         for (int k = 0; k < 20; ++k)
@@ -121,7 +121,7 @@ namespace
     StepSetting setting          = compliant_setting(0.1, 1e4, 0.2);
     setting.solver               = {};
     setting.solver.tolerance     = 1e-8;
-    setting.time.gravity_y       = -0.1;
+    setting.stepping.gravity_y   = -0.1;
     setting.law.friction         = 0.4;
     setting.law.platen_friction  = 0.4;
     setting.law.rolling_friction = 0.1;

@@ -248,8 +248,8 @@ namespace
     StepSetting setting = exact_setting(0.1);
     for (int k = 1; k < 6; ++k)
       add_grain(state.grains, {0, 0.5 + k}, 0.5, 1.);
-    setting.time.gravity_y    = -1;
-    const StoredStep     step = next_step(state, setting);
+    setting.stepping.gravity_y = -1;
+    const StoredStep     step  = next_step(state, setting);
     std::vector<Impulse> r(step.contacts.size());
     SampledAccuracy      accuracy;
     ThreadTeam           one_thread(1);

@@ -39,7 +39,7 @@ namespace
     const double stiffness = 1e4, g = 9.81;
     State        state = disc_on_floor({0, 0});
     Penalty      penalty(penalty_step(state.grains, stiffness, 0.2), stiffness, 0.2);
-    penalty.setting.time.gravity_y = -g;
+    penalty.setting.stepping.gravity_y = -g;
     StepResult result;
     for (int k = 0; k < 1500; ++k) // 300/(2 pi) periods: decays by exp(-0.2 x 300)
       result = penalty.advance(state);
@@ -69,8 +69,8 @@ namespace
         const double mass = state.grains.mass[0], time = 0.05;
         const int    n_steps = int(time / penalty_step(state.grains, stiffness, 0.1)) + 1;
         Penalty      penalty(time / n_steps, stiffness);
-        penalty.setting.time.gravity_x              = g * std::sin(slope);
-        penalty.setting.time.gravity_y              = -g * std::cos(slope);
+        penalty.setting.stepping.gravity_x          = g * std::sin(slope);
+        penalty.setting.stepping.gravity_y          = -g * std::cos(slope);
         penalty.setting.law.platen_friction         = s.friction;
         penalty.setting.law.platen_rolling_friction = s.rolling;
         state.grains.position[0].y() -= mass * g * std::cos(slope) / stiffness; // at rest on its spring
@@ -141,7 +141,7 @@ namespace
     Penalty penalty(penalty_step(state.grains, 1e3, 0.2), 1e3, 0.2);
     penalty.setting.law.friction        = 0.4;
     penalty.setting.law.platen_friction = 0.3;
-    penalty.setting.time.gravity_y      = -1;
+    penalty.setting.stepping.gravity_y  = -1;
     return penalty;
   }
 

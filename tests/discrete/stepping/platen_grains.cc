@@ -93,7 +93,7 @@ namespace
     loading.inertial_number = 0.02;
     loading.stages          = {0.1, 0.2};
     Options options;
-    options.time.step           = 0.05;
+    options.stepping.step       = 0.05;
     options.accuracy.tolerance  = 1e-6;
     options.lateral.lateral     = Lateral::periodic;
     options.lateral.side_motion = SideMotion::velocity;

@@ -29,7 +29,7 @@ namespace
 
   void put_on_floor(StepSetting &setting)
   {
-    setting.time.gravity_y              = -g;
+    setting.stepping.gravity_y          = -g;
     setting.law.platen_friction         = mu;
     setting.law.platen_rolling_friction = mu_r;
   }
@@ -152,7 +152,7 @@ namespace
       {
         const double step            = 0.01;
         StepSetting  setting         = exact_setting(step);
-        setting.time.gravity_y       = -g;
+        setting.stepping.gravity_y   = -g;
         setting.law.rolling_friction = mu_r;
         State state                  = disc_on_floor({0, 0});
         add_grain(state.grains, {0, 1.5}, 0.5, 1.);

@@ -75,7 +75,7 @@ namespace
   TEST(StepRule, FallingGrainsAreBoundByGravity)
   {
     RuleScene s;
-    s.setting.time.gravity_x = 3, s.setting.time.gravity_y = -4;
+    s.setting.stepping.gravity_x = 3, s.setting.stepping.gravity_y = -4;
     EXPECT_EQ(s.choose(0, 0).bound, "gravity");
     EXPECT_NEAR(s.choose(0, 0).step, 0.3 * std::sqrt(0.4), 1e-14);
   }
@@ -165,9 +165,9 @@ namespace
   // At most 2.5e-4 of strain per step; the bound for end grains is 1 in units of 1.
   TEST(StepRule, ARunWithStepAutoReachesItsStagesAndNamesItsBound)
   {
-    Options options   = quick_options();
-    options.time.step = std::nullopt;
-    const Course r    = loaded(small_sample(150), short_loading(), options);
+    Options options       = quick_options();
+    options.stepping.step = std::nullopt;
+    const Course r        = loaded(small_sample(150), short_loading(), options);
     ASSERT_EQ(r.report.status, Status::finished) << r.report.message;
     EXPECT_NEAR(r.report.axial_strain, 0.01, 1e-12);
     EXPECT_TRUE(r.report.step_bound == "forces" || r.report.step_bound == "motion" || r.report.step_bound == "solver" ||
@@ -182,7 +182,7 @@ namespace
   {
     SampleOptions sample    = small_sample(20);
     Options       options   = quick_options();
-    options.time.step       = std::nullopt;
+    options.stepping.step   = std::nullopt;
     options.lateral.lateral = Lateral::none;
     Loading loading;
     loading.pressure = 0, loading.mode = LoadingMode::time, loading.stages = {1.};
@@ -201,7 +201,7 @@ namespace
     for (const double step : {0.05, 0.5, 5.})
       {
         Options options                  = quick_options();
-        options.time.step                = step;
+        options.stepping.step            = step;
         options.lateral.lateral          = Lateral::rigid_walls;
         options.solver.max_sweeps        = 200000;
         Loading loading                  = short_loading();

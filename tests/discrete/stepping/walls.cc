@@ -132,14 +132,14 @@ namespace
     const int    n_steps = 628; // two periods
     for (const double ratio : {0.9, 2.})
       {
-        StepSetting setting      = exact_setting(step);
-        setting.time.gravity_y   = -g;
-        setting.solver.tolerance = 1e-13; // near take-off the force is a small difference of large terms
-        const TimeTable velocity = shaking(ratio * g / (frequency * frequency), frequency, step, n_steps);
-        State           state    = disc_on_floor({0, velocity.value[0]});
-        state.walls[0].velocity  = {0, velocity.value[0]};
-        state.walls[0].drive_y   = PrescribedVelocity{velocity};
-        double take_off          = NAN;
+        StepSetting setting        = exact_setting(step);
+        setting.stepping.gravity_y = -g;
+        setting.solver.tolerance   = 1e-13; // near take-off the force is a small difference of large terms
+        const TimeTable velocity   = shaking(ratio * g / (frequency * frequency), frequency, step, n_steps);
+        State           state      = disc_on_floor({0, velocity.value[0]});
+        state.walls[0].velocity    = {0, velocity.value[0]};
+        state.walls[0].drive_y     = PrescribedVelocity{velocity};
+        double take_off            = NAN;
         for (int k = 0; k < n_steps && std::isnan(take_off); ++k)
           {
             const StepResult result = advance(state, setting);
@@ -167,8 +167,8 @@ namespace
   TEST(FixedGrains, CarryADiscInTheirSaddle)
   {
     const double a = 0.8, R = 0.6, r = 0.5, g = 9.81, step = 0.01, cosine = std::sqrt(1 - a * a / (R + r) / (R + r));
-    StepSetting  setting   = exact_setting(step);
-    setting.time.gravity_y = -g;
+    StepSetting  setting       = exact_setting(step);
+    setting.stepping.gravity_y = -g;
     State state;
     add_grain(state.grains, {-a, 0}, R, 1.);
     add_grain(state.grains, {a, 0}, R, 1.);
@@ -192,10 +192,10 @@ namespace
       for (const double step : {1e-3, 2.5e-4})
         {
           const double R = 1, r = 0.5, start = 0.3;
-          StepSetting  setting     = exact_setting(step);
-          setting.solver.tolerance = 1e-6; // impulses approach zero where it leaves, i.e. round-off of m v
-          setting.time.gravity_y   = -10;
-          setting.law.friction     = rough ? 1000. : 0.;
+          StepSetting  setting       = exact_setting(step);
+          setting.solver.tolerance   = 1e-6; // impulses approach zero where it leaves, i.e. round-off of m v
+          setting.stepping.gravity_y = -10;
+          setting.law.friction       = rough ? 1000. : 0.;
           State state;
           add_grain(state.grains, {0, 0}, R, 1.);
           add_grain(state.grains, {(R + r) * std::sin(start), (R + r) * std::cos(start)}, r, 1.);
@@ -219,7 +219,7 @@ namespace
   TEST(FixedGrains, KeepTheirMotionAndTheLedgers)
   {
     StepSetting setting            = exact_setting(0.01);
-    setting.time.gravity_y         = -10;
+    setting.stepping.gravity_y     = -10;
     setting.law                    = same_friction(0.3);
     setting.law.normal_restitution = 0.5, setting.law.tangential_restitution = 0.2;
     setting.solver.tolerance = 1e-12;
@@ -261,7 +261,7 @@ namespace
         setting.law.friction        = friction[0];
         setting.law.platen_friction = friction[1];
         setting.law.wall_friction   = friction[2];
-        setting.time.gravity_x = 3, setting.time.gravity_y = -1;
+        setting.stepping.gravity_x = 3, setting.stepping.gravity_y = -1;
         State state = disc_on_floor({0, 0});
         if (pair == 0)
           {
@@ -344,7 +344,7 @@ namespace
       {
         const Eigen::Vector2d g       = 3 * Eigen::Vector2d(std::cos(angle), std::sin(angle));
         StepSetting           setting = exact_setting(0.05);
-        setting.time.gravity_x = g.x(), setting.time.gravity_y = g.y();
+        setting.stepping.gravity_x = g.x(), setting.stepping.gravity_y = g.y();
         State state;
         add_grain(state.grains, {0, 0}, 0.5, 2.);
         for (int k = 0; k < 20; ++k)

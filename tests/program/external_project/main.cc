@@ -10,10 +10,10 @@ int main(const int, char **words)
 {
   using namespace diptych::discrete;
   StepSetting setting;
-  setting.step             = 0.01;
-  setting.time.gravity_y   = -10;
-  setting.lateral          = NoSides{};
-  setting.solver.tolerance = 1e-12;
+  setting.step               = 0.01;
+  setting.stepping.gravity_y = -10;
+  setting.lateral            = NoSides{};
+  setting.solver.tolerance   = 1e-12;
 
   State state;
   state.walls = {{{0, 0}, {0, 1}}}; // a floor: a point of it, and its normal towards the discs
