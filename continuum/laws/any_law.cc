@@ -17,7 +17,7 @@ namespace diptych::continuum
       return MohrCoulomb(o);
     if (is.is_gradient)
       return GradientLaw(o, is.shape);
-    if (o.hardening == HardeningKind::kinematic)
+    if (o.hardening == kind_of<KinematicHardening>)
       return KinematicCone(o, is.shape, is.is_cosserat);
     return ConeLaw(o, is.shape, is.is_cosserat);
   }

@@ -9,7 +9,7 @@
 
 namespace diptych::continuum
 {
-  struct CriticalStateOptions : DecayOptions
+  struct CriticalStateOptions : virtual DecayOptions
   {
     double                critical_stress_ratio   = 0.26; // t/s of steady flow [-]
     double                critical_solid_fraction = 0.82; // solid fraction of steady flow [-]
@@ -45,14 +45,15 @@ namespace diptych::continuum
   //   d eps_v / dg = -sin psi = -(eta - eta_c) / beta,   d ln nu = d eps_v.
   // The logarithm equals nu - nu_c to first order and makes both equations linear. They are solved exactly, for any length of
   // the steps. The flow of a step uses the mean dilation over it and thereby conserves mass, except where the tip of the cone
-  // opens. kind, name, keys and check() as in ConstantHardening.
+  // opens. The names and check() as in ConstantHardening.
   struct CriticalStateHardening
   {
-    static constexpr auto       kind   = HardeningKind::critical_state;
-    static constexpr const char name[] = "critical_state";
-    static constexpr std::array keys   = {
-        "critical_stress_ratio", "critical_solid_fraction", "strength_by_density", "dilatancy_ratio",
-        "stress_ratio_start",    "solid_fraction_start",    "mobilisation_strain", "cohesion"};
+    using Options                         = CriticalStateOptions;
+    static constexpr const char name[]    = "critical_state";
+    static constexpr const char meaning[] = "both angles follow solid fraction and mobilisation";
+    static constexpr std::array keys      = {
+           "critical_stress_ratio", "critical_solid_fraction", "strength_by_density", "dilatancy_ratio",
+           "stress_ratio_start",    "solid_fraction_start",    "mobilisation_strain", "cohesion"};
 
     static void check(const CriticalStateOptions &o, LawKind law, const char *hardening = name);
     CriticalStateHardening(const CriticalStateOptions &o, bool is_nonlocal);

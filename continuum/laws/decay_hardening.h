@@ -44,14 +44,16 @@ namespace diptych::continuum
             "equivalent plastic strain over which angles and cohesion decay by 1/e");
   }
 
-  // Every hardening has `kind`, `name` and `keys`, the keys that it reads; check(), which throws WrongKeys for values that
-  // contradict each other or do not suit the law; and a constructor from options in the units of the stress (`is_nonlocal`: for a
-  // gradient law). Strength at the hardening variable kappa is the sum of falling(kappa) and rising(kappa).
+  // Every hardening has `name` and `meaning`, as `hardening` shows them; its Options, and `keys`, those that it reads; check(),
+  // which throws WrongKeys for values that contradict each other or do not suit the law; and a constructor from options in the
+  // units of the stress (`is_nonlocal`: for a gradient law). Strength at the hardening variable kappa is the sum of
+  // falling(kappa) and rising(kappa).
   struct ConstantHardening
   {
-    static constexpr auto       kind   = HardeningKind::constant;
-    static constexpr const char name[] = "constant";
-    static constexpr std::array keys   = {"friction_angle_peak", "dilatancy_angle_peak", "cohesion"};
+    using Options                         = DecayOptions;
+    static constexpr const char name[]    = "constant";
+    static constexpr const char meaning[] = "the peak values";
+    static constexpr std::array keys      = {"friction_angle_peak", "dilatancy_angle_peak", "cohesion"};
 
     static void check(const DecayOptions &o, LawKind law);
     ConstantHardening(const DecayOptions &o, bool is_nonlocal);
@@ -65,11 +67,12 @@ namespace diptych::continuum
   // v(kappa) = v_r + (v_p - v_r) exp(-kappa/kappa_s) for both angles and the cohesion.
   struct ExponentialHardening
   {
-    static constexpr auto       kind   = HardeningKind::exponential;
-    static constexpr const char name[] = "exponential";
-    static constexpr std::array keys   = {"friction_angle_peak",     "dilatancy_angle_peak",     "cohesion",
-                                          "friction_angle_residual", "dilatancy_angle_residual", "cohesion_residual",
-                                          "softening_strain"};
+    using Options                         = DecayOptions;
+    static constexpr const char name[]    = "exponential";
+    static constexpr const char meaning[] = "decay from peak to residual values with exp(-strain / softening_strain)";
+    static constexpr std::array keys      = {"friction_angle_peak",     "dilatancy_angle_peak",     "cohesion",
+                                             "friction_angle_residual", "dilatancy_angle_residual", "cohesion_residual",
+                                             "softening_strain"};
 
     static void check(const DecayOptions &o, LawKind law);
     ExponentialHardening(const DecayOptions &o, bool is_nonlocal);
@@ -84,11 +87,14 @@ namespace diptych::continuum
   // The same, but friction is lower by (phi_p - phi_0) exp(-kappa/kappa_m).
   struct MobilisationHardening : ExponentialHardening
   {
-    static constexpr auto       kind   = HardeningKind::mobilisation;
+    using Options                      = DecayOptions;
     static constexpr const char name[] = "mobilisation";
-    static constexpr std::array keys   = {"friction_angle_peak",     "dilatancy_angle_peak",     "cohesion",
-                                          "friction_angle_residual", "dilatancy_angle_residual", "cohesion_residual",
-                                          "softening_strain",        "friction_angle_start",     "mobilisation_strain"};
+    static constexpr const char meaning[] =
+      "the same, but friction starts at friction_angle_start and is lower by (peak - start) "
+      "exp(-strain / mobilisation_strain)";
+    static constexpr std::array keys = {"friction_angle_peak",     "dilatancy_angle_peak",     "cohesion",
+                                        "friction_angle_residual", "dilatancy_angle_residual", "cohesion_residual",
+                                        "softening_strain",        "friction_angle_start",     "mobilisation_strain"};
 
     static void check(const DecayOptions &o, LawKind law);
     MobilisationHardening(const DecayOptions &o, bool is_nonlocal);

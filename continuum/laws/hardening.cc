@@ -12,7 +12,7 @@ namespace diptych::continuum
     HardeningForm form_of(const LawOptions &options, const bool is_nonlocal)
     {
       std::optional<HardeningForm> form;
-      with_type(options.hardening, [&](const auto chosen) { form = typename decltype(chosen)::Type(options, is_nonlocal); });
+      Hardenings::with_type(options.hardening, [&](auto *chosen) { form = TypeOf<decltype(chosen)>(options, is_nonlocal); });
       return *form;
     }
 

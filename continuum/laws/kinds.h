@@ -53,36 +53,16 @@ namespace diptych::continuum
   };
   constexpr LawTraits traits(const LawKind law)
   {
-    constexpr bool plastic = true, cosserat = true, gradient = true;
-    switch (law)
-      {
-      case LawKind::cosserat_mohr_coulomb:
-        return {plastic, cosserat, !gradient, ConeShape::mohr_coulomb};
-      case LawKind::cosserat_drucker_prager:
-        return {plastic, cosserat, !gradient, ConeShape::drucker_prager};
-      case LawKind::gradient_mohr_coulomb:
-        return {plastic, !cosserat, gradient, ConeShape::mohr_coulomb};
-      case LawKind::gradient_drucker_prager:
-        return {plastic, !cosserat, gradient, ConeShape::drucker_prager};
-      case LawKind::mohr_coulomb:
-        return {plastic, !cosserat, !gradient, ConeShape::mohr_coulomb};
-      case LawKind::drucker_prager:
-        return {plastic, !cosserat, !gradient, ConeShape::drucker_prager};
-      case LawKind::linear_elastic:
-      case LawKind::library:
-        break;
-      }
-    return {};
+    using K                = LawKind;
+    const bool is_cosserat = law == K::cosserat_mohr_coulomb || law == K::cosserat_drucker_prager;
+    const bool is_gradient = law == K::gradient_mohr_coulomb || law == K::gradient_drucker_prager;
+    const bool has_planes  = law == K::cosserat_mohr_coulomb || law == K::gradient_mohr_coulomb || law == K::mohr_coulomb;
+    return {law != K::linear_elastic && law != K::library, is_cosserat, is_gradient,
+            has_planes ? ConeShape::mohr_coulomb : ConeShape::drucker_prager};
   }
 
-  // Each is a type in a file of its own and an entry of HardeningForm (options.h).
-  enum class HardeningKind
+  // Place in the list Hardenings (options.h): each hardening is a type in a file of its own.
+  enum class HardeningKind : unsigned int
   {
-    exponential,
-    mobilisation,
-    table,
-    critical_state,
-    kinematic,
-    constant
   };
 } // namespace diptych::continuum

@@ -6,7 +6,7 @@
 
 namespace diptych::continuum
 {
-  struct KinematicOptions : CriticalStateOptions
+  struct KinematicOptions : virtual CriticalStateOptions
   {
     double elastic_stress_ratio = 0.05; // half the elastic range of t/s after long shear [-]
   };
@@ -29,12 +29,13 @@ namespace diptych::continuum
   // (Taylor 1948): the dissipation p (eta - sin psi) depends on the density only, through (1 - 1/beta)(eta_p - eta_c) + eta_c.
   struct KinematicHardening : CriticalStateHardening
   {
-    static constexpr auto       kind   = HardeningKind::kinematic;
-    static constexpr const char name[] = "kinematic";
-    static constexpr std::array keys   = {
-        "critical_stress_ratio", "critical_solid_fraction", "strength_by_density", "dilatancy_ratio",
-        "stress_ratio_start",    "solid_fraction_start",    "mobilisation_strain", "cohesion",
-        "elastic_stress_ratio"};
+    using Options                         = KinematicOptions;
+    static constexpr const char name[]    = "kinematic";
+    static constexpr const char meaning[] = "critical_state that unloads and reverses";
+    static constexpr std::array keys      = {
+           "critical_stress_ratio", "critical_solid_fraction", "strength_by_density", "dilatancy_ratio",
+           "stress_ratio_start",    "solid_fraction_start",    "mobilisation_strain", "cohesion",
+           "elastic_stress_ratio"};
 
     static void check(const KinematicOptions &o, LawKind law);
     KinematicHardening(const KinematicOptions &o, bool is_nonlocal);

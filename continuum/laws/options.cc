@@ -3,7 +3,6 @@
 #include "continuum/laws/options.h"
 
 #include <algorithm>
-#include <map>
 
 namespace diptych::continuum
 {
@@ -26,9 +25,25 @@ namespace diptych::continuum
     list.back().value = value;
   }
 
+  const char *hardening_meaning()
+  {
+    static const std::string text = [] {
+      std::string all;
+      Hardenings::each([&](auto *hardening) {
+        using H = TypeOf<decltype(hardening)>;
+        all += (all.empty() ? "" : "; ") + std::string(H::name) + ": " + H::meaning;
+      });
+      return all;
+    }();
+    return text.c_str();
+  }
+
   bool follows_solid_fraction(const HardeningKind hardening)
   {
-    return hardening == HardeningKind::critical_state || hardening == HardeningKind::kinematic;
+    bool follows = false;
+    Hardenings::with_type(hardening,
+                          [&](auto *chosen) { follows = std::is_base_of_v<CriticalStateHardening, TypeOf<decltype(chosen)>>; });
+    return follows;
   }
 
   LawOptions in_units(LawOptions o, const Units &units)
@@ -45,31 +60,29 @@ namespace diptych::continuum
 
   std::vector<UnusedKey> unused_keys(const LawKind law, const LawOptions &o)
   {
-    const LawTraits                   is       = traits(law);
-    const bool                        own      = law == LawKind::library;
-    const std::map<std::string, bool> of_laws  = {{"law_library", own},
-                                                  {"youngs_modulus", !own},
-                                                  {"poisson_ratio", !own},
-                                                  {"internal_length", is.has_length()},
-                                                  {"couple_shear_ratio", is.is_cosserat},
-                                                  {"nonlocal_weight", is.is_gradient},
-                                                  {"hardening", is.is_plastic},
-                                                  {"viscosity", is.is_plastic}};
-    const std::string                 this_law = "law = " + name_of(law);
-    std::vector<UnusedKey>            unused;
-    std::set<std::string>             hardens;
-    with_type(o.hardening, [&](const auto chosen) {
-      const auto &keys = decltype(chosen)::Type::keys;
-      hardens.insert(keys.begin(), keys.end());
-    });
+    const LawTraits       is  = traits(law);
+    const bool            own = law == LawKind::library;
+    std::set<std::string> used, of_hardenings;
+    const auto            use = [&](const bool reads, const auto &keys) {
+      if (reads)
+        used.insert(std::begin(keys), std::end(keys));
+    };
+    use(!own, keys_of(o.elastic));
+    use(own, std::array{"law_library"});
+    use(true, std::array{LawParameters::prefix});
+    use(is.is_plastic, std::array{"hardening", "viscosity"});
+    use(is.has_length(), keys_of<LengthOptions>(o));
+    use(is.is_cosserat, keys_of<CosseratOptions>(o));
+    use(is.is_gradient, keys_of<GradientOptions>(o));
+    Hardenings::with_type(o.hardening, [&](auto *chosen) { use(is.is_plastic, TypeOf<decltype(chosen)>::keys); });
+    if (is.is_plastic)
+      for (const std::string &key : keys_of<Hardenings::Options>(o))
+        of_hardenings.insert(key);
+    std::vector<UnusedKey> unused;
+    const std::string      this_law = "law = " + name_of(law);
     for (const std::string &key : keys_of(o))
-      if (const auto known = of_laws.find(key); known != of_laws.end())
-        {
-          if (!known->second)
-            unused.push_back({key, this_law});
-        }
-      else if (key != LawParameters::prefix && !(is.is_plastic && hardens.count(key) > 0))
-        unused.push_back({key, is.is_plastic ? "hardening = " + name_of(o.hardening) : this_law});
+      if (used.count(key) == 0)
+        unused.push_back({key, of_hardenings.count(key) > 0 ? "hardening = " + name_of(o.hardening) : this_law});
     for (const LawParameter &one : o.library.parameters.list)
       if (!own)
         unused.push_back({LawParameters::prefix + one.name, this_law});
@@ -80,6 +93,6 @@ namespace diptych::continuum
   {
     check_ranges(o, unused_keys(law, o));
     if (traits(law).is_plastic)
-      with_type(o.hardening, [&](const auto chosen) { decltype(chosen)::Type::check(o, law); });
+      Hardenings::with_type(o.hardening, [&](auto *chosen) { TypeOf<decltype(chosen)>::check(o, law); });
   }
 } // namespace diptych::continuum

@@ -3,47 +3,75 @@
 #pragma once
 
 #include <array>
+#include <set>
 #include <string>
+#include <typeindex>
 #include <variant>
 #include <vector>
 
 #include "continuum/laws/decay_hardening.h"
 #include "continuum/laws/kinematic_hardening.h"
+#include "continuum/laws/length_options.h"
 #include "continuum/laws/parameters.h"
 #include "continuum/laws/table_hardening.h"
 
 namespace diptych::continuum
 {
-  // All kinds of hardening. One that has keys of its own is also a base of LawOptions.
-  using HardeningForm = std::variant<ExponentialHardening,
-                                     MobilisationHardening,
-                                     TableHardening,
-                                     CriticalStateHardening,
-                                     KinematicHardening,
-                                     ConstantHardening>;
-
-  template <class... H> constexpr auto names_of(const std::variant<H...> *)
+  // Hardenings whose kinds are their places. Functions receive the type of one as a null pointer.
+  template <class... H> struct ListOf
   {
-    return std::array{std::pair{H::kind, static_cast<const char *>(H::name)}...};
-  }
+    using Form = std::variant<H...>;
+
+    // The options of all, each once.
+    template <class One> struct Brings : virtual One::Options
+    {};
+    struct Options : Brings<H>...
+    {};
+
+    template <class One> static constexpr HardeningKind kind()
+    {
+      unsigned int k = 0;
+      (void)((std::is_same_v<One, H> || (++k, false)) || ...);
+      return HardeningKind(k);
+    }
+    static constexpr auto names() { return std::array{std::pair{kind<H>(), static_cast<const char *>(H::name)}...}; }
+
+    template <class Use> static void each(Use &&use) { (use(static_cast<H *>(nullptr)), ...); }
+    template <class Use> static void with_type(const HardeningKind chosen, Use &&use)
+    {
+      ((chosen == kind<H>() ? use(static_cast<H *>(nullptr)) : void()), ...);
+    }
+  };
+  template <class Pointer> using TypeOf = std::remove_pointer_t<Pointer>;
+
+  // Those that a scene can choose. An entry here is all that a new one needs outside its own file and CMakeLists.txt.
+  using Hardenings    = ListOf<ExponentialHardening,
+                            MobilisationHardening,
+                            CriticalStateHardening,
+                            KinematicHardening,
+                            TableHardening,
+                            ConstantHardening>;
+  using HardeningForm = Hardenings::Form;
+
+  template <class H> constexpr HardeningKind kind_of = Hardenings::kind<H>();
+
   constexpr auto choices(HardeningKind)
   {
-    return names_of(static_cast<const HardeningForm *>(nullptr));
+    return Hardenings::names();
   }
 
-  // Calls `use` with Chosen<H> for the type H of a hardening.
-  template <class H> struct Chosen
+  template <class Visitor> void visit_parameters(Hardenings::Options &o, Visitor &&visitor)
   {
-    using Type = H;
-  };
-  template <class Use, class... H> void with_type(const HardeningKind kind, Use &&use, const std::variant<H...> *)
-  {
-    ((H::kind == kind ? use(Chosen<H>()) : void()), ...);
+    std::set<std::type_index> visited; // several hardenings may have the same options
+    Hardenings::each([&](auto *hardening) {
+      using Options = typename TypeOf<decltype(hardening)>::Options;
+      if (visited.insert(typeid(Options)).second)
+        visit_parameters(static_cast<Options &>(o), visitor);
+    });
   }
-  template <class Use> void with_type(const HardeningKind kind, Use &&use)
-  {
-    with_type(kind, use, static_cast<const HardeningForm *>(nullptr));
-  }
+
+  // "NAME: meaning; ..." of all hardenings.
+  const char *hardening_meaning();
 
   struct ElasticOptions
   {
@@ -93,42 +121,26 @@ namespace diptych::continuum
   };
 
   // Parameters of all laws, as a scene sets them; each law reads its own. Stresses and lengths in Units.
-  struct LawOptions : KinematicOptions, TableOptions
+  struct LawOptions : Hardenings::Options, CosseratOptions, GradientOptions
   {
     ElasticOptions elastic;
-    HardeningKind  hardening          = HardeningKind::exponential;
-    double         viscosity          = 0;   // [Units::stress x progress]; a positive value eases the onset of a band
-    double         internal_length    = 1;   // Cosserat and gradient laws [Units::length]
-    double         couple_shear_ratio = 0.5; // Cosserat laws: skew modulus / shear modulus [-]
-    double         nonlocal_weight    = 4;   // gradient laws: weight of the nonlocal hardening variable [-]
+    HardeningKind  hardening = {};
+    double         viscosity = 0; // [Units::stress x progress]; a positive value eases the onset of a band
     LibraryOptions library;
   };
 
   template <class Visitor> void visit_parameters(LawOptions &o, Visitor &&visitor)
   {
     visit_parameters(o.elastic, visitor);
-    visitor(
-      "hardening", o.hardening, "-",
-      "exponential: decay from peak to residual values with exp(-strain / softening_strain); mobilisation: the "
-      "same, but friction starts at friction_angle_start and is lower by (peak - start) exp(-strain / mobilisation_strain); "
-      "table: the four lists, linear between their points and constant beyond them; critical_state: both angles follow "
-      "solid fraction and mobilisation; kinematic: critical_state that unloads and reverses; constant: the peak values");
-    visit_parameters(static_cast<DecayOptions &>(o), visitor);
-    visit_parameters(static_cast<CriticalStateOptions &>(o), visitor);
-    visit_parameters(static_cast<KinematicOptions &>(o), visitor);
-    visit_parameters(static_cast<TableOptions &>(o), visitor);
+    visitor("hardening", o.hardening, "-", hardening_meaning());
+    visit_parameters(static_cast<Hardenings::Options &>(o), visitor);
     visitor(
       "viscosity", o.viscosity, "loading/pressure x strain (mode time: time)", {0., 1e12},
       "overstress per rate of plastic shear strain; the rate is per unit progress of the loading (strain, mode time: time); "
       "0: rate independent");
-    visitor("internal_length", o.internal_length, "mean diameters", {1e-6, 1e6},
-            "Cosserat laws: couple modulus = 2 G length^2; gradient laws: the hardening variable is averaged over this length; "
-            "sets the thickness of the band");
-    visitor("couple_shear_ratio", o.couple_shear_ratio, "-", {1e-6, 1e6}, "Cosserat laws: skew modulus / shear modulus");
-    visitor(
-      "nonlocal_weight", o.nonlocal_weight, "-", {1., 10.},
-      "gradient laws: weight m of the averaged hardening variable, the local one has 1 - m; with 1 the mesh sets the band's "
-      "thickness");
+    visit_parameters(static_cast<LengthOptions &>(o), visitor);
+    visit_parameters(static_cast<CosseratOptions &>(o), visitor);
+    visit_parameters(static_cast<GradientOptions &>(o), visitor);
     visitor(
       "law_library", o.library.file, "-",
       "law = library: a shared library with a law of your own (diptych_law.h). Its parameters are the keys law.NAME of this "

@@ -15,6 +15,11 @@ namespace diptych::continuum
     std::vector<double> table_friction_angle;  // [degrees]
     std::vector<double> table_dilatancy_angle; // [degrees]
     std::vector<double> table_cohesion;        // [Units::stress]
+
+    // Without a move: LawOptions shares its bases, and a second move of one would empty the lists.
+    TableOptions()                                = default;
+    TableOptions(const TableOptions &)            = default;
+    TableOptions &operator=(const TableOptions &) = default;
   };
 
   template <class Visitor> void visit_parameters(TableOptions &o, Visitor &&visitor)
@@ -31,9 +36,10 @@ namespace diptych::continuum
   // ConstantHardening. A local law needs no parts: the whole table counts as falling.
   struct TableHardening
   {
-    static constexpr auto       kind   = HardeningKind::table;
-    static constexpr const char name[] = "table";
-    static constexpr std::array keys   = {"table_strain", "table_friction_angle", "table_dilatancy_angle", "table_cohesion"};
+    using Options                         = TableOptions;
+    static constexpr const char name[]    = "table";
+    static constexpr const char meaning[] = "the four lists, linear between their points and constant beyond them";
+    static constexpr std::array keys      = {"table_strain", "table_friction_angle", "table_dilatancy_angle", "table_cohesion"};
 
     static void check(const TableOptions &o, LawKind law);
     TableHardening(const TableOptions &o, bool is_nonlocal);

@@ -53,7 +53,7 @@ namespace diptych::continuum
       const LawTraits   is       = traits(options.law);
       const LawOptions &material = options.material;
       if (!is.is_plastic || is.has_length() || material.viscosity > 0 ||
-          (material.hardening == HardeningKind::constant && material.dilatancy_angle_peak == material.friction_angle_peak))
+          (material.hardening == kind_of<ConstantHardening> && material.dilatancy_angle_peak == material.friction_angle_peak))
         return "";
       return ". " + name_of(options.law) +
              " has neither an internal length nor viscosity: where it softens, or where its dilatancy angle is below its "

@@ -170,7 +170,7 @@ namespace diptych::coupling
       {"loading/stage_time", "about 1, so that the end is a stage; at most 40 stages",
        [](Scene &s, const Given &) { s.loading.stage_time = stage_length(s.loading.duration, 1); }},
       {"continuum/hardening", "mobilisation",
-       [](Scene &s, const Given &) { law(s).hardening = continuum::HardeningKind::mobilisation; }},
+       [](Scene &s, const Given &) { law(s).hardening = continuum::kind_of<continuum::MobilisationHardening>; }},
       {"continuum/youngs_modulus", by_friction,
        [](Scene &s, const Given &) { law(s).elastic.youngs_modulus = fitting(s).youngs_modulus; }},
       {"continuum/friction_angle_peak", by_friction,

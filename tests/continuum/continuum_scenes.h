@@ -38,7 +38,7 @@ namespace diptych::continuum::tests
   {
     Options options;
     options.law                           = law;
-    options.material.hardening            = HardeningKind::constant;
+    options.material.hardening            = kind_of<ConstantHardening>;
     options.material.friction_angle_peak  = friction;
     options.material.dilatancy_angle_peak = dilatancy;
     options.material.cohesion             = cohesion;

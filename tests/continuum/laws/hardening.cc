@@ -93,7 +93,7 @@ namespace
       {[](auto &o) { o = critical(0.85, 0.1), o.critical_stress_ratio = 0; }, "critical_stress_ratio"},
       {[](auto &o) { o = critical(0.85, 0.1), o.strength_by_density = 0; }, "strength_by_density"},
       {[](auto &o) { o = constant(0, 0, 0); }, "friction_angle_peak"},
-      {[](auto &o) { o.hardening = HardeningKind::table; }, "table_strain"},
+      {[](auto &o) { o.hardening = kind_of<TableHardening>; }, "table_strain"},
       {[](auto &o) { o = hardenings()["table"], o.table_cohesion.pop_back(); }, "table_cohesion"},
       {[](auto &o) { o = hardenings()["table"], o.table_strain[0] = 0.01; }, "table_strain"},
       {[](auto &o) { o = hardenings()["table"], o.table_strain[2] = 0.02; }, "table_strain"},

@@ -20,7 +20,7 @@ namespace
   LawOptions kinematic(const double solid_fraction)
   {
     LawOptions o          = critical(solid_fraction, 0.2);
-    o.hardening           = HardeningKind::kinematic;
+    o.hardening           = kind_of<KinematicHardening>;
     o.mobilisation_strain = 0.03;
     o.cohesion            = 0.1;
     return o;
@@ -127,7 +127,7 @@ namespace
     options.dilatancy_ratio = 1;
     options.cohesion        = 0;
     const Law moving        = make_law(LawKind::cosserat_mohr_coulomb, options);
-    options.hardening       = HardeningKind::critical_state;
+    options.hardening       = kind_of<CriticalStateHardening>;
     const Law     fixed     = make_law(LawKind::cosserat_mohr_coulomb, options);
     MaterialState a = state_of(-1, -1, -1), b = a;
     for (int k = 0; k < 1000; ++k)

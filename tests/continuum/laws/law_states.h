@@ -41,7 +41,7 @@ namespace diptych::continuum::tests
   inline LawOptions constant(const double friction, const double dilatancy, const double cohesion)
   {
     LawOptions o;
-    o.hardening            = HardeningKind::constant;
+    o.hardening            = kind_of<ConstantHardening>;
     o.friction_angle_peak  = friction;
     o.dilatancy_angle_peak = dilatancy;
     o.cohesion             = cohesion;
@@ -52,7 +52,7 @@ namespace diptych::continuum::tests
   inline LawOptions critical(const double solid_fraction, const double start)
   {
     LawOptions o;
-    o.hardening            = HardeningKind::critical_state;
+    o.hardening            = kind_of<CriticalStateHardening>;
     o.solid_fraction_start = solid_fraction;
     o.stress_ratio_start   = start;
     o.mobilisation_strain  = 0.02;
@@ -67,15 +67,15 @@ namespace diptych::continuum::tests
     LawOptions o;
     o.cohesion = 0.1, o.cohesion_residual = 0.02, o.softening_strain = 0.05;
     all["exponential"]     = o;
-    o.hardening            = HardeningKind::mobilisation;
+    o.hardening            = kind_of<MobilisationHardening>;
     o.friction_angle_start = 13, o.mobilisation_strain = 0.01;
     all["mobilisation"] = o;
     LawOptions dense;
-    dense.hardening = HardeningKind::critical_state, dense.cohesion = 0.1, dense.solid_fraction_start = 0.85;
+    dense.hardening = kind_of<CriticalStateHardening>, dense.cohesion = 0.1, dense.solid_fraction_start = 0.85;
     all["critical state, dense"] = dense;
     dense.solid_fraction_start   = 0.80; // contracts
     all["critical state, loose"] = dense;
-    o.hardening                  = HardeningKind::table;
+    o.hardening                  = kind_of<TableHardening>;
     o.table_strain               = {0, 0.02, 0.1};
     o.table_friction_angle       = {15, 30, 22};
     o.table_dilatancy_angle      = {0, 12, 2};
@@ -110,7 +110,7 @@ namespace diptych::continuum::tests
   // Gradient laws reject critical_state.
   inline bool accepts(const LawKind law, const LawOptions &options)
   {
-    return !traits(law).is_gradient || options.hardening != HardeningKind::critical_state;
+    return !traits(law).is_gradient || options.hardening != kind_of<CriticalStateHardening>;
   }
 
   inline MaterialUpdate update(const Law &law, const MaterialState &s0, const Strain &e, const double d_time = 1e-3)

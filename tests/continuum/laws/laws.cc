@@ -283,7 +283,7 @@ namespace
   TEST(Laws, SnapBackIsNeverCalledReliable)
   {
     LawOptions options              = constant(40, 0, 0.01);
-    options.hardening               = HardeningKind::exponential;
+    options.hardening               = kind_of<ExponentialHardening>;
     options.friction_angle_residual = 10, options.dilatancy_angle_residual = 0;
     options.softening_strain = 0.003;
     for (const LawKind name : {LawKind::mohr_coulomb, LawKind::cosserat_mohr_coulomb})

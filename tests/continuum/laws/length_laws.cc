@@ -72,7 +72,7 @@ namespace
   TEST(Gradient, SoftensWithTheNonlocalVariableAndRisesWithTheLocalOne)
   {
     LawOptions o            = constant(30, 0, 0);
-    o.hardening             = HardeningKind::table;
+    o.hardening             = kind_of<TableHardening>;
     o.table_strain          = {0, 0.1};
     o.table_friction_angle  = {30, 20};
     o.table_dilatancy_angle = o.table_cohesion = {0, 0};
@@ -87,7 +87,7 @@ namespace
     EXPECT_NEAR(Hardening(o, 2).at(state).friction, 28 * degree, 1e-12);
     EXPECT_NEAR(Hardening(o, 2).sines_by_nonlocal(state).friction_rate, -200 * degree * std::cos(28 * degree), 1e-12);
     LawOptions m              = constant(30, 0, 0);
-    m.hardening               = HardeningKind::mobilisation;
+    m.hardening               = kind_of<MobilisationHardening>;
     m.friction_angle_residual = 20, m.dilatancy_angle_residual = 0, m.friction_angle_start = 10;
     m.softening_strain = 0.05, m.mobilisation_strain = 0.03;
     EXPECT_NEAR(Hardening(m, 2).at(state).friction, (20 - 10 * std::exp(-1.)) * degree, 1e-12);

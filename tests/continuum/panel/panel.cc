@@ -228,7 +228,7 @@ namespace
   Options critical_state(const double solid_fraction)
   {
     Options options;
-    options.material.hardening            = HardeningKind::critical_state;
+    options.material.hardening            = kind_of<CriticalStateHardening>;
     options.material.solid_fraction_start = solid_fraction;
     options.material.mobilisation_strain  = 0.02;
     options.material.internal_length      = 2;

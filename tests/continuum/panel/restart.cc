@@ -122,7 +122,7 @@ namespace
   TEST(Restart, ContinuesWithTheSameBitsWhereTheLoadHasMovedTheCone)
   {
     Options options                       = options_of(LawKind::cosserat_mohr_coulomb, true);
-    options.material.hardening            = HardeningKind::kinematic;
+    options.material.hardening            = kind_of<KinematicHardening>;
     options.material.solid_fraction_start = 0.85;
     expect_that_it_goes_on(rectangle(24, 24, 4.), straight_loading(1, {24, -24}, {0, 0.004, 0.01}), options);
   }

@@ -131,7 +131,7 @@ namespace
   {
     const Folder folder;
     const Scene  scene = scene_with({"continuum/hardening=table", "continuum/hardening=auto", "comparison/window_edges=auto"});
-    EXPECT_EQ(scene.continuum.material.hardening, diptych::continuum::HardeningKind::mobilisation);
+    EXPECT_EQ(scene.continuum.material.hardening, diptych::continuum::kind_of<diptych::continuum::MobilisationHardening>);
     diptych::discrete::write_text(folder / "echo.prm", resolved_text(scene));
     const Scene echo = read_scene(folder / "echo.prm", {"discrete/friction=0.2"});
     EXPECT_EQ(echo.continuum.material.friction_angle_peak, scene.continuum.material.friction_angle_peak);

@@ -59,7 +59,7 @@ namespace
       SceneFile("").path, {"continuum/hardening=table", "continuum/table_strain=0, 0.1", "continuum/table_friction_angle=30, 20",
                            "continuum/table_dilatancy_angle=10, 0", "continuum/table_cohesion=0.1, 0.2",
                            "continuum/cohesion_residual=0.25", "continuum/refinement_levels=3", "continuum/mesh=mine.msh"});
-    EXPECT_EQ(scene.continuum.material.hardening, diptych::continuum::HardeningKind::table);
+    EXPECT_EQ(scene.continuum.material.hardening, diptych::continuum::kind_of<diptych::continuum::TableHardening>);
     EXPECT_EQ(scene.continuum.material.table_strain, (std::vector<double>{0, 0.1}));
     EXPECT_EQ(scene.continuum.material.table_friction_angle, (std::vector<double>{30, 20}));
     EXPECT_EQ(scene.continuum.material.cohesion_residual, std::optional<double>(0.25));
