@@ -102,6 +102,7 @@ namespace diptych::continuum
     MeshOption(const char *text)
         : MeshOption(std::string(text))
     {}
+    bool names_a_file() const { return kind == Kind::file; }
   };
   std::string text_of(const MeshOption &option);
 

@@ -36,14 +36,6 @@ namespace diptych::python
         else
           keys[name] = py::cast(value);
       }
-      void operator()(const char *name, const discrete::FileName &file, const char *, const char *) const
-      {
-        keys[name] = file.path;
-      }
-      void operator()(const char *name, const continuum::LibraryFile &file, const char *, const char *) const
-      {
-        keys[name] = file.path;
-      }
       void operator()(const char *prefix, const continuum::LawParameters &parameters, const char *, const char *) const
       {
         for (const continuum::LawParameter &one : parameters.list)

@@ -44,36 +44,15 @@ namespace diptych::coupling
       {
         put(name, text_of(value));
       }
-      void operator()(const char *name, const discrete::FileName &file, const char *, const char *) const
-      {
-        put(name, digest(file.path));
-      }
-      void operator()(const char *name, const continuum::LibraryFile &file, const char *, const char *) const
-      {
-        put(name, digest(file.path));
-      }
       void operator()(const char *prefix, const continuum::LawParameters &parameters, const char *, const char *) const
       {
         for (const continuum::LawParameter &one : parameters.list)
           put(prefix + one.name, text_of(one.value));
       }
-      void operator()(const char *name, const discrete::DriveOption &drive, const char *, const char *) const
+      template <class Value> void operator()(const char *name, Value value, const char *, const char *) const
       {
-        discrete::DriveOption shown = drive;
-        if (drive.names_a_file())
-          shown.value = digest(drive.value);
-        put(name, text_of(shown));
-      }
-      void operator()(const char *name, const continuum::MeshOption &mesh, const char *, const char *) const
-      {
-        put(name, mesh.kind == continuum::MeshOption::Kind::file ? digest(mesh.file) : text_of(mesh));
-      }
-      void operator()(const char *name, const PathOption &path, const char *, const char *) const
-      {
-        put(name, path.names_a_file() ? digest(path.text) : path.text);
-      }
-      template <class Value> void operator()(const char *name, const Value &value, const char *, const char *) const
-      {
+        if (std::string *file = file_of(value))
+          *file = digest(*file);
         put(name, text_of(value));
       }
 
@@ -103,33 +82,10 @@ namespace diptych::coupling
       std::vector<std::pair<std::string, std::string>> &files;
 
       template <class Number> void operator()(const char *, const Number &, const char *, Range, const char *) const {}
-      template <class Value> void  operator()(const char *, const Value &, const char *, const char *) const {}
-      void                         operator()(const char *name, const discrete::FileName &file, const char *, const char *) const
+      template <class Value> void  operator()(const char *name, Value value, const char *, const char *) const
       {
-        put(name, file.path);
-      }
-      void operator()(const char *name, const continuum::LibraryFile &file, const char *, const char *) const
-      {
-        put(name, file.path);
-      }
-      void operator()(const char *name, const discrete::DriveOption &drive, const char *, const char *) const
-      {
-        put(name, drive.names_a_file() ? drive.value : "");
-      }
-      void operator()(const char *name, const continuum::MeshOption &mesh, const char *, const char *) const
-      {
-        put(name, mesh.kind == continuum::MeshOption::Kind::file ? mesh.file : "");
-      }
-      void operator()(const char *name, const PathOption &path, const char *, const char *) const
-      {
-        put(name, path.names_a_file() ? path.text : "");
-      }
-
-    private:
-      void put(const std::string &name, const std::string &path) const
-      {
-        if (!path.empty())
-          files.emplace_back(section + "/" + name, path);
+        if (const std::string *file = file_of(value); file != nullptr && !file->empty())
+          files.emplace_back(section + "/" + name, *file);
       }
     };
   } // namespace

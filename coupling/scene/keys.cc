@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <stdexcept>
 
 #include "discrete/files/csv_file.h"
 
@@ -84,39 +83,5 @@ namespace diptych::coupling
       return path;
     const std::filesystem::path base = folder.empty() ? std::filesystem::path(".") : std::filesystem::path(folder);
     return std::filesystem::absolute(base / path).lexically_normal().string();
-  }
-
-  void SetKey::operator()(const char *key, discrete::DriveOption &value, const char *, const char *)
-  {
-    if (!is_mine(key))
-      return;
-    try
-      {
-        value = discrete::DriveOption(text);
-        if (value.names_a_file())
-          value.value = resolved(value.value, folder);
-        good = true;
-      }
-    catch (const std::invalid_argument &)
-      {} // `good` stays false
-  }
-
-  void SetKey::operator()(const char *key, continuum::MeshOption &value, const char *, const char *)
-  {
-    if (!is_mine(key))
-      return;
-    value      = continuum::MeshOption(text);
-    value.file = resolved(value.file, folder);
-    good       = !text.empty();
-  }
-
-  void SetKey::operator()(const char *key, PathOption &value, const char *, const char *)
-  {
-    if (!is_mine(key))
-      return;
-    value = {text};
-    if (value.names_a_file())
-      value.text = resolved(text, folder);
-    good = !text.empty();
   }
 } // namespace diptych::coupling

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -15,6 +16,21 @@
 namespace diptych::coupling
 {
   using Range = std::array<double, 2>;
+
+  // file_of(value): the name of a file that a value holds; nullptr if it holds none.
+  struct FileOf
+  {
+    std::string *operator()(discrete::FileName &value) const { return &value.path; }
+    std::string *operator()(continuum::LibraryFile &value) const { return &value.path; }
+    std::string *operator()(discrete::DriveOption &value) const { return value.names_a_file() ? &value.value : nullptr; }
+    std::string *operator()(continuum::MeshOption &value) const { return value.names_a_file() ? &value.file : nullptr; }
+    std::string *operator()(PathOption &value) const { return value.names_a_file() ? &value.text : nullptr; }
+    template <class Value> std::string *operator()(Value &) const { return nullptr; }
+  };
+  constexpr FileOf file_of;
+
+  template <class Value>
+  constexpr bool is_file_name = std::is_same_v<Value, discrete::FileName> || std::is_same_v<Value, continuum::LibraryFile>;
 
   struct KeyDescription
   {
@@ -43,6 +59,11 @@ namespace diptych::coupling
     return discrete::name_of(value);
   }
 
+  template <class File, std::enable_if_t<is_file_name<File>, int> = 0> std::string text_of(const File &file)
+  {
+    return file.path;
+  }
+
   // All allowed values of a choice; empty for other types.
   template <class Value> std::vector<std::string> choices_of(const Value &value)
   {
@@ -63,6 +84,10 @@ namespace diptych::coupling
   inline std::string allowed_value(const std::string &)
   {
     return "any text";
+  }
+  template <class File, std::enable_if_t<is_file_name<File>, int> = 0> std::string allowed_value(const File &)
+  {
+    return "the name of a file";
   }
   inline std::string allowed_value(const discrete::DriveOption &)
   {
@@ -100,14 +125,6 @@ namespace diptych::coupling
       if constexpr (std::is_same_v<Number, std::vector<double>>)
         allowed = "a list of numbers" + allowed.substr(std::string("a number").size());
       keys.push_back({section, name, text_of(value), unit, allowed, meaning});
-    }
-    void operator()(const char *name, const discrete::FileName &file, const char *unit, const char *meaning) const
-    {
-      keys.push_back({section, name, file.path, unit, "the name of a file", meaning});
-    }
-    void operator()(const char *name, const continuum::LibraryFile &file, const char *unit, const char *meaning) const
-    {
-      keys.push_back({section, name, file.path, unit, "the name of a file", meaning});
     }
     void operator()(const char *prefix, const continuum::LawParameters &parameters, const char *, const char *) const
     {
@@ -196,9 +213,9 @@ namespace diptych::coupling
           good  = true;
         }
     }
-    void operator()(const char *key, discrete::DriveOption &value, const char *, const char *);
-    void operator()(const char *key, continuum::MeshOption &value, const char *, const char *);
-    void operator()(const char *key, PathOption &value, const char *, const char *);
+    void operator()(const char *key, discrete::DriveOption &value, const char *, const char *) { take_text(key, value); }
+    void operator()(const char *key, continuum::MeshOption &value, const char *, const char *) { take_text(key, value); }
+    void operator()(const char *key, PathOption &value, const char *, const char *) { take_text(key, value); }
     template <class E, std::enable_if_t<std::is_enum_v<E>, int> = 0>
     void operator()(const char *key, E &value, const char *, const char *)
     {
@@ -211,6 +228,20 @@ namespace diptych::coupling
     {
       found = found || key == name;
       return key == name;
+    }
+    template <class Value> void take_text(const char *key, Value &value)
+    {
+      if (!is_mine(key) || text.empty())
+        return;
+      try
+        {
+          value = Value{text};
+          if (std::string *file = file_of(value))
+            *file = resolved(*file, folder);
+          good = true;
+        }
+      catch (const std::invalid_argument &)
+        {} // `good` stays false
     }
     template <class Value> void take(const std::optional<Value> &read, Value &value)
     {
