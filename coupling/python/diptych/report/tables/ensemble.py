@@ -14,14 +14,14 @@ AXIS_UNITS = {"": "", "%": " (%)", "°": " (°)", " d": " (d)"}
 
 def place_of(verdict):
     """("window 0-0.01", "angle_deg") or ("", "peak_stress_ratio")."""
-    words = verdict["quantity"].split(" band ")
-    return (words[0], words[1]) if len(words) == 2 else ("", words[0])
+    key = verdict["key"].removeprefix("band_")
+    return ("" if key == verdict["key"] else verdict["quantity"].removesuffix(f" band {key}"), key)
 
 
 def described_at(verdict):
     """Place of the quantity of a verdict in the list of numbers of a comparison."""
     place, key = place_of(verdict)
-    return f"{place.split(' ')[0]}s/discrete/bands/{key}" if place else f"discrete_summary/{key}"
+    return f"windows/discrete/bands/{key}" if place else f"discrete_summary/{key}"
 
 
 def own_text(results, verdict):
