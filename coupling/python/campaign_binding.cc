@@ -134,7 +134,7 @@ namespace diptych::python
         },
         py::arg("directory"), py::arg("resume"), py::arg("overwrite"), py::arg("can_resume") = true);
       m.def("kept_in", &kept_in);
-      m.def("holds_finished_run", [](const Scene &scene) { return ResultFolder(scene).holds_finished_run(); });
+      m.def("require_unlocked", &require_unlocked);
       // the keys by which the scene differs from that of the folder: (sample, continuum, comparison)
       m.def("changes_since", [](const Scene &scene) {
         const SceneChanges changes = ResultFolder(scene).changes();

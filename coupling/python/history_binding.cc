@@ -47,8 +47,7 @@ namespace diptych::python
 
   void bind_histories(py::module_ &m)
   {
-    m.attr("EARLY_STRAIN")               = coupling::early_strain;
-    m.attr("LARGEST_ERROR_OF_THE_TOTAL") = coupling::largest_error_of_the_total;
+    m.attr("EARLY_STRAIN") = coupling::early_strain;
     m.def("key_quantities", &quantities);
     m.def("origin_of_law", &coupling::origin_of_law);
     m.def("panel_values", [](const coupling::Scene &scene, const std::map<std::string, Numbers> &columns) {

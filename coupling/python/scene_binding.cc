@@ -77,11 +77,14 @@ namespace diptych::python
       return of == "sample" ? sample_identity(scene) : of == "continuum" ? continuum_identity(scene) : member_identity(scene);
     }
 
-    coupling::Scene in_folder(coupling::Scene scene, const std::string &directory, const std::string &name, const int seed)
+    coupling::Scene in_folder(coupling::Scene          scene,
+                              const std::string       &directory,
+                              const std::string       &name,
+                              const std::optional<int> seed)
     {
       scene.output.directory = directory;
       scene.name             = name;
-      scene.sample.seed      = seed;
+      scene.sample.seed      = seed.value_or(scene.sample.seed);
       return scene;
     }
 
@@ -110,7 +113,7 @@ namespace diptych::python
            [](const coupling::Scene &scene) {
              return std::string(discrete::name_of(discrete::loading_variable_of(scene.loading.mode)));
            })
-      .def("in_folder", in_folder)
+      .def("in_folder", in_folder, py::arg("directory"), py::arg("name"), py::arg("seed") = py::none())
       .def_property_readonly("directory", [](const coupling::Scene &scene) { return scene.output.directory; })
       .def("unused_keys",
            [](const coupling::Scene &scene) {

@@ -10,7 +10,7 @@ import unittest
 
 import h5py
 
-from running import QUICK, SMALL, diptych, finished, history, main, read_json, setting, temporary
+from running import QUICK, SMALL, diptych, finished, history, main, member_of, read_json, setting, temporary
 
 TINY = SMALL + setting(sample_grains=150, continuum_element_size=2.5, comparison_coarse_element_size=3,
                        output_report="false")
@@ -48,7 +48,7 @@ class Results(unittest.TestCase):
         cls.ensemble, cls.point = (os.path.join(work, name) for name in ("ensemble", "point"))
         for words in (["run", "--seeds", "1-2", "--output", cls.ensemble], ["material-point", "--output", cls.point]):
             finished(words[0], QUICK, *TINY, *words[1:], "--quiet")
-        cls.run_ = os.path.join(cls.ensemble, "seed_1")
+        cls.run_ = member_of(cls.ensemble, 1)
         cls.explained = explained()
 
     def entries(self, file, group=None):

@@ -18,7 +18,7 @@ import h5py
 
 import running
 from running import (ENVIRONMENT, PROBLEMS, PROGRAM, QUICK, SMALL, content, contents, diptych, facts, finished, listing,
-                     main, setting, start, write)
+                     main, member_of, setting, start, write)
 
 FEW = SMALL + setting(sample_grains=60, output_report="false")
 BOTH = FEW + setting(continuum_element_size=2.5, continuum_initial_step=0.0025, continuum_max_step=0.0025,
@@ -189,7 +189,7 @@ class Results(Folder):
     def test_an_ensemble_and_a_run_in_the_folder_of_a_member_do_not_mix(self):
         words = self.run_both("--seeds", "1-2", "--jobs", "1")
         self.expect(0, words)
-        member = os.path.join(self.folder, "seed_2")
+        member = member_of(self.folder, 2)
         other = start("discrete", QUICK, *FEW, *setting(sample_grains=400), "--overwrite", "--output", member,
                       "--quiet")
         while other.poll() is None and not (os.path.exists(member + ".1")

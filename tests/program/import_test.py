@@ -13,7 +13,7 @@ import unittest
 import h5py
 import numpy
 
-from running import QUICK, SMALL, SOURCE, bits, content, diptych, history, listing, main, setting, write
+from running import QUICK, SMALL, SOURCE, bits, content, diptych, history, listing, main, member_of, setting, write
 
 FOREIGN = os.path.join(SOURCE, "tests", "foreign")
 COARSE = ["--set", "continuum/element_size=3", "--set", "comparison/coarse_element_size=0", "--set",
@@ -101,8 +101,8 @@ class Import(Case):
         self.done("run", self.path("all.prm"), "--seeds", "1-3", "--output", self.path("ensemble"), "--quiet", *COARSE)
         with open(self.path("ensemble", "ensemble.json")) as file:
             self.assertEqual(json.load(file)["seeds"], [1, 2, 3])
-        self.assertNotEqual(content(self.path("ensemble", "seed_1", "discrete.csv")),
-                            content(self.path("ensemble", "seed_2", "discrete.csv")))
+        self.assertNotEqual(content(os.path.join(member_of(self.path("ensemble"), 1), "discrete.csv")),
+                            content(os.path.join(member_of(self.path("ensemble"), 2), "discrete.csv")))
         self.refused("run", self.path("all.prm"), "--seeds", "1-4", "--output", self.path("more"),
                      says="sample_4/discrete.h5")
         self.refused("run", self.path("sample_1", "scene.prm"), "--seeds", "1-2", "--output", self.path("more"),

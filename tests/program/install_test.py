@@ -11,7 +11,7 @@ import subprocess
 import sys
 import unittest
 
-from running import ENVIRONMENT, PROGRAM, SMALL, SOURCE, content, main, setting, temporary
+from running import ENVIRONMENT, PROGRAM, SMALL, SOURCE, content, main, member_of, setting, temporary
 
 BUILD = os.path.dirname(PROGRAM)
 
@@ -114,13 +114,12 @@ class Package(unittest.TestCase):
 
     def test_an_ensemble_with_its_page_and_that_of_a_run(self):
         scene = os.path.join(self.share, "diptych", "benchmarks", "moreau_quick", "scene.prm")
-        folder, member = os.path.join(self.work, "two"), os.path.join(self.work, "two", "seed_1")
-        few = SMALL + setting(sample_grains=150)
-        for words in (["run", scene, *few, "--seeds", "1-2", "--output", folder], ["report", member]):
-            done = self.run_program(*words, "--quiet")
-            self.assertEqual(done.returncode, 0, done.stderr)
+        folder, few = os.path.join(self.work, "two"), SMALL + setting(sample_grains=150)
+        done = self.run_program("run", scene, *few, "--seeds", "1-2", "--output", folder, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.run_program("report", member_of(folder, 1), "--quiet").returncode, 0)
         self.assertIn("biaxial: ", self.run_program("new").stdout)
-        for page in (folder, member):
+        for page in (folder, member_of(folder, 1)):
             self.assertGreater(os.path.getsize(os.path.join(page, "report.html")), 100000)
 
     def test_the_python_package(self):

@@ -10,7 +10,7 @@ import time
 
 import faults_test
 from faults_test import BOTH
-from running import QUICK, SOURCE, content, diptych, history, listing, main, setting, start, write
+from running import QUICK, SOURCE, content, diptych, history, listing, main, member_of, setting, start, write
 
 OTHER = setting(continuum_friction_angle_peak=30)
 STUDY = {
@@ -128,11 +128,7 @@ class Overwritten(Folders):
                 words += ["--output", self.folder]
                 self.expect(0, words)
                 before = listing(self.folder)
-                if words[0] == "run":
-                    self.expect(0, words)  # recognised
-                    self.assertEqual(listing(self.folder), before)
-                else:
-                    self.expect(2, words, "--overwrite")
+                self.expect(2, words, "--overwrite")
                 self.expect(0, [*words, "--overwrite"])
                 self.assertEqual(listing(self.folder + ".1"), before)
 
@@ -206,13 +202,12 @@ class GoneOn(Folders):
         words = self.words("run", "--seeds", "1-2", "--jobs", "2")
         self.expect(0, words)
         table = content(os.path.join(self.folder, "ensemble.csv"))
-        member = os.path.join(self.folder, "seed_1")
+        member = member_of(self.folder, 1)
         self.expect(0, ["run", QUICK, *BOTH, *setting(discrete_friction=0.9), "--quiet", "--overwrite", "--output",
                         member])
         self.expect(2, ["compare", self.folder], member, "discrete/friction")
-        self.expect(2, [*words, "--resume"], member, "discrete/friction")
-        shutil.rmtree(member)
-        self.expect(0, [*words, "--resume"])
+        self.expect(0, [*words, "--resume"])  # repeated, and the other scene is kept
+        self.assertIn(b"set friction = 0.9\n", content(os.path.join(member + ".1", "scene.prm")))
         self.assertEqual(content(os.path.join(self.folder, "ensemble.csv")), table)
 
 

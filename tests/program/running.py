@@ -89,6 +89,12 @@ def read_json(*names):
         return json.load(file)
 
 
+def member_of(ensemble, seed):
+    """The result folder of a member."""
+    record = read_json(ensemble, "ensemble.json")
+    return os.path.join(ensemble, record["folders"][record["seeds"].index(seed)])
+
+
 class Folder(unittest.TestCase):
     """A test with a folder `work` for its files, and a path `folder` in it for results."""
 

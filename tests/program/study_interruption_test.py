@@ -15,6 +15,18 @@ from running import bits, content, diptych, listing, main, read_json, start, wri
 from study_test import LONG
 
 
+def running_on(folder):
+    """Whether some process has a file of the folder open: all have its lock."""
+    for number in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            for name in os.listdir(f"/proc/{number}/fd"):
+                if os.readlink(f"/proc/{number}/fd/{name}").startswith(folder):
+                    return True
+        except OSError:
+            pass
+    return False
+
+
 class Interruption(study_test.Study):
     @classmethod
     def setUpClass(cls):
@@ -72,8 +84,10 @@ class Interruption(study_test.Study):
         self.assertEqual(code, -signal.SIGKILL)
         self.assertNotIn("study.json", listing(self.folder))
         patience = time.monotonic() + 60  # workers notice, and write their checkpoints
-        while time.monotonic() < patience and not any(name.endswith("checkpoint.h5") for name in listing(self.folder)):
+        while running_on(self.folder) and time.monotonic() < patience:
             time.sleep(0.01)
+        self.assertFalse(running_on(self.folder), "workers outlive their study")
+        self.assertTrue(any(name.endswith("checkpoint.h5") for name in listing(self.folder)))
         self.expect_the_rest()
 
     def test_a_run_whose_checkpoint_is_damaged_begins_anew(self):

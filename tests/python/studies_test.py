@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Only the last two tests run the program."""
 
+import glob
 import json
 import math
 import os
@@ -266,7 +267,7 @@ def test_ctrl_c_keeps_an_ensemble_of_a_dict_and_the_same_call_goes_on(tmp_path, 
     monkeypatch.chdir(tmp_path)
 
     def stop():
-        while not os.path.exists("out/seed_1"):
+        while not glob.glob("out/runs/*/"):
             time.sleep(0.01)
         os.kill(os.getpid(), signal.SIGINT)
 
@@ -275,6 +276,7 @@ def test_ctrl_c_keeps_an_ensemble_of_a_dict_and_the_same_call_goes_on(tmp_path, 
         diptych.ensemble(SMALL, [1, 2, 3], "out", jobs=1)
     assert diptych.Campaign.load("out").numbers["interrupted"][-1] == 3  # on a busy machine the first may have ended
     found = diptych.ensemble(SMALL, range(1, 4), "out", resume=True)
+    assert diptych.load(found.folders[2]).scene["sample"]["seed"] == 2
     assert found.numbers["done"] == [1, 2, 3] and found.numbers["scene"] == "out" and len(found.verdicts) == 6
     with pytest.raises(diptych.SceneError, match=r"range\(1, 4\) for 3 samples"):
         diptych.ensemble(SMALL, 3, "out")

@@ -41,3 +41,9 @@ def read_json(path: str, format: int | None = None) -> Any:
         raise InputError(f"{path}: format {record.get('format')!r}, but this version reads format {format}; "
                          "compute it again")
     return record
+
+
+def read_ensemble(folder: str, format: int | None = None) -> Any:
+    """ensemble.json of a folder. One without `folders` is of an earlier version: its members are in seed_K."""
+    record = read_json(os.path.join(folder, "ensemble.json"), format)
+    return {"folders": [f"seed_{seed}" for seed in record["seeds"]], **record}

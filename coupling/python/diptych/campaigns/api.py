@@ -16,6 +16,7 @@ from typing import Any, Self, TypeVar
 import pandas as pd
 
 from ..errors import NotConverged, SceneError, Stopped
+from ..files import read_ensemble
 from ..scenes import SceneLike, changes, text_of
 from .commands import do
 from .runs.engine import stop_signals
@@ -110,6 +111,14 @@ class Campaign(CampaignResult):
         """The same study: a row per parameter, quantity and panel with change.value, change.low, change.high, verdict
         and samples_needed."""
         return pd.json_normalize(self.numbers.get("changes", []))
+
+    @property
+    def folders(self) -> dict[int, str]:
+        """An ensemble: the result folder of each seed, for diptych.load()."""
+        if "verdicts" not in self.numbers:
+            raise AttributeError("a study has no members; the column folder of .table names its runs")
+        record = read_ensemble(self.folder)
+        return {seed: os.path.join(self.folder, one) for seed, one in zip(record["seeds"], record["folders"])}
 
     @property
     def verdicts(self) -> pd.DataFrame:

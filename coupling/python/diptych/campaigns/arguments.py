@@ -44,7 +44,7 @@ def _add_runs(parser: Parser, folder: str) -> None:
 
 def add_run(parser: Parser) -> None:
     _add_scene(parser)
-    _add_seeds(parser, "samples, a list like 1-8 or 1,3,5-7, each in DIR/seed_K; then means, intervals and verdicts",
+    _add_seeds(parser, "samples, a list like 1-8 or 1,3,5-7, each on its own; then means, intervals and verdicts",
                True)
     parser.add_argument("--levels", metavar="LEVELS", default="", help=_LEVELS)
     parser.add_argument("--check", action="store_true",

@@ -40,7 +40,7 @@ class CalibrationRuns:
 
     def _do(self, runs: Sequence[SceneRun]) -> list[str]:
         """Does the runs, adds their CPU time once, and returns for each why it has no result."""
-        if any(outcome.interrupted for outcome in self.runs.do(runs, self.options)):
+        if any(outcome.interrupted for outcome in self.runs.do(runs, self.options).values()):
             raise Stopped("stopped on request")
         for run in runs:
             record = self.runs.path(run, "/provenance.json")

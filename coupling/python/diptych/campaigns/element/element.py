@@ -73,7 +73,7 @@ def _read(run: SceneRun) -> SceneRun:
 def _done(runs: Runs, wanted: Sequence[SceneRun], options: Options) -> list[str]:
     """Does the runs and returns for each why it ended before its end; empty: it did not. Raises SceneError for wrong
     input and NotConverged after a stop request."""
-    if any(outcome.interrupted for outcome in runs.do(wanted, options)):
+    if any(outcome.interrupted for outcome in runs.do(wanted, options).values()):
         return ["stopped on request"] * len(wanted)
     ends = [(run, runs.found_end(run)) for run in wanted]
     for run, end in ends:

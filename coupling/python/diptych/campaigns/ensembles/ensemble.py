@@ -9,7 +9,7 @@ import math
 import os
 import resource
 import shlex
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -18,26 +18,21 @@ import pandas as pd
 from ... import _diptych
 from ...compiled import continuum
 from ...errors import NotConverged, SceneError, Stopped
+from ...files import read_ensemble
 from . import summary as summaries
 from . import validation
-from ..runs.engine import Options, Run, execute, say
+from ..runs.engine import Options, Outcome, say
 from .profiles import profile_arrays
-from ..runs.folders import Folder, Runs, draw, read_json, write_arrays, write_json, write_text
+from ..runs.folders import Folder, Runs, SceneRun, draw, run_on, write_arrays, write_json, write_text
 from ..runs.histories import panel_table, resampled, running_mean
-from ..runs.input_file import Setting, read_seeds, settings_of
-from ..studies.level_runs import (Levels, add_summary, demand_rule, ensemble_levels, ensemble_quantities, fine_runs,
-                                  of_members, paired_points,
-                         read_levels)
+from ..runs.input_file import read_seeds, settings_of
+from ..studies.level_runs import add_summary, demand_rule, ensemble_levels, fine_runs, read_levels
 from ..runs.key_numbers import QUANTITIES, summary_of
 from ..runs.members import Member, member_of, number_name
 from ..runs.statistics import line_statistics, statistics, student_quantile
 
 _PANELS = ("discrete", "continuum")
-
-
-def member_folder(directory: str, seed: int) -> str:
-    """DIR/seed_3, the result folder of a member. Its log is DIR/seed_3.log."""
-    return os.path.join(directory, f"seed_{seed}")
+_ENDS = ("seeds", "folders", "done", "failed", "interrupted")  # entries of ensemble.json: how the members ended
 
 
 def _values(members: Sequence[Member], name: str) -> list[float]:
@@ -100,12 +95,13 @@ def with_means(members: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]
     return mean, mean - half, mean + half
 
 
-def _write_curves(directory: str, scene: Any, seeds: Sequence[int]) -> None:
-    tables = {panel: [panel_table(member_folder(directory, seed), panel) for seed in seeds] for panel in _PANELS}
+def _write_curves(directory: str, scene: Any, folders: dict[int, str]) -> None:
+    """folders: result folders of the finished members by seed."""
+    tables = {panel: [panel_table(folder, panel) for folder in folders.values()] for panel in _PANELS}
     last = max((table["progress"].iloc[-1] for panel in _PANELS for table in tables[panel]), default=0.0)
     grid, width = last * np.arange(401) / 400, scene.averaging_width()
     arrays = {"progress": (grid, "progress", "strain or time", "points of the curves"),
-              "seeds": (np.array(seeds, np.int32), "seeds", "-", "seeds of the members, one per row")}
+              "seeds": (np.array(list(folders), np.int32), "seeds", "-", "seeds of the members, one per row")}
     for panel in _PANELS:
         for name in ("stress_ratio", "volumetric_strain"):
             members = np.array([resampled(table, running_mean(table, name, width), grid) for table in tables[panel]])
@@ -117,28 +113,34 @@ def _write_curves(directory: str, scene: Any, seeds: Sequence[int]) -> None:
             arrays[group + "low"] = (low, "lower end", "-",
                                      "lower end of the 95 % Student interval of the mean; nan like the mean")
             arrays[group + "high"] = (high, "upper end", "-", "upper end of the same interval; nan like the mean")
-    arrays |= profile_arrays([member_folder(directory, seed) for seed in seeds])
+    arrays |= profile_arrays(list(folders.values()))
     write_arrays(os.path.join(directory, "ensemble.h5"), arrays, {"/": {"averaging_width": width}})
 
 
-def _record(scene: Any, seeds: Sequence[int], failed: Sequence[dict[str, Any]], interrupted: Sequence[int],
-            runs: dict[str, Any]) -> dict[str, Any]:
-    """ensemble.json, from the members that finished. runs: those of validation.respond(). Raises ValueError with the
-    file of a member that is broken."""
-    out = {one["seed"] for one in failed} | set(interrupted)
-    done = [seed for seed in seeds if seed not in out]
+def _done(scene: Any, record: dict[str, Any]) -> dict[int, str]:
+    """The result folders of the finished members by seed. record: with the entries _ENDS of ensemble.json."""
+    return {seed: os.path.join(scene.directory, folder) for seed, folder in zip(record["seeds"], record["folders"])
+            if seed in record["done"]}
+
+
+def _complete(scene: Any, ends: dict[str, Any], runs: Mapping[str, Any]) -> dict[str, Any]:
+    """ensemble.json, from the members that finished. ends: with its entries _ENDS; runs: those of
+    validation.respond(). Raises ValueError with the file of a member that is broken."""
+    done, members = _done(scene, ends), []
     margins = {key: value for key, value in scene.dict()["comparison"].items() if key.startswith("margin_")}
-    folded, n, members = scene.is_mirror_symmetric(), len(done), []
-    for seed in done:
-        folder = member_folder(scene.directory, seed)
+    folded, n = scene.is_mirror_symmetric(), len(done)
+    for seed, folder in done.items():
         for part in ("", "comparison"):
             _diptych.check_part(folder, part)
-        _demand_member(scene, seed)
+        sample, _, comparison = _diptych.changes_since(scene.in_folder(folder, scene.name, seed))
+        if sample or comparison:
+            raise SceneError(f"the results in '{folder}' are not of this ensemble: {sample or comparison}. Move them "
+                             "elsewhere and run the ensemble with --resume, or with --overwrite.")
         members.append(member_of(os.path.join(folder, "comparison.json"), folded))
     found = evaluate(members, margins, validation.responses_of(scene, done, members, runs))
-    first = summary_of(member_folder(scene.directory, done[0])) if done else {}
-    return {"format": 1, "scene": scene.name, "seeds": list(seeds), "done": done, "failed": list(failed),
-            "interrupted": list(interrupted), "margins": margins, "walk": scene.loading_variable(), "folded": folded,
+    first = summary_of(next(iter(done.values()))) if done else {}
+    return {"format": 1, "scene": scene.name, **{key: ends[key] for key in _ENDS}, "margins": margins,
+            "walk": scene.loading_variable(), "folded": folded,
             "student_t_95": student_quantile(0.975, n - 1) if n > 1 else math.nan,
             "continuum_runs": runs, "summary": summaries.summary(first, found), **found}
 
@@ -149,7 +151,7 @@ def _write(scene: Any, record: dict[str, Any], options: Options, phase: tuple[st
     _diptych.forget_files(directory, "ensemble")  # killed from here on, it leaves none that look changed
     if os.path.exists(os.path.join(directory, "report.html")):  # of other statistics
         os.remove(os.path.join(directory, "report.html"))
-    _write_curves(directory, scene, record["done"])
+    _write_curves(directory, scene, _done(scene, record))
     write_json(os.path.join(directory, "ensemble.json"), record)
     columns = ["unit", "n", "mean", "deviation", "low", "high"]
     table = pd.DataFrame([[q["name"], *(q[key] for key in columns), *q["values"]] for q in record["quantities"]],
@@ -166,138 +168,77 @@ def _write(scene: Any, record: dict[str, Any], options: Options, phase: tuple[st
         say(options, _diptych.origin_of_law(scene.dict()["comparison"]["parameters_from"]))
 
 
-def _member_scene(scene: Any, seed: int) -> Any:
-    return scene.in_folder(member_folder(scene.directory, seed), scene.name, seed)
-
-
-def _demand_member(scene: Any, seed: int) -> None:
-    member = _member_scene(scene, seed)
-    sample, _, comparison = _diptych.changes_since(member)
-    if sample or comparison:
-        raise SceneError(f"the results in '{member.directory}' are not of this ensemble: {sample or comparison}. Move "
-                         "them elsewhere, or run the ensemble with --overwrite.")
-
-
-def _open(folder: Folder, scene: Any, seeds: Sequence[int], options: Options, inputs: list[tuple[str, str]]) -> None:
-    """Prepares the folder and writes ensemble.prm. Members that stand there must be of the same scene."""
-    file = os.path.join(scene.directory, "ensemble.prm")
-    if options.overwrite and not _diptych.is_empty_folder(folder.directory):
-        folder.set_aside(inputs)
-    elif not _diptych.is_empty_folder(folder.directory):
-        earlier = _diptych.resolved_scene(file)
-        there, here = earlier.identity("member") if earlier else {}, scene.identity("member")
-        differs = next((key for key in here if here[key] != there.get(key)), None)
+def _open(folder: Folder, scene: Any, options: Options, inputs: list[tuple[str, str]]) -> None:
+    """Prepares the folder and writes ensemble.prm. Raises SceneError for the ensemble of another scene, or of a version
+    that had other folders."""
+    directory, file = folder.directory, os.path.join(folder.directory, "ensemble.prm")
+    if options.resume and os.path.exists(file):
+        if any(name.startswith("seed_") for name in os.listdir(directory)):
+            raise SceneError(f"--resume: an earlier version wrote '{directory}', with a folder seed_K for each member. "
+                             "diptych compare and diptych report read it, but its members cannot be continued. Use "
+                             "--output with another folder, or --overwrite.")
+        # one of a version with other keys cannot be read: its runs are repeated
+        there, here = ((one or scene).identity("member") for one in (_diptych.resolved_scene(file), scene))
+        differs = next((key for key in here if here[key] != there.get(key)), "")
         if differs:
-            why = "another version wrote it"
-            if earlier:
-                why = f"{differs} = '{here[differs]}' here, '{there.get(differs)}' there"
-            raise SceneError(f"--resume: the scene differs from {file}: {why}. Give the same scene, or --overwrite.")
-        for seed in seeds:
-            if os.path.exists(os.path.join(member_folder(folder.directory, seed), "scene.prm")):
-                _demand_member(scene, seed)
-    write_text(file, scene.text())
+            raise SceneError(f"--resume: the scene differs from {file}: {differs} = '{here[differs]}' here, "
+                             f"'{there.get(differs)}' there. Give the same scene, or --overwrite.")
+    folder.open_runs("ensemble", file, options, lambda: inputs, scene.text(), copy="ensemble.prm")
 
 
-def _finished(scene: Any, seeds: Sequence[int], options: Options) -> list[int]:
-    """Members that need not run again. Raises, before anything changes, if a member is damaged."""
-    if not options.resume:
-        return []
-    if _diptych.resolved_scene(os.path.join(scene.directory, "ensemble.prm")) is None:
-        say(options, f"no ensemble in {scene.directory}: from the beginning")
-    finished = []
-    for seed in seeds:
-        member = _member_scene(scene, seed)
-        if _diptych.holds_finished_run(member):
-            stages = read_json(os.path.join(member.directory, "comparison.json"))["stages"]
-            if all(stage["mapping"]["total_relative_error"] < _diptych.LARGEST_ERROR_OF_THE_TOTAL for stage in stages):
-                finished.append(seed)
-    _record(scene, finished, [], [], validation.NO_RUNS)
-    return finished
-
-
-def _holds_finished(scene: Any, seeds: Sequence[int], levels: Levels | None) -> bool:
-    """True if the folder holds the finished ensemble of this scene, these seeds and these levels."""
-    earlier, record = _diptych.resolved_scene(os.path.join(scene.directory,
-                                                           "ensemble.prm")), os.path.join(scene.directory,
-                                                                                          "ensemble.json")
-    return (earlier is not None and earlier.identity("member") == scene.identity("member") and os.path.exists(record)
-            and read_json(record)["done"] == list(seeds) and _levels_of(read_json(record)) == levels
-            and all(_diptych.holds_finished_run(_member_scene(scene, seed)) for seed in seeds))
-
-
-def _levels_of(record: dict[str, Any]) -> Levels | None:
-    return Levels(record["levels"]["cheap"], record["levels"]["fine"]) if "levels" in record else None
-
-
-def _add_limits(scene: Any, record: dict[str, Any], given: tuple[str, list[Any]], levels: Levels,
-                options: Options) -> None:
-    """Runs the pairs of two-level means and adds the limits to the record. given: scene file and its settings. Raises
-    Stopped."""
-    seeds, wanted = record["done"], ensemble_quantities()
-    cheap = of_members([member_folder(scene.directory, seed) for seed in seeds], record)
-    fine = fine_runs(given[0], [*given[1], levels.setting("fine")], seeds, "--seeds")
-    os.makedirs(os.path.join(scene.directory, "runs"), exist_ok=True)
-    [point] = paired_points(Runs(scene.directory), [fine], [cheap], wanted, options)
-    add_summary(record, ensemble_levels(levels, seeds, point))
+def _ends(runs: Runs, members: dict[int, SceneRun], outcomes: dict[str, Outcome]) -> dict[str, Any]:
+    """The entries _ENDS of ensemble.json."""
+    ended = {seed: outcomes[run.name] for seed, run in members.items()}
+    return {"seeds": list(members), "folders": [f"runs/{run.name}" for run in members.values()],
+            "done": [seed for seed, one in ended.items() if not one.exit_code and not one.interrupted],
+            "failed": [{"seed": seed, "exit_code": one.exit_code, "message": runs.last_words(members[seed])}
+                       for seed, one in ended.items() if one.exit_code and not one.interrupted],
+            "interrupted": [seed for seed, one in ended.items() if one.interrupted]}
 
 
 def run_ensemble(line: argparse.Namespace, options: Options) -> None:
     """diptych run SCENE --seeds LIST. line: target, seeds, levels, check, output, set, set_file. Raises NotConverged if
-    a seed failed."""
-    compiled, scene_file, seeds = continuum("run --seeds"), line.target, read_seeds(line.seeds)
-    levels = read_levels(line.levels, len(seeds))
-    settings = settings_of(line.set, line.set_file)
-    if levels:
-        settings.append(levels.setting("cheap"))
-    read = _diptych.read_changed_scene(scene_file, settings, True)
-    if levels:
-        demand_rule(read, levels)
-    directory = line.output or (read.directory + "_ensemble" if read.directory == f"results/{read.name}"
-                                else read.directory)
-    scene = read.in_folder(directory, read.name, read.dict()["sample"]["seed"])
-    if not options.resume and not options.overwrite and _holds_finished(scene, seeds, levels):
-        say(options, f"{directory} holds the finished ensemble of this scene; --overwrite runs it again")
-        say(options, f"its table: diptych compare {directory}")
-        return
-    if os.path.isdir(directory):
-        _diptych.require_usable(directory, options.resume, options.overwrite)
+    a seed failed, or Stopped."""
+    compiled, seeds, settings = continuum("run --seeds"), read_seeds(line.seeds), settings_of(line.set, line.set_file)
     for one in settings:
         if (one.section, one.key) == ("sample", "seed"):
             raise SceneError(f"--set sample/seed={one.value}: --seeds {line.seeds} sets the seed of each member")
+    levels = read_levels(line.levels, len(seeds))
+    settings += [levels.setting("cheap")] if levels else []
+    read = _diptych.read_changed_scene(line.target, settings, True)
+    if levels:
+        demand_rule(read, levels)
+    directory = line.output or read.directory + "_ensemble" * (read.directory == f"results/{read.name}")
+    scene = read.in_folder(directory, read.name)
+    if os.path.isdir(directory):
+        _diptych.require_usable(directory, options.resume, options.overwrite)
     compiled.check(scene, seeds, vars(options))  # whether scene, first sample and resources suffice
     if line.check:
         return
-    variations = validation.variations(scene_file, settings, validation.draws_of(line.set_file, line.set))
+    variations = validation.variations(line.target, settings, validation.draws_of(line.set_file, line.set))
     with Folder(directory) as folder:
         begin = os.times()
-        _diptych.require_usable(directory, options.resume, options.overwrite)
-        finished = _finished(scene, seeds, options)
-        inputs = [("the scene", scene_file), *(("--set-file", file) for file in line.set_file), *scene.input_files()]
-        _open(folder, scene, seeds, options, inputs)
-        if finished:
-            say(options, f"{len(finished)} of {len(seeds)} seeds are finished in {directory}: not run again")
-        pending = [seed for seed in seeds if seed not in finished]
-        tasks = [Run(command="run", scene=scene_file, folder=member_folder(directory, seed), resume=options.resume,
-                     log=member_folder(directory, seed) + ".log",
-                     settings=[*settings, Setting("sample", "seed", str(seed), "--seeds")]) for seed in pending]
-        ends = list(zip(pending, execute(tasks, options, noun="seeds", finished=len(finished))))
-        failed = [{"seed": seed, "exit_code": outcome.exit_code, "message": outcome.message}
-                  for seed, outcome in ends if outcome.exit_code and not outcome.interrupted]
-        interrupted = [seed for seed, outcome in ends if outcome.interrupted]
-        done, runs = [seed for seed in seeds if seed not in [one["seed"] for one in failed]], validation.NO_RUNS
-        if done and not interrupted:
-            runs = validation.respond(directory, done[0], variations, done[0] in finished, options)
-        record = _record(scene, seeds, failed, interrupted, runs)
-        if levels and done and not interrupted:
-            _add_limits(scene, record, (scene_file, settings), levels, options)
+        _open(folder, scene, options, [("the scene", line.target), *(("--set-file", file) for file in line.set_file),
+                                       *scene.input_files()])
+        runs, members = Runs(directory), {seed: run_on(scene, seed, f"seed {seed}") for seed in seeds}
+        outcomes = runs.do(list(members.values()), options)
+        ends, changed = _ends(runs, members, outcomes), validation.NO_RUNS
+        done = {seed: members[seed] for seed in ends["done"]}
+        if done and not ends["interrupted"]:
+            first = next(iter(done.values()))
+            changed = validation.respond(runs, first, variations, outcomes[first.name].seconds > 0, options)
+        record = _complete(scene, ends, changed)
+        if levels and done and not ends["interrupted"]:
+            fine = fine_runs(line.target, [*settings, levels.setting("fine")], list(done), "--seeds")
+            add_summary(record, ensemble_levels(levels, runs, done, fine, options))
         _write(scene, record, options, ("ensemble", begin))
-        if scene.dict()["output"]["report"] and not record["interrupted"]:
+        if scene.dict()["output"]["report"] and not ends["interrupted"]:
             draw(options, directory, "ensemble")
-        kept = f"{len(record['done'])} of {len(seeds)} seeds are done, kept in {directory}"
-    lost = f"failed: seed {', '.join(str(one['seed']) for one in failed)}; " if failed else ""
-    if record["interrupted"]:
+    kept = f"{len(done)} of {len(seeds)} seeds are done, kept in {directory}"
+    lost = f"failed: seed {', '.join(str(one['seed']) for one in ends['failed'])}; " if ends["failed"] else ""
+    if ends["interrupted"]:
         raise Stopped(f"{lost}stopped on request; {kept}; to go on: {options.again}")
-    if failed:
+    if lost:
         raise NotConverged(lost + kept)
 
 
@@ -311,12 +252,10 @@ def compare_again(line: argparse.Namespace, options: Options) -> None:
     with Folder(directory):
         begin = os.times()
         read = _diptych.read_computed_scene(os.path.join(directory, "ensemble.prm"), overrides)
-        scene = read.in_folder(directory, _diptych.recorded_scene(directory) or read.name,
-                               read.dict()["sample"]["seed"])
+        scene = read.in_folder(directory, _diptych.recorded_scene(directory) or read.name)
         _diptych.check_part(directory, "ensemble")
-        earlier = read_json(os.path.join(directory, "ensemble.json"))
-        record = _record(scene, earlier["seeds"], earlier["failed"], earlier["interrupted"],
-                         earlier.get("continuum_runs", validation.NO_RUNS))
+        earlier = read_ensemble(directory)
+        record = _complete(scene, earlier, earlier.get("continuum_runs", validation.NO_RUNS))
         if "levels" in earlier:
             add_summary(record, earlier["levels"])
         _write(scene, record, options, ("statistics", begin))

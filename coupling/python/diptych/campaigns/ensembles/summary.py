@@ -26,6 +26,7 @@ describe("ensemble.json", """\
 format: version of this file's format
 scene (text): name of the scene
 seeds (list): requested seeds
+folders (list): result folders of the members, in the order of seeds
 done (list): seeds of the finished members
 failed/: seeds whose run ended with an exit code other than 0
     seed: seed of the member

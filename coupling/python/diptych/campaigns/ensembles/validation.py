@@ -21,8 +21,9 @@ import pandas as pd
 
 from ... import _diptych
 from ...errors import Stopped
-from ..runs.engine import Options, Run, execute
-from ..runs.folders import read_json, run_name, write_text
+from ...files import read_ensemble
+from ..runs.engine import Options
+from ..runs.folders import Runs, SceneRun, run_on
 from ..runs.histories import panel_table
 from ..runs.input_file import Setting
 from ..runs.key_numbers import OF_PANEL, QUANTITIES, panel_values
@@ -113,12 +114,12 @@ def coarse_values(folder: str, scene: Any, member: Member) -> dict[str, float]:
     return found
 
 
-def responses_of(scene: Any, seeds: Sequence[int], members: Sequence[Member], runs: Mapping[str, Any]) -> Responses:
-    """Of an ensemble whose members with these seeds are done. runs: the record of respond()."""
+def responses_of(scene: Any, folders: Mapping[int, str], members: Sequence[Member],
+                 runs: Mapping[str, Any]) -> Responses:
+    """Of the members that are done. folders: their result folders by seed. runs: the record of respond()."""
     keys = scene.dict()
     ratio = keys["comparison"]["coarse_element_size"] / keys["continuum"]["element_size"]
-    coarse = {seed: coarse_values(os.path.join(scene.directory, f"seed_{seed}"), scene, member)
-              for seed, member in zip(seeds, members)}
+    coarse = {seed: coarse_values(folder, scene, member) for (seed, folder), member in zip(folders.items(), members)}
     values = [{name: value for name, value in zip(runs["quantities"], row) if value is not None}
               for row in runs["values"]]
     half, *draws = values or [{}]
@@ -157,37 +158,33 @@ def variations(scene_file: str, settings: Sequence[Setting], draws: Sequence[Seq
     return [_diptych.read_changed_scene(scene_file, [*settings, *common, *more], True) for more in (halves, *draws)]
 
 
-def respond(directory: str, seed: int, scenes: Sequence[Any], goes_on: bool, options: Options) -> dict[str, Any]:
+def respond(members: Runs, member: SceneRun, scenes: Sequence[Any], is_new: bool, options: Options) -> dict[str, Any]:
     """Runs the variations on the grains of a finished member. Returns its seed, hashes of the scenes, and values of
-    quantities, a row per run, None after a failure. goes_on: the member is an earlier one, whose runs stand.
+    quantities, a row per run, None after a failure. is_new: the member has just run; else its earlier values count.
 
     Raises Stopped after a stop signal."""
-    source, here, record = (os.path.join(directory, name) for name in (f"seed_{seed}", _FOLDER, "ensemble.json"))
+    source, runs = members.path(member), Runs(os.path.join(members.directory, _FOLDER))
     if not scenes or not os.path.isdir(os.path.join(source, "coarse")):
         return NO_RUNS
-    names = [run_name(scene.in_folder(source, scene.name, seed), "run") for scene in scenes]
-    earlier = read_json(record).get("continuum_runs", NO_RUNS) if goes_on and os.path.exists(record) else NO_RUNS
-    if earlier["scenes"] == names:
-        return earlier
-    if not goes_on:
-        shutil.rmtree(here, ignore_errors=True)
-    folders = [os.path.join(here, name) for name in names]
-    scenes = [scene.in_folder(folder, scene.name, seed) for scene, folder in zip(scenes, folders)]
-    for scene, folder in zip(scenes, folders):
-        if not os.path.isdir(folder):
-            _copy_grains(source, folder)
-        write_text(folder + ".prm", scene.text())
-    pending = [k for k, scene in enumerate(scenes) if not _diptych.holds_finished_run(scene)]
-    tasks = [Run(command="run", scene=folders[k] + ".prm", folder=folders[k], log=folders[k] + ".log", resume=True)
-             for k in pending]
-    outcomes = execute(tasks, options, noun="runs for the uncertainty of the continuum")
-    if any(outcome.interrupted for outcome in outcomes):
+    seed = member.scene.dict()["sample"]["seed"]
+    changed = [run_on(scene, seed) for scene in scenes]
+    names = [run.name for run in changed]
+    if not is_new and os.path.exists(os.path.join(members.directory, "ensemble.json")):
+        earlier = read_ensemble(members.directory)["continuum_runs"]
+        if earlier["scenes"] == names:
+            return earlier
+    for run in changed:
+        if not os.path.isdir(runs.path(run)):
+            _copy_grains(source, runs.path(run))
+            runs.begin(run)
+    outcomes = runs.do(changed, options)
+    if any(outcome.interrupted for outcome in outcomes.values()):
         raise Stopped(f"stopped on request; the seeds are done; to go on: {options.again}")
-    failed = {k for k, outcome in zip(pending, outcomes) if outcome.exit_code}
-    found = [{} if k in failed else _compared(member_of(folder + "/comparison.json", scene.is_mirror_symmetric()))
-             for k, (scene, folder) in enumerate(zip(scenes, folders))]
-    if not failed:
-        shutil.rmtree(here)
+    found = [{} if outcomes[run.name].exit_code else
+             _compared(member_of(runs.path(run, "/comparison.json"), run.scene.is_mirror_symmetric()))
+             for run in changed]
+    if all(found):
+        shutil.rmtree(runs.directory)
     quantities = sorted(set().union(*found))
     return {"seed": seed, "scenes": names, "quantities": quantities,
             "values": [[values.get(name) for name in quantities] for values in found]}

@@ -93,7 +93,7 @@ class PilotRuns:
         for run in runs:
             if run.refusal:  # settings that contradict the scene
                 return Pilot(failure=run.refusal)
-        if any(outcome.interrupted for outcome in self.runs.do(runs, self.options)):
+        if any(outcome.interrupted for outcome in self.runs.do(runs, self.options).values()):
             raise Stopped("stopped on request")
         results = [result_of(self.runs, run, task.quantities) for run in runs]
         new = {run.name: result for run, result in zip(runs, results) if run.name not in self._counted}
@@ -186,7 +186,7 @@ def write_plan(directory: str, question: Question, plan: Plan) -> None:
     scene = _diptych.read_changed_scene(question.scene, [*question.changes, *plan.settings], False)
     lines = [f"# The first of two levels. For both: diptych run planned.prm --seeds {panel.seeds[0]}-{panel.seeds[-1]} "
              f"--levels {panel.levels['cheap']:g},{panel.levels['fine']:g}\n" for panel in plan.panels if panel.levels]
-    text = scene.in_folder("", scene.name, scene.dict()["sample"]["seed"]).text()
+    text = scene.in_folder("", scene.name).text()
     write_text(directory + "/planned.prm", "".join(lines) + text)
 
 

@@ -74,6 +74,8 @@ class Run:
 
     command: str
     scene: str  # path of its file
+    name: str  # of the scene, for its results
+    label: str  # of the run, for messages: "seed 3"
     settings: Sequence[Setting] = ()
     folder: str  # result folder
     log: str  # output and errors are appended to this file
@@ -93,7 +95,7 @@ class Outcome:
 
     exit_code: int = 0
     interrupted: bool = True  # asked to stop, or never started
-    seconds: float = 0.0
+    seconds: float = 0.0  # 0: it had ended before
     message: str = ""  # last line of the log of a run that failed
 
 
@@ -250,8 +252,8 @@ def n_processes() -> int:
 class _Progress:
     """One line on a terminal; in a log one line for every twentieth of the runs."""
 
-    def __init__(self, noun: str, quiet: bool, total: int, done: int) -> None:
-        self.noun, self.quiet, self.total, self.done = noun, quiet, total, done
+    def __init__(self, quiet: bool, total: int, done: int) -> None:
+        self.quiet, self.total, self.done = quiet, total, done
         self.failed, self.seconds, self.known = 0, 0.0, 0
         self.terminal, self.shown, self.last_part = sys.stderr.isatty(), 0.0, -1
 
@@ -269,7 +271,7 @@ class _Progress:
         waiting = self.total - ended
         left = (self.seconds / max(1, self.known) * waiting - sum(at_work)) / max(1, min(seats, waiting))
         remaining = f", {timedelta(seconds=round(max(0.0, left)))} remaining" if self.known else ""
-        text = f"{self.done} of {self.total} {self.noun} done, {len(at_work)} running, {self.failed} failed{remaining}"
+        text = f"{self.done} of {self.total} runs done, {len(at_work)} running, {self.failed} failed{remaining}"
         _write("stderr", f"\r\033[K{text}" if self.terminal else text + "\n")
         self.shown, self.last_part = now, part
 
@@ -284,11 +286,10 @@ def n_seats(options: Options) -> int:
     return (options.jobs or (1 if others else max(1, len(os.sched_getaffinity(0)) // options.threads))) + others
 
 
-def execute(runs: Sequence[Run], options: Options, *, noun: str = "runs", finished: int = 0,
+def execute(runs: Sequence[Run], options: Options, *, finished: int = 0,
             on_ended: Callable[[int, Outcome], None] = lambda k, outcome: None) -> list[Outcome]:
     """Does the runs and returns their outcomes in the order of `runs`.
 
-    noun      name of the runs in the progress: "seeds"
     finished  runs that were finished before; they count in the progress
     on_ended  is called with index and outcome as runs end; if it raises OSError, the run has failed with exit code 4
 
@@ -315,7 +316,7 @@ def execute(runs: Sequence[Run], options: Options, *, noun: str = "runs", finish
         return Outcome(exit_code=code, interrupted=asked and code != 0, seconds=time.monotonic() - started.pop(k))
 
     outcomes, left = [Outcome() for _ in runs], len(runs)
-    progress = _Progress(noun, options.quiet, len(runs) + finished, finished)
+    progress = _Progress(options.quiet, len(runs) + finished, finished)
     # the system ends a worker when the thread that started it ends
     with ThreadPoolExecutor(max(1, free.qsize())) as threads:
         for k in range(len(runs)):
@@ -335,13 +336,12 @@ def execute(runs: Sequence[Run], options: Options, *, noun: str = "runs", finish
 
 
 def _note_end(run: Run, outcome: Outcome, progress: _Progress, on_ended: Callable[[], None]) -> None:
-    name = os.path.basename(run.folder).replace("_", " ")  # seed 3
     outcome.message = last_words(run.log) if outcome.exit_code else ""
     try:
         on_ended()
     except OSError as error:  # a full disk must not end the other runs
         progress.clear()
-        complain(f"{name}: {error}")
+        complain(f"{run.label}: {error}")
         outcome.exit_code = SYSTEM_FAILURE
     if outcome.interrupted:
         return
@@ -350,4 +350,4 @@ def _note_end(run: Run, outcome: Outcome, progress: _Progress, on_ended: Callabl
         progress.clear()
         why = outcome.message or ("ended by a signal, without a message" if outcome.exit_code > 128
                                   else "without a message")
-        complain(f"{name} failed with exit code {outcome.exit_code}: {why} (log: {run.log})")
+        complain(f"{run.label} failed with exit code {outcome.exit_code}: {why} (log: {run.log})")

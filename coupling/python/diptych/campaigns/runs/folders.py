@@ -53,10 +53,11 @@ class Folder:
         KEPT_OPEN.add(self._lock.descriptor)
 
     def open_runs(self, noun: str, input_file: str, options: Options, inputs: Callable[[], list[tuple[str, str]]],
-                  text: str = "") -> None:
-        """Prepares the folder for runs; writes text, or a copy of the input file, there as NOUN_input.json (with text)
-        or with the ending of the file. Raises SceneError for other results."""
-        copy = os.path.join(self.directory, noun + "_input" + (".json" if text else os.path.splitext(input_file)[1]))
+                  text: str = "", *, copy: str = "") -> None:
+        """Prepares the folder for runs; writes text, or a copy of the input file, there as `copy`; without it as
+        NOUN_input.json (with text) or with the ending of the file. Raises SceneError for other results."""
+        ending = ".json" if text else os.path.splitext(input_file)[1]
+        copy = os.path.join(self.directory, copy or f"{noun}_input{ending}")
         _diptych.require_usable(self.directory, options.resume, options.overwrite)
         if not text:
             with open(input_file, encoding="utf-8") as file:
@@ -115,6 +116,7 @@ class SceneRun:
     name: str
     scene: Any = None
     refusal: str = ""
+    label: str = ""  # in messages instead of the name
 
 
 def run_name(scene: Any, command: str) -> str:
@@ -125,6 +127,12 @@ def run_name(scene: Any, command: str) -> str:
     else:
         identity = scene.identity("sample" if command == "discrete" else "continuum")
     return _diptych.digest(command + "\n" + "".join(f"{key} = {identity[key]}\n" for key in sorted(identity)))
+
+
+def run_on(scene: Any, seed: int, label: str = "") -> SceneRun:
+    """Both panels of a scene on the sample with a seed."""
+    own = scene.in_folder(scene.directory, scene.name, seed)
+    return SceneRun(command="run", name=run_name(own, "run"), scene=own, label=label)
 
 
 class Runs:
@@ -167,7 +175,7 @@ class Runs:
 
         Only a folder in which this revision of the program was interrupted stays, and not if `anew`. Another one is
         renamed to NAME.1, in the place of an older one, since the user may have files in it. The second value is then
-        its revision.
+        its revision. Raises RuntimeError if another process writes to it.
         """
         try:
             earlier = read_json(self.path(run, ".json"))
@@ -175,6 +183,7 @@ class Runs:
             earlier = {}
         folder, revision = self.path(run), ""
         if os.path.exists(folder) and (anew or "exit_code" in earlier or earlier.get("begun") != _diptych.git_revision):
+            _diptych.require_unlocked(folder)
             if os.path.exists(folder + ".1"):
                 shutil.rmtree(folder + ".1")
             os.rename(folder, folder + ".1")
@@ -182,19 +191,26 @@ class Runs:
         if os.path.exists(self.path(run, ".log")):
             os.remove(self.path(run, ".log"))
         write_text(self.path(run, ".prm"), run.scene.text())
-        write_json(self.path(run, ".json"), {"begun": _diptych.git_revision}, None)
+        self.begin(run)
         return os.path.exists(folder), revision
 
-    def do(self, runs: Sequence[SceneRun], options: Options) -> list[Outcome]:
-        """Does the runs that are not finished, each name once. Runs whose checkpoint is damaged begin anew."""
-        different = list({run.name: run for run in runs if run.scene is not None}.values())
-        pending = [run for run in different if self.found_end(run) is None]
-        total, finished = len(different), len(different) - len(pending)
-        if options.resume and finished:
-            say(options, f"{finished} of {total} runs are finished in {self.directory}: not run again")
-        return self._execute(pending, options, total)
+    def begin(self, run: SceneRun) -> None:
+        """Notes that this revision began the run, whose folder can then be resumed."""
+        write_json(self.path(run, ".json"), {"begun": _diptych.git_revision}, None)
 
-    def _execute(self, runs: Sequence[SceneRun], options: Options, total: int, anew: bool = False) -> list[Outcome]:
+    def do(self, runs: Sequence[SceneRun], options: Options) -> dict[str, Outcome]:
+        """Does the runs that are not finished, each name once. Runs whose checkpoint is damaged begin anew. Returns the
+        outcomes by name, also of those that were finished."""
+        different = {run.name: run for run in runs if run.scene is not None}
+        ends = {name: self.found_end(run) for name, run in different.items()}
+        finished = {name: Outcome(exit_code=end["exit_code"], interrupted=False) for name, end in ends.items() if end}
+        if options.resume and finished:
+            say(options, f"{len(finished)} of {len(ends)} runs are finished in {self.directory}: not run again")
+        pending = [run for name, run in different.items() if name not in finished]
+        return finished | self._execute(pending, options, len(ends))
+
+    def _execute(self, runs: Sequence[SceneRun], options: Options, total: int,
+                 anew: bool = False) -> dict[str, Outcome]:
         prepared, seats = [self.prepare(run, anew) for run in runs], n_seats(options)
         resumes = [goes_on for goes_on, _ in prepared]
         for revision, n in Counter(revision for _, revision in prepared if revision).items():
@@ -211,13 +227,14 @@ class Runs:
                                                          "revision": _diptych.git_revision,
                                                          "load": os.getloadavg()[0], "at_once": seats}, None)
 
-        tasks = [Run(command=run.command, scene=self.path(run, ".prm"), folder=self.path(run),
-                     log=self.path(run, ".log"), resume=goes_on and run.command != "material-point")
+        tasks = [Run(command=run.command, scene=self.path(run, ".prm"), name=run.scene.name,
+                     label=run.label or run.name, folder=self.path(run), log=self.path(run, ".log"),
+                     resume=goes_on and run.command != "material-point")
                  for run, goes_on in zip(runs, resumes)]
         outcomes = execute(tasks, options, finished=total - len(runs), on_ended=on_ended)
-        damaged = [k for k, outcome in enumerate(outcomes) if is_damaged(k, outcome)]
+        ended = {run.name: outcome for run, outcome in zip(runs, outcomes)}
+        damaged = [run for k, run in enumerate(runs) if is_damaged(k, outcomes[k])]
         if damaged:
             complain(f"{len(damaged)} runs begin anew: their checkpoints are damaged")
-            for k, outcome in zip(damaged, self._execute([runs[k] for k in damaged], options, total, anew=True)):
-                outcomes[k] = outcome
-        return outcomes
+            ended |= self._execute(damaged, options, total, anew=True)
+        return ended

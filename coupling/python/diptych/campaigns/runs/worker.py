@@ -24,7 +24,7 @@ def do(run: dict[str, Any], compiled: Any) -> int:
             os.dup2(log, stream)
         os.close(log)
         scene = _diptych.read_changed_scene(run["scene"], run["settings"], run["command"] == "run")
-        return compiled.run(run["command"], scene, run["folder"], run["options"])
+        return compiled.run(run["command"], scene.in_folder("", run["name"]), run["folder"], run["options"])
     except (ValueError, OSError, RuntimeError, MemoryError) as error:
         code, text = code_and_text(error)
         complain(f"diptych: {text}")

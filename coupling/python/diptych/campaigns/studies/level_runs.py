@@ -15,7 +15,7 @@ import numpy as np
 from ... import _diptych
 from ...errors import SceneError, Stopped
 from ..runs.engine import Options, say
-from ..runs.folders import Runs, SceneRun, read_json
+from ..runs.folders import Runs, SceneRun
 from ..runs.input_file import Setting
 from ..runs.key_numbers import OF_PANEL
 from .levels import CHEAP, FINE, LEAST_PAIRS, MOST_RATIO, Limit, limit_of, variances, weight_of
@@ -119,8 +119,8 @@ def paired_points(runs: Runs, fine: Sequence[Sequence[SceneRun]], cheap: Sequenc
     """Runs the pairs. fine, cheap: [point][sample]. Raises Stopped on a stop request."""
     n, pairs = len(fine[0]), min(LEAST_PAIRS, len(fine[0]))
     while True:
-        if any(outcome.interrupted for outcome in runs.do([run for of_point in fine for run in of_point[:pairs]],
-                                                          options)):
+        outcomes = runs.do([run for of_point in fine for run in of_point[:pairs]], options)
+        if any(outcome.interrupted for outcome in outcomes.values()):
             raise Stopped(f"stopped on request, finished runs are kept in {runs.directory}; to go on: {options.again}")
         results = [[result_of(runs, run, quantities) for run in of_point[:pairs]] for of_point in fine]
         points = [PairedPoint(*both, quantities) for both in zip(cheap, results)]
@@ -143,26 +143,14 @@ def fine_runs(scene: str, settings: Sequence[Setting], seeds: Sequence[int], fil
     return [scene_run(scene, "discrete", on_sample(settings, seed, file)) for seed in seeds]
 
 
-def of_members(folders: Sequence[str], record: dict[str, Any]) -> list[RunResult]:
-    """The grains of an ensemble's members, with the values of ensemble_quantities(). record: ensemble.json."""
-    members, verdicts = [], {verdict["key"]: verdict for verdict in record["verdicts"]}
-    for k, folder in enumerate(folders):
-        found = read_json(folder + "/provenance.json")
-        expected = {"strength": found["discrete"]["expected_strength_error"]}
-        members.append(RunResult(known=True, values=[verdicts[key]["discrete"][k] for key in OF_PANEL],
-                                 phases=found["phases"], expected_error=expected))
-    return members
-
-
-def ensemble_quantities() -> list[dict[str, Any]]:
-    """The numbers of the grains for which ensembles give a limit."""
-    return [key_quantity(key, "discrete") for key in OF_PANEL]
-
-
-def ensemble_levels(levels: Levels, seeds: Sequence[int], point: PairedPoint) -> dict[str, Any]:
-    """The entry `levels` of ensemble.json."""
-    n = len(seeds)
-    return {**levels._asdict(), "seeds": list(seeds[:len(point.fine)]),
+def ensemble_levels(levels: Levels, runs: Runs, members: dict[int, SceneRun], fine: Sequence[SceneRun],
+                    options: Options) -> dict[str, Any]:
+    """Runs the pairs of an ensemble and returns the entry `levels` of ensemble.json. members: the finished ones by
+    seed. Raises Stopped."""
+    wanted, n = [key_quantity(key, "discrete") for key in OF_PANEL], len(members)
+    cheap = [result_of(runs, run, wanted) for run in members.values()]
+    [point] = paired_points(runs, [fine], [cheap], wanted, options)
+    return {**levels._asdict(), "seeds": list(members)[:len(point.fine)],
             "quantities": [{"key": point.quantities[q]["key"], "quantity": point.quantities[q]["name"],
                             "unit": point.quantities[q]["unit"], **vars(limit),
                             "relative_bias": limit.cheap / limit.limit.value - 1,

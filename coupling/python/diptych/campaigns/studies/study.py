@@ -314,7 +314,7 @@ def run_study(line: argparse.Namespace, options: Options) -> None:
         read = {run.name: result_of(runs, run, study.quantities)  # each different run once
                 for run in {run.name: run for point in points for run in point.runs}.values()}
         results = [[read[run.name] for run in point.runs] for point in points]
-        left, limits, pairs = sum(outcome.interrupted for outcome in outcomes), None, {}
+        left, limits, pairs = sum(outcome.interrupted for outcome in outcomes.values()), None, {}
         if levels and not left:
             results, limits, pairs = study_levels(study, results, levels, runs, options)
         record = study_record(study, points, evaluate(study, points, results, limits))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...files import read_json
+from ...files import read_ensemble, read_json
 from .files import open_arrays, read_provenance, read_text
 from .numbers import Descriptions
 from .panels import PANEL_NAMES
@@ -57,8 +57,8 @@ class Ensemble:
 
 def load(folder):
     """The ensemble of a folder. Raises InputError if ensemble.json is missing, broken or has another format."""
-    record = read_json(os.path.join(folder, "ensemble.json"), FORMAT)
-    member, provenance = _member(folder, record["done"]), os.path.join(folder, "provenance.json")
+    record = read_ensemble(folder, FORMAT)
+    member, provenance = _member(folder, record), os.path.join(folder, "provenance.json")
     progress, curves, profiles, averaging = _curves(os.path.join(folder, "ensemble.h5"),
                                                     member.get("pressure", 1) * member.get("mean_diameter", 1))
     return Ensemble(folder=folder, record=record, quantities={q["name"]: q for q in record["quantities"]},
@@ -69,9 +69,10 @@ def load(folder):
                     provenance=read_provenance(provenance) if os.path.isfile(provenance) else {})
 
 
-def _member(folder, seeds):
+def _member(folder, record):
     """comparison.json of the first finished member that has one, or {}."""
-    paths = [os.path.join(folder, f"seed_{seed}", "comparison.json") for seed in seeds]
+    paths = [os.path.join(folder, member, "comparison.json")
+             for seed, member in zip(record["seeds"], record["folders"]) if seed in record["done"]]
     return next((read_json(path) for path in paths if os.path.isfile(path)), {})
 
 

@@ -145,13 +145,13 @@ def members(results):
     place = {seed: k for k, seed in enumerate(record["done"])}
     peaks = [results.quantities.get(f"{p}_summary peak_stress_ratio") for p in PANEL_NAMES]
     rows = []
-    for seed in record["seeds"]:
-        row = {"seed": seed, "log": f"seed_{seed}.log", "report": None, "values": ["–", "–"]}
+    for seed, folder in zip(record["seeds"], record["folders"]):
+        row = {"seed": seed, "log": folder + ".log", "report": None, "values": ["–", "–"]}
         if seed in place:
             row["state"] = "done"
             row["values"] = [rounded(q["values"][place[seed]], "") if q else "–" for q in peaks]
-            if os.path.isfile(os.path.join(results.folder, f"seed_{seed}", "report.html")):
-                row["report"] = f"seed_{seed}/report.html"
+            if os.path.isfile(os.path.join(results.folder, folder, "report.html")):
+                row["report"] = folder + "/report.html"
         elif seed in failed:
             row["state"] = f"failed, exit code {failed[seed]['exit_code']}: {failed[seed]['message']}"
         else:
