@@ -1,7 +1,6 @@
 # diptych: the Python package
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Diptych: a granular sample as discs (contact dynamics) and as an elasto-plastic continuum, and the operators that
-compare both.
+"""Diptych: a granular sample as discs (contact dynamics) and as an elasto-plastic continuum, and their comparison.
 
 Scenes are nested dicts or paths, checked like scene files (scene, keys). Panels are objects (DiscretePanel,
 ContinuumPanel). Result folders of the program load as arrays (load, compare). Operators take arrays from any source:

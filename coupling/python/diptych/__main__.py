@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """python -m diptych WORDS; see `diptych --help`."""
 
-from __future__ import annotations
-
 import shlex
 import sys
 from collections.abc import Sequence

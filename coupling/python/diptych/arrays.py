@@ -22,8 +22,7 @@ Array = NDArray[Any]
 
 
 class History(dict[str, Array]):
-    """Columns over steps: name -> (n) array. `unit` and `meaning` describe the columns; frame() makes a
-    pandas.DataFrame."""
+    """Columns over steps: name -> (n) array. `unit` and `meaning` describe them; frame() makes a pandas.DataFrame."""
 
     def __init__(self, columns: Mapping[str, Any], described: Mapping[str, tuple[str, str]]) -> None:
         super().__init__((name, np.asarray(values)) for name, values in columns.items())

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Smooths the stress of grains with kernels of several widths and looks for a plateau."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 
@@ -20,8 +18,7 @@ PLATEAU, LEAST_RATIO, LEAST_T_OVER_S = 0.05, 2.0, 0.1  # as in coupling/fields/r
 
 
 def _plateau(rows: Sequence[dict[str, Any]]) -> list[float] | None:
-    """The widest range of widths, by ratio, in which s and t/s of every place stay within 5 % of their mean over the
-    range."""
+    """The widest range of widths, by ratio, in which s and t/s of every place stay within 5 % of their means."""
     value = np.array([[[point["s"], point["t_over_s"]] for point in row["points"]] for row in rows])
     width = np.array([row["width_d"] for row in rows])
     found = []
@@ -53,12 +50,10 @@ def _verdict(rows: Sequence[dict[str, Any]], plateau: list[float] | None) -> str
 
 
 def width_scan(snapshot: Any) -> dict[str, Any]:
-    """Local stress at three places, and its scatter over the sample, for kernels of several widths (Gauss, standard
-    deviation w).
+    """Local stress at three places and its scatter over the sample, for Gaussian kernels of standard deviations w.
 
     The moments are cut by cells of d/4 (method `segments`), smoothed and divided by the smoothed area of the outline.
-    The variance of a cell is taken from that of the kernel. Keys as `resolution_study` in comparison.json; {} for a
-    sample narrower than 3 d."""
+    The variance of a cell is taken from the kernel's. Keys as `resolution_study` in comparison.json; {} below 3 d."""
     d, outline = snapshot.mean_diameter, outline_of(snapshot, 1, 64)
     low, high = snapshot.position.min(0) - 0.6 * d, snapshot.position.max(0) + 0.6 * d
     if snapshot.cell_width:

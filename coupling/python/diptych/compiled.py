@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """diptych._continuum needs deal.II and loads slowly; a build without the continuum has none."""
 
-from __future__ import annotations
-
 import functools
 import importlib
 import importlib.util

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Exceptions of the package."""
 
-from __future__ import annotations
-
 
 class SceneError(ValueError):
     """A scene is wrong. Attributes, as far as they are known: `file` and `line` (0: none), `key` ("sample/grains", or a
@@ -25,8 +23,7 @@ class InputError(ValueError):
 
 
 class NotConverged(RuntimeError):
-    """A panel or a law did not converge. The panel keeps the results so far. `reached`: those of a law; None for a
-    panel."""
+    """A panel or a law did not converge. A panel keeps its results so far. `reached`: those of a law; else None."""
 
     def __init__(self, text: str, reached: object = None) -> None:
         super().__init__(text)

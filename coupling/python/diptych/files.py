@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Reads JSON, and replaces a file by a complete one."""
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Iterator

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Homogenises snapshots of grains, computed or imported, without a continuum."""
 
-from __future__ import annotations
-
 import os
 from dataclasses import dataclass
 from typing import Any
@@ -178,8 +176,7 @@ def homogenise(grains: Any, grid: float = 3.0) -> Homogenised:
     grid    size of the cells over the outline of the sample [mean diameters]
 
     One snapshot gives all but strain and bands. Stresses of runs are means over the stage that ends at the frame. Those
-    of imported frames hold at their instant. Raises FileNotFoundError for a folder without grains, ValueError for an
-    empty list.
+    of imported frames are of their instant. Raises FileNotFoundError without grains, ValueError for an empty list.
     """
     if isinstance(grains, (str, os.PathLike)):
         results = load(grains).discrete

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Constitutive laws of the continuum at one homogeneous point."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 
@@ -57,8 +55,7 @@ def integrate(law: Any, path: Any, stress: Any = None, pressure: float = 1.0, ti
     Returns stress (n, 2, 2) [pressure], stress_zz (n), strain (n, 2, 2) since the start, equivalent_plastic_strain (n),
     dissipation (n) [pressure], verdict (n texts) and reliable (n), verdict == "reliable". "zz_outside": the law ignores
     sigma_zz, which lies beyond the yield surface; "unreliable": softening is too fast. Raises NotConverged, whose
-    `reached` is the result so far, if there is no such stress or strain, SceneError for a wrong law, ValueError for a
-    wrong path.
+    `reached` is the result so far, if there is no such stress or strain, SceneError (law), ValueError (path).
     """
     columns = _columns(path)
     time = columns.pop("progress", time)

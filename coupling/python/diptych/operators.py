@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Stress maps, bands, strips and probes, from snapshots of the panels or from arrays."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 
@@ -63,15 +61,13 @@ def _mesh(mesh: Any) -> Mesh:
 
 
 def grid(lower: Any, upper: Any, size: float) -> Mesh:
-    """A mesh of equal rectangles over the box from `lower` (2) to `upper` (2) [length], with sides of about `size`
-    [length]."""
+    """A mesh of equal rectangles over the box from `lower` (2) to `upper` (2), with sides of about `size` [length]."""
     return Mesh(**_diptych.grid(lower, upper, size))
 
 
 def contacts(grains: Any, i: Any, j: Any, force: Any, *, ids: Any = None,
              walls: Mapping[int, tuple[Any, Any]] | None = None) -> Record:
-    """Completes contacts of discs with the contact points, which many codes do not write: on the line of centres, or
-    the foot on a wall.
+    """Adds contact points, which many codes do not write, to contacts of discs: on the line of centres or a wall.
 
     grains  position (n, 2), or x and y, and radius (or r) [length]: a dict, a DataFrame or a snapshot
     i, j    (c): numbers of the bodies, as in `ids` if given, else counted from 0
@@ -114,8 +110,7 @@ def contacts(grains: Any, i: Any, j: Any, force: Any, *, ids: Any = None,
 
 def map_stress(grains: Any, contacts: Any = None, mesh: Any = None, method: str = "segments", *,
                period: float | None = None, **options: Any) -> StressMap:
-    """Maps contact forces to stress on the cells of a mesh. Conservative: the sum over the cells equals the sum over
-    the contacts.
+    """Maps contact forces to stress on the cells of a mesh. Conservative: the sums over cells and contacts are equal.
 
     grains    snapshot of a DiscretePanel, or position (n, 2), or x and y, and radius (or r) [length] in a dict or a
               DataFrame
@@ -193,8 +188,7 @@ def find_bands(points: Any, displacement: Any, mean_diameter: float, *, weight: 
 
     Fits no, one and two tanh profiles with Huber loss and chooses their number by BIC (coupling/bands). Returns a
     BandReport: angles in degrees from the horizontal, lengths in the unit of the points, 95 % intervals by block
-    bootstrap. Raises SceneError for a wrong option, ValueError for fewer than 30 points with weight or a platen
-    increment of zero.
+    bootstrap. Raises SceneError for a wrong option, ValueError below 30 points with weight or without an increment.
     """
     field = _field(points, displacement, weight)
     frame = _frame(field["position"], field["increment"], mean_diameter,

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The discrete and the continuum panel: prepare, advance from stage to stage, read snapshots."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Mapping
 from typing import Any, Optional
@@ -138,8 +136,7 @@ class DiscretePanel(_Panel):
     grains   {"position": (n, 2) [length], "radius": (n) [length]}: replaces the prepared sample; platens and sides are
              placed as for a sample from a file
 
-    Raises SceneError, and ValueError for options that contradict each other. The numbers are bit by bit those of the
-    program.
+    Raises SceneError, and ValueError for contradictory options. The numbers are bit by bit those of the program.
 
     >>> panel = DiscretePanel({"sample": {"grains": 200}, "loading": {"axial_strain": 0.01, "stage_strain": 0.005}})
     >>> panel.run()

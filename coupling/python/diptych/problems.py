@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The contact solvers, for stored problems and for arrays."""
 
-from __future__ import annotations
-
 import os
 from typing import Any
 

@@ -74,8 +74,7 @@ class Results:
 
 @dataclass(repr=False)
 class Comparison:
-    """The comparison of both panels: numbers as in comparison.json, fields of every stage with the names of
-    comparison.h5."""
+    """The comparison of both panels: numbers as in comparison.json, fields of every stage as in comparison.h5."""
 
     numbers: dict[str, Any]
     # on the mesh of the continuum: name -> (k), (k, 2) or (k, 2, 2); nodes (m, 2), cells (k, 4)

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A scene is {"sample": {"grains": 2000, ...}, "loading": {...}, ...} or the path of a .prm or .json file."""
 
-from __future__ import annotations
-
 import os
 import warnings
 from collections.abc import Iterator, Mapping
@@ -75,8 +73,7 @@ def scene(scene: SceneLike, compares: bool = False, **overrides: Any) -> dict[st
     compares   True if both panels will be compared: the edges of the windows must then be stages
     overrides  sections with keys to change: scene(path, sample={"seed": 2}), or **{"sample/seed": 2}
 
-    Returns a dict of all sections and keys. Raises SceneError with the key, its value and what is allowed. Doubtful
-    values give a SceneWarning.
+    Returns all sections and keys. Raises SceneError with key, value and what is allowed. Warns by SceneWarning.
 
     >>> scene({"sample": {"grains": 500}})["sample"]["grains"]
     500

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Sheets of cells between the left and the right side of a sample."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Finds the shipped scenes and notebooks, in an installation or in the source tree."""
 
-from __future__ import annotations
-
 import os
 
 _PACKAGE = os.path.dirname(os.path.realpath(__file__))  # the build tree links to the sources
@@ -19,8 +17,7 @@ def _shipped(installed: str, source: str) -> str:
 
 
 def benchmarks_dir() -> str:
-    """Folder of the shipped scenes: benchmarks_dir() + "/moreau_quick/scene.prm". Raises FileNotFoundError if there is
-    none."""
+    """Folder of shipped scenes: benchmarks_dir() + "/moreau_quick/scene.prm". Raises FileNotFoundError."""
     return _shipped("benchmarks", os.path.join("..", "..", "..", "benchmarks"))
 
 

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A parser whose help and refusals look as those of the commands in C++; types of options that name what is allowed."""
 
-from __future__ import annotations
-
 import argparse
 import re
 import textwrap

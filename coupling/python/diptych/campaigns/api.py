@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """study(), ensemble(), plan() and calibrate() do what the commands do, and return their tables as DataFrames."""
 
-from __future__ import annotations
-
 import itertools
 import json
 import os
@@ -79,8 +77,7 @@ class Campaign(CampaignResult):
                              for point in self.numbers["points"]])
 
     def summary(self) -> pd.DataFrame:
-        """An ensemble: the rows and columns of Results.summary(), with means over the samples and their 95 %
-        intervals."""
+        """An ensemble: rows and columns of Results.summary(), with means over the samples and 95 % intervals."""
         if "summary" not in self.numbers:
             raise AttributeError("a study has no summary; use .points or .table")
         table = pd.json_normalize(self.numbers["summary"],
@@ -91,8 +88,7 @@ class Campaign(CampaignResult):
     @property
     def effects(self) -> pd.DataFrame:
         """A study without a reference, effects.csv: a row per point, quantity and panel. The values of the parameters
-        come first, then quantity, panel, unit, n, mean, low and high (95 % interval), deviation (standard deviation of
-        one sample)."""
+        come first, then quantity, panel, unit, n, mean, low and high (95 % interval), deviation (of one sample)."""
         path = os.path.join(self.folder, "effects.csv")
         if not self.numbers.get("changes"):
             raise AttributeError("no effects of parameters here; a study has them if it has no reference")
@@ -174,8 +170,7 @@ class PlanResult(CampaignResult):
 
 @contextmanager
 def _file_of(command: str, holds_scene: bool, contents: Mapping[str, Any] | PathLike, output: str) -> Iterator[str]:
-    """A path as it is. A dict is a file during the call, called like the output folder, in the working directory: its
-    paths begin there."""
+    """A path as it is. A dict is a file of the working directory during the call, called like the output folder."""
     if not isinstance(contents, Mapping):
         yield os.fspath(contents)
         return
@@ -261,8 +256,7 @@ def ensemble(scene: SceneLike, seeds: str | Iterable[int], output: PathLike, **o
 
 
 def calibrate(contents: Mapping[str, Any] | PathLike, output: PathLike, **options: Any) -> CalibrationResult:
-    """Runs a calibration file, or its contents as a dict, and returns its results. Options and errors are as in
-    study().
+    """Runs a calibration file, or its contents as a dict, and returns its results. Options and errors: see study().
 
     A scene file (.prm) with seeds=range(1, 5) takes the standard parameters."""
     if "seeds" in options:

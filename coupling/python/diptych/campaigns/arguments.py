@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A function adds the arguments of a command. It loads nothing that only a run needs, so that help comes at once."""
 
-from __future__ import annotations
-
 import argparse
 
 from ..importers.exports import FORMATS

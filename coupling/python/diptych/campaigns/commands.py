@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Parses the words of a command and does it; pandas and SciPy load only then."""
 
-from __future__ import annotations
-
 import importlib
 from collections.abc import Sequence
 

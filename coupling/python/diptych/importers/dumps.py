@@ -49,8 +49,7 @@ class Section:
 
 
 def _box(path: str, lines: list[str], k: int) -> tuple[np.ndarray, list[bool]]:
-    """'ITEM: BOX BOUNDS ff ff pp' and three lines; a tilted box has the words xy xz yz and a third number in each
-    line."""
+    """'ITEM: BOX BOUNDS ff ff pp' and three lines; a tilted box adds the words xy xz yz and a number to each line."""
     words = lines[k].split()
     if words[:3] != ["ITEM:", "BOX", "BOUNDS"]:
         raise refused(path, "expected 'ITEM: BOX BOUNDS'", k + 1)

@@ -1,7 +1,6 @@
 # diptych: what a reader of foreign files returns, and the options that it gets
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Frames of grains, contacts and walls, in the units of the files. Forces and masses are those of the whole
-thickness."""
+"""Frames of grains, contacts and walls, in the units of the files. Forces and masses are of the whole thickness."""
 
 import math
 from dataclasses import KW_ONLY, dataclass, field
@@ -106,8 +105,7 @@ class Options:
     wall_tables: list[Any] = field(default_factory=list)  # Tables that a reader found among its files
 
     def columns_of(self, kind: str, width: int | None = None) -> list[str] | None:
-        """Names that the user gave for the columns of "particles", "contacts" or "walls"; `width`: only if they are so
-        many."""
+        """Names that the user gave for the columns of a kind ("particles", ...); `width`: only if they are so many."""
         for text in self.columns:
             names = text.partition("=")[2].split(",")
             if text.startswith(kind + "=") and width in (None, len(names)):

@@ -25,8 +25,7 @@ class Bodies:
 
 
 def field(path: str, number: int, line: str, name: str) -> float:
-    """The number behind a name (a regular expression). Columns are fixed and may touch, so that it has up to 14
-    characters."""
+    """The number behind a name (a regular expression): up to 14 characters, as columns are fixed and may touch."""
     found = re.search(name, line)
     if not found:
         raise refused(path, "expected '" + name.replace("\\", "").replace("?", "") + "'", number)
@@ -49,8 +48,7 @@ def read_bulk(path: str) -> tuple[dict[str, float], tuple[float, float] | None]:
 
 
 def read_bodies(path: str, densities: dict[str, float], options: Options) -> Bodies:
-    """Reads BODIES.DAT. LMGC90 counts bodies in the order of the file, whatever numbers stand there. Raises
-    SceneError."""
+    """Reads BODIES.DAT, counting bodies in the order of the file, as LMGC90 does. Raises SceneError."""
     blocks: list[dict[str, Any]] = []
     for k, line in enumerate(read_lines(path), 1):
         words = line.split()
@@ -86,8 +84,7 @@ def read_bodies(path: str, densities: dict[str, float], options: Options) -> Bod
 
 
 def place_bodies(frame: Frame, bodies: Bodies, x: np.ndarray, v: np.ndarray) -> None:
-    """Adds grains and walls. `x`, `v` (n, 3): displacement from the reference, velocity. The angle of a wall is coo3 +
-    X(3)."""
+    """Adds grains and walls. `x`, `v` (n, 3): displacement, velocity. The angle of a wall is coo3 + X(3)."""
     if len(x) != len(bodies.mass):
         raise refused(frame.grain_file, f"has {len(x)} bodies, but {bodies.path} has {len(bodies.mass)}")
     place, grain = bodies.place + x, np.flatnonzero(~bodies.is_wall)

@@ -52,8 +52,7 @@ class _Rows:
 
 
 def _side(wall: _Rows) -> str:
-    """The normal points out of the sample: `normal` in files of 2015, else the x axis turned by a quaternion (w, x, y,
-    z)."""
+    """The normal points outwards: `normal` in files of 2015, else the x axis turned by a quaternion (w, x, y, z)."""
     if wall.having("normal").rows:
         nx, ny, _ = wall.after("normal", 3)[0]
     else:

@@ -43,8 +43,7 @@ def _expanded(names: list[str]) -> list[str]:
 
 
 def head_of(lines: Sequence[str]) -> tuple[list[str], int]:
-    """Column names above the first row of numbers, perhaps behind a '#', and the index of that row. Without names:
-    []."""
+    """Column names above the first row of numbers, perhaps behind a '#', else []; and the index of that row."""
     names: list[str] = []
     marked = True
     for k, line in enumerate(lines):
@@ -106,8 +105,7 @@ def table_of_kind(path: str, options: Options, kinds: dict[str, Callable[[set[st
 def by_frame(options: Options, kind_of: Callable[[str], tuple[str, Table]]) -> dict[int, dict[str, Table]]:
     """Tables by frame, ascending, and kind. The last number in a file's name is the frame, or the column `frame`.
 
-    Tables of walls are kept in the options. Raises SceneError for two tables of one kind and frame, and without
-    particles.
+    Tables of walls are kept in the options. Raises SceneError for two tables of a kind and frame, or no particles.
     """
     found: dict[int, dict[str, Table]] = {}
     for path in options.files:

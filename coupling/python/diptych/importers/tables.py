@@ -1,7 +1,6 @@
 # diptych: tables of numbers with named columns, and the grains in them
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Tables with named columns. Cells are converted when a column is used, so that other columns may hold text or
-nothing."""
+"""Tables with named columns. Cells are converted when a column is used: other columns may hold text or nothing."""
 
 from typing import Any, Callable, Sequence
 
@@ -38,8 +37,7 @@ class Table:
         refuse_where(self.path, bad, self.lines, text)
 
     def numbers(self, *names: str) -> np.ndarray:
-        """(n) finite numbers of the first of these columns that exists. Raises SceneError with file, line and
-        column."""
+        """(n) finite numbers of the first of these columns that exists. Raises SceneError with file, line, column."""
         k = self.find(*names)
         if k is None:
             raise refused(self.path, f"lacks a column {' or '.join(names)}; its columns are {', '.join(self.columns)}")

@@ -14,8 +14,7 @@ from .frames import refused
 
 
 def read_lines(path: str) -> list[str]:
-    """Lines of a text file in UTF-8, UTF-16 with a byte order mark or Latin 1; also packed by gzip. Raises
-    SceneError."""
+    """Lines of a text file in UTF-8, UTF-16 with its mark or Latin 1; also packed by gzip. Raises SceneError."""
     try:
         with open(path, "rb") as file:
             data = file.read()
@@ -34,8 +33,7 @@ def read_lines(path: str) -> list[str]:
 
 
 def number_in_name(path: str) -> int:
-    """The last number in a file name, which counts frames: 12 of contacts_12.txt or contacts_12.csv.gz; -1 without
-    one."""
+    """The last number in a file name, which counts frames: 12 of contacts_12.txt or contacts_12.csv.gz; else -1."""
     numbers = re.findall(r"\d+", re.sub(r"\.gz$", "", os.path.basename(path)))
     return int(numbers[-1]) if numbers else -1
 

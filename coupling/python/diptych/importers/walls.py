@@ -1,7 +1,6 @@
 # diptych: places and forces of walls from a table beside another code's files
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Tables of walls, one row a frame: step, time or frame; width and height, or some of left_x, right_x, lower_y,
-upper_y."""
+"""Tables of walls, a row a frame: step, time or frame; width and height, or some of left_x ... upper_y."""
 
 from typing import Callable
 
@@ -21,8 +20,7 @@ def is_wall_columns(columns: set[str]) -> bool:
 
 
 def sorted_files(options: Options, **kinds: Callable[[str], bool]) -> dict[str, list[str]]:
-    """The files by the first kind whose function accepts them; wall tables are kept in the options. Raises
-    SceneError."""
+    """The files by the first kind that accepts them; wall tables are kept in the options. Raises SceneError."""
     found: dict[str, list[str]] = {kind: [] for kind in kinds}
     for path in options.files:
         kind = next((kind for kind, is_kind in kinds.items() if is_kind(path)), None)

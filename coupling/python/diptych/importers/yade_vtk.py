@@ -17,8 +17,7 @@ LACKING = ["tangential forces (VTKRecorder keeps absolute components without dir
 
 
 def _put_in_place(root: Any) -> None:
-    """Moves the appended arrays into their elements: meshio decodes appended text to its end, which Python 3.13
-    refuses."""
+    """Moves appended arrays into their elements: meshio decodes to the end of the text, which Python 3.13 refuses."""
     appended = root.find("AppendedData")
     if appended is None:
         return
@@ -70,8 +69,7 @@ def _spheres(path: str) -> dict[str, np.ndarray]:
 
 
 def _interactions(path: str, frame: Frame) -> dict[str, np.ndarray]:
-    """Lines join points, which are bodies in the order of their ids, including walls. Grains are found by their
-    positions."""
+    """Lines join points: bodies in the order of their ids, including walls. Positions identify the grains."""
     mesh = _mesh(path)
     ends = np.concatenate([block.data for block in mesh.cells])
     if "forceN" not in mesh.cell_data:

@@ -3,8 +3,6 @@
 """Four phases: reading.py checks and takes the data, trials.py searches, posterior.py samples the posterior of the
 parameters, findings.py computes the effect of load steps half as long and predictions on paths that were not fitted."""
 
-from __future__ import annotations
-
 import argparse
 import json
 from typing import Any

@@ -3,8 +3,6 @@
 """A calibration file names targets, quantities and parameters. Paths in it are relative to its folder. A scene with
 seeds stands for a file with standard contents."""
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Mapping, Sequence
@@ -37,8 +35,7 @@ PRESCRIBED = 1e-9  # a smaller deviation: the path prescribes the quantity
 @dataclass(kw_only=True)
 class Target:
     """A loading path: one scene on several samples, on finished result folders, or with a measured curve instead of
-    grains. A curve and seeds: parameters of the grains are fitted to the curve. An element test is a scene with
-    loading/mode = path."""
+    grains. A curve and seeds: grains are fitted to the curve. A scene with loading/mode = path is an element test."""
 
     name: str
     scene: str
@@ -49,7 +46,7 @@ class Target:
     is_fitted: bool = True  # False: predicted
     before: list[Setting] = field(default_factory=list)  # parameters to compare with; empty: those of the scene
 
-    def is_same_path(self, other: Target) -> bool:
+    def is_same_path(self, other: "Target") -> bool:
         """True if the paths differ in their samples only."""
         here, there = ([one.text() for one in target.settings] for target in (self, other))
         return (self.scene, self.curve) == (other.scene, other.curve) and here == there
@@ -84,8 +81,7 @@ class Calibration:
         return self.parameters[0].setting[0] == "discrete"
 
     def observables_of(self, scene: _diptych.Scene, is_curve: bool = False) -> list[Observable]:
-        """Bins up to the end of the scene's loading, and windows of its comparison; curves and element tests have no
-        windows."""
+        """Bins up to the end of the loading, and windows of the comparison, but not for curves and element tests."""
         keys, found = scene.dict(), []
         for kind in self.kinds:
             if kind in OF_BANDS and (is_curve or is_element(scene)):
@@ -109,8 +105,7 @@ def is_element(scene: _diptych.Scene) -> bool:
 def read_curve(file: str, bins: Sequence[tuple[float, float]] = ()) -> pd.DataFrame:
     """A measured curve: axial_strain or the progress of a path, stress_ratio (t/s), volumetric_strain and, where given,
     their deviations; compression positive. Also element.csv, whose grains count; a quantity that its path prescribes is
-    left out. Other columns are ignored. Warns of `bins` (low, high) in which nothing was measured. Raises SceneError
-    with file, line and column."""
+    left out, and other columns are ignored. Warns of `bins` (low, high) without a row. Raises SceneError."""
     rows = read_table(file)
     allowed = ["axial_strain", *CURVE_COLUMNS, *CURVE_COLUMNS.values()]
     names = {"axial_strain": ("progress", "axial_strain"), **{one[0]: one for one in OTHER_NAMES.items()}}

@@ -1,9 +1,6 @@
 # diptych: the runs of a calibration
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Grains of every target are run or read. The continuum runs on one outline per path. The law's point follows the path
-of an element test."""
-
-from __future__ import annotations
+"""Grains of a target are run or read. The continuum has one outline per path; an element test runs the law's point."""
 
 import os
 from collections.abc import Sequence
@@ -29,8 +26,7 @@ from .search import NORMAL
 
 
 class CalibrationRuns:
-    """Functions that run something raise Stopped after a stop signal, and NotConverged where grains do not come to
-    their end."""
+    """What runs something raises Stopped after a stop signal, and NotConverged if grains do not come to their end."""
 
     def __init__(self, calibration: Calibration, directory: str, options: Options) -> None:
         self.calibration, self.runs, self.options = calibration, Runs(directory), replace(options, resume=False)

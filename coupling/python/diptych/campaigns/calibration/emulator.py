@@ -2,10 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A Gaussian process with a Matern 5/2 correlation, common to all observables. Runs on the coarse mesh carry it. Those
 on the samples' own mesh add the difference between the meshes, a process of the same form (Kennedy & O'Hagan,
-Biometrika 87 (2000) 1). The correlation lengths maximise the likelihood. Leaving out each run in turn checks the
-variance."""
-
-from __future__ import annotations
+Biometrika 87 (2000) 1). Correlation lengths maximise the likelihood. Left-out runs check the variance."""
 
 import numpy as np
 import scipy.linalg

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """calibration.json holds a dict: its keys are listed here, their meanings in README_calibration.md."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 from typing import Any
@@ -66,8 +64,7 @@ def parameter_words(parameters: Sequence[dict[str, Any]]) -> list[str]:
 
 
 def discrepancy_record(noise: Noise, draws: Draws, paths: int) -> dict[str, Any]:
-    """Sizes of the discrepancy after the first strains and its correlation strain: medians with intervals; before the
-    data."""
+    """Sizes of the discrepancy after the first strains and its correlation strain, before and after the data."""
     before = [noise.stress_discrepancy, noise.volume_discrepancy, draws.strain]
     found = np.quantile(draws.sizes, [0.5, 0.025, 0.975], axis=0) * [noise.stress_discrepancy, noise.volume_discrepancy,
                                                                      1]
@@ -113,8 +110,7 @@ def predictions(path: Path, runs: Sequence[Observation], deviations: Array) -> l
     deviations: (observables), of `after`: from the parameters if the path was not fitted, and from runs of grains; they
     widen the intervals. That of the angle is unknown, because the
     fit has no derivative of it. Near a flat peak the largest running mean moves as the largest mean over a bin does.
-    The given deviation of a measured curve replaces the scatter of samples; that of its peak is the one of its largest
-    bin.
+    The deviation given with a curve replaces the scatter of samples; that of its peak is the one of its largest bin.
     """
     margins, (before, after) = path.scene.dict()["comparison"], runs
     places = {one.kind: k for k, one in enumerate(path.data.observables)}  # the last of each kind
@@ -123,8 +119,7 @@ def predictions(path: Path, runs: Sequence[Observation], deviations: Array) -> l
 
     def add(quantity: str, values: Sequence[float], margin: str, kind: str, k: int | None, *,
             given: float = np.nan) -> None:
-        """values: before, after, and those of the samples. k: the observable whose deviation counts. given: of the
-        data."""
+        """values: before, after, and of the samples. k: whose deviation counts. given: that of the data."""
         earlier, now, *grains = values
         mean, deviation = (line_statistics if kind == "line" else statistics)(grains).mean, np.nan
         test = measured(mean, given, now, kind) if np.isfinite(given) else paired(grains, [now] * len(grains), kind)
@@ -225,8 +220,7 @@ def predict(trials: Trials, best: Array, jacobian: Array, draws: Draws) -> None:
 
 
 def _jacobian_on(trials: Trials, path: Path, best: Array, jacobian: Array) -> Array:
-    """(observables, parameters) of one path: the fit's if the path was fitted, on these or other samples; else
-    differences on the coarse mesh."""
+    """(observables, parameters) of a path: the fit's if the path was fitted; else differences on the coarse mesh."""
     n, at = len(path.data.observables), 0
     for other in trials.fitted:
         same = all(p.is_of(path.target.name) == p.is_of(other.target.name) for p in trials.coordinates.parameters)
@@ -291,8 +285,7 @@ def _fragment(record: dict[str, Any]) -> str:
 
 
 def posterior_table(coordinates: Coordinates, draws: Array) -> pd.DataFrame:
-    """A row per draw, a column per parameter: the values of the keys. Targets of a value that is not common follow the
-    key."""
+    """A row per draw, a column per parameter: values of the keys. Targets of an own value follow the key."""
     names = [p.key + (f" ({', '.join(p.targets)})" if p.targets else "") for p in coordinates.parameters]
     return pd.DataFrame([coordinates.values(point) for point in draws], columns=names)
 

@@ -3,8 +3,6 @@
 """Grains stand in the place of the continuum. Every point of the search runs the same seeds, because the difference of
 two runs of one sample scatters less than its runs do."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np
@@ -21,8 +19,7 @@ from ..studies.points import on_sample, scene_run
 
 
 def mean_of(samples: Sequence[Observation], averaging_width: float) -> Observation:
-    """Means over the samples. The peak is that of the mean curve, because single curves fluctuate above it. If a sample
-    failed, the result is its failure."""
+    """Means over the samples, or a failure of one. Single curves fluctuate above the peak, that of the mean curve."""
     for sample in samples:
         if sample.failure:
             return sample

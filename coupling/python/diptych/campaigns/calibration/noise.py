@@ -2,10 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A few samples cannot give a full covariance, so the scatter of one sample has a fixed form. The curve t/s is shifted
 as a whole (level) and varies locally, correlated in strain (shape). Volume has a constant scatter and one in proportion
-to strain. Widths scatter independently, the profile as profiles.py says. A measured curve may bring deviations of its
-own, which replace this form."""
-
-from __future__ import annotations
+to strain. Widths scatter independently, profiles as profiles.py says. A curve's own deviations replace this form."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
@@ -62,8 +59,7 @@ NO_SCATTER = Noise(**{key: 0 for keys in ESTIMATED.values() for key in keys})
 class Data:
     """The samples of one path. values: (samples, observables), NaN if a sample has none. given: (observables)
     deviations that a measured curve brings, NaN where it brings none. runs: number of samples of grains that are
-    compared with the data in their mean; 0: a continuum without scatter. own: the scatter of one sample of this path;
-    None: that of the calibration."""
+    compared with the data in their mean; 0: a continuum. own: the scatter of this path; None: the calibration's."""
 
     observables: Sequence[Observable]
     values: Array
@@ -131,8 +127,7 @@ def _stress_squares(paths: Iterable[Data]) -> tuple[float, float]:
 
 
 def _volume_squares(paths: Iterable[Data]) -> Array:
-    """(2): variances of start and growth in v = start^2 + growth^2 progress^2. The scatter of a variance is
-    proportional to it."""
+    """(2): variances of start and growth in v = start^2 + growth^2 progress^2. A variance scatters in proportion."""
     normal, right = np.zeros((2, 2)), np.zeros(2)
     for path in paths:
         at = path.of("volumetric_strain")
@@ -156,8 +151,7 @@ def _width_square(paths: Iterable[Data]) -> float:
 
 
 def _profile_squares(paths: Iterable[Data]) -> tuple[float, float]:
-    """Variance of ln(width), from the mean stretch of all windows of a sample; and the factor of the noise, from the
-    rest."""
+    """Variance of ln(width), from the mean stretch of a sample's windows; the factor of the noise, from the rest."""
     stretch = left = freedom = strips = 0.0
     for path in paths:
         (_, mode, variance), common = path.shapes(), []

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A measured curve stands instead of grains. One outline serves all samples of a path."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -38,7 +36,7 @@ class Observation:
     stress_ratio: Array = field(default_factory=NO_CURVE.copy)
     volumetric_strain: Array = field(default_factory=NO_CURVE.copy)
     failure: str = ""  # reason if the run did not finish
-    samples: list[Observation] = field(default_factory=list)  # of a mean over seeds
+    samples: "list[Observation]" = field(default_factory=list)  # of a mean over seeds
 
 
 @dataclass(kw_only=True)
@@ -122,8 +120,7 @@ def windows_of(observables: Sequence[Observable]) -> list[tuple[float, float]]:
 
 def observe_curve(scene: _diptych.Scene, observables: Sequence[Observable], file: str) -> tuple[Observation, Array]:
     """A measured curve and the deviations (observables) that it brings, NaN where it brings none. Bins that begin
-    before its first row have no value. The deviation of a bin is its mean, as the error of one test is common to
-    neighbouring readings."""
+    before its first row have no value. A bin's deviation is a mean: the error of a test is common to close readings."""
     table = read_curve(file)
     o, deviations = observe_history(scene, observables, table), np.full(len(observables), np.nan)
     x = table["progress"].to_numpy()

@@ -2,10 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The data are emulator + discrepancy + scatter (Kennedy & O'Hagan, J. R. Stat. Soc. B 63 (2001) 425). The discrepancy
 of t/s and volume is a process over strain, independent between paths; the data of all paths tell its size and its
-correlation length. emcee samples them together with the parameters. Variances that a few samples gave are sampled as
-well."""
-
-from __future__ import annotations
+correlation length. emcee samples them with the parameters and the variances that a few samples gave."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -41,8 +38,7 @@ FARTHEST, LARGE = 6.0, 1e30  # ln of a factor of a variance: two samples bound i
 class Draws:
     """Thinned draws of the posterior. points: (draws, parameters). sizes: (draws, 3), the factors of the tolerance of
     t/s and of volume, and the correlation strain. strain: correlation strain before the data. curve: (2, observables),
-    the discrepancy model - truth and its deviation; NaN where an observable does not count. autocorrelation: in
-    steps."""
+    the discrepancy model - truth and its deviation; NaN: does not count. autocorrelation: in steps."""
 
     points: Array
     sizes: Array
@@ -54,8 +50,7 @@ class Draws:
 
 class Posterior:
     """Log-probability of points (n, parameters + 3 + 3): logarithms of the factors of t/s and volume, of the
-    correlation strain / its value before, and of three variances of the scatter follow the parameters. It is zero where
-    the nearest run failed."""
+    correlation strain / its value before, and of three variances follow the parameters. Zero beside a failed run."""
 
     def __init__(self, data: FittedData, coordinates: Coordinates, points: Array, is_fine: Array,
                  values: Array) -> None:

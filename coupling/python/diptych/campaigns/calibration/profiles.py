@@ -5,8 +5,6 @@ band it is the shear. Both sides count as one. A band has the shape c / cosh^2(y
 to sample: this `stretch` is common to all strips and windows of a sample. The rest is noise, whose variance is
 proportional to the profile and to 1 / breadth of a strip."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

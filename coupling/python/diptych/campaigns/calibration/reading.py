@@ -1,9 +1,6 @@
 # diptych: the first phase of a calibration: what is fitted to which data
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Everything is checked before a run changes the folder. Afterwards the data are checked for the step of their
-grains."""
-
-from __future__ import annotations
+"""Everything is checked before a run changes the folder; then the data, for the step of their grains."""
 
 import argparse
 from collections.abc import Sequence

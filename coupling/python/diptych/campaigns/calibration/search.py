@@ -4,8 +4,6 @@
 Gauss-Newton steps in a trust region. The Jacobian comes from forward differences, which run in parallel, and Broyden's
 rank-one update follows the accepted steps."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
@@ -28,8 +26,7 @@ NORMAL = float(scipy.stats.norm.ppf(0.975))
 
 
 def difference_jacobian(residuals: Residuals, point: Array, residual: Array, difference: float = DIFFERENCE) -> Array:
-    """(residuals, parameters): differences around a point. If a run fails, the column uses the other side; it is zero
-    if both fail."""
+    """(residuals, parameters): differences around a point, from the other side if a run fails, zero if both fail."""
     def columns(numbers: Sequence[int], steps: Array) -> Array:
         return np.array([(value - residual) / steps[k] for k, value in
                          zip(numbers, residuals([point + steps[k] * np.eye(len(point))[k] for k in numbers]))])

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """`diptych calibrate SCENE --seeds LIST` stands for a calibration file. This module holds its contents."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 from typing import Any

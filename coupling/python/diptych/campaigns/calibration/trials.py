@@ -3,8 +3,6 @@
 """Searches from several starts on coarse meshes, then continues on the samples' own meshes with the coarse Jacobian.
 Grains in the place of the continuum have one mesh only."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from collections.abc import Callable, Sequence
@@ -32,8 +30,7 @@ RunModel = Callable[[Sequence[Path], Sequence[Sequence[Sequence[Setting]]], bool
 
 
 class Trials:
-    """Runs of the model at points of the parameters. `record` always holds the best point so far. Raises NotConverged
-    without data."""
+    """Runs of the model. `record` always holds the best point so far. Raises NotConverged without data."""
 
     def __init__(self, calibration: Calibration, coordinates: Coordinates, paths: Sequence[Path], run: RunModel,
                  record: dict[str, Any]) -> None:

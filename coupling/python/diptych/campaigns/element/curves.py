@@ -1,11 +1,8 @@
 # diptych: curves of grains and of the law's point along one path, and their numbers
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The path is divided into BINS equal parts of its progress. Every curve has the mean of each part; t/s, anisotropy and
-directions are those of the mean stress and of the mean fabric. Arrays of the grains are (sample, part); NaN: beyond the
-end of a run.
+directions are those of the mean stress and fabric. Grains: (sample, part); NaN: beyond the end of a run.
 """
-
-from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -102,8 +99,7 @@ def _last(values: np.ndarray, average: Callable[[Sequence[float]], Statistics]) 
 
 
 def key_numbers(curves: Curves) -> list[dict[str, Any]]:
-    """Quantities of element.json: the largest t/s, and the values in the last parts; with 95 % intervals over the
-    samples."""
+    """Quantities of element.json: largest t/s, and values in the last parts, with 95 % intervals over the samples."""
     rows = []
     for quantity in ("largest stress_ratio", *(f"last {name}" for name in QUANTITIES)):
         when, name = quantity.split()

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs the grains of every seed and the law's point, and writes element.csv, element.json and report.html."""
 
-from __future__ import annotations
-
 import argparse
 import os
 import shlex
@@ -83,8 +81,7 @@ def _done(runs: Runs, wanted: Sequence[SceneRun], options: Options) -> list[str]
 
 
 def _law_settings(settings: Sequence[Setting], scene: Any, tables: Sequence[pd.DataFrame]) -> list[Setting]:
-    """With the mean solid fraction of the prepared samples, if the law needs one and the scene leaves it to the
-    grains."""
+    """With the mean solid fraction of the samples, if the law needs one and the scene leaves it to the grains."""
     law = scene.dict()["continuum"]
     if law["hardening"] not in FOLLOW_DENSITY or law["solid_fraction_start"] != "auto":
         return list(settings)

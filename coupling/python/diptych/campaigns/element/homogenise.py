@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Grains of a result folder, or of files of another code, as fields: tables, maps for ParaView and a page."""
 
-from __future__ import annotations
-
 import argparse
 import os
 import shlex

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A sample of a result folder as a start for another code, or all stages for OVITO."""
 
-from __future__ import annotations
-
 import argparse
 import os
 from typing import Any

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Frames of another code, checked and stored like results of the grains."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import math

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Draws the page of any folder of results again."""
 
-from __future__ import annotations
-
 import argparse
 import os
 

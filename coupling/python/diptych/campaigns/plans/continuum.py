@@ -3,10 +3,7 @@
 """Starts from coarse elements and long load steps and halves one size after the other, until the estimated error is
 within its share of the accuracy. Then takes the largest size that the share allows. Cheaper models (small strain, a law
 without an internal length, simpler elements) are used if they change the results by less than their share. If the
-results of a law without an internal length keep changing with the elements, its Cosserat counterpart replaces it, and
-the plan reports this."""
-
-from __future__ import annotations
+results of a law without an internal length keep changing with the elements, the plan uses its Cosserat counterpart."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field

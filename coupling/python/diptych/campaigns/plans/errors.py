@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """All errors are relative to the mean; those of angles are relative to 45 degrees."""
 
-from __future__ import annotations
-
 from bisect import bisect_left
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -78,14 +76,12 @@ def refinement(sizes: Sequence[float], values: Sequence[float]) -> Refinement:
 
 
 def half_interval(deviation: float, n: int) -> float:
-    """Half the 95 % Student interval of the mean of n samples. For n = 1 the deviation is taken as known from four
-    samples."""
+    """Half the 95 % Student interval of the mean of n samples. For n = 1 four samples gave the deviation."""
     return float(OF_ONE_SAMPLE * deviation if n < 2 else student_quantile(0.975, n - 1) * deviation / np.sqrt(n))
 
 
 def samples_for(deviation: float, half: float) -> int:
-    """Smallest number of samples for an interval below `half`. 0 if a million do not suffice or the deviation is
-    unknown."""
+    """Smallest number of samples for an interval below `half`; 0 beyond a million, or for an unknown deviation."""
     if not (half > 0 and deviation >= 0):
         return 0
     if half_interval(deviation, 1) <= half:
@@ -95,8 +91,7 @@ def samples_for(deviation: float, half: float) -> int:
 
 
 def summary_of(values: Sequence[float], is_line: bool) -> tuple[Statistics, float]:
-    """Statistics of the samples that have a value, in its unit, and the relative scatter of one sample (NaN below
-    two)."""
+    """Statistics of the samples that have a value, and the relative scatter of one sample (NaN below two)."""
     found = (line_statistics if is_line else statistics)(values)
     return found, found.deviation / (UNIT_OF_ANGLES if is_line else abs(found.mean))
 
@@ -137,8 +132,7 @@ class GrainErrors:
 
 def cheapest_choice(errors: Sequence[GrainErrors], cost: Sequence[tuple[float, float]], target: float,
                     samples: int) -> tuple[float, int]:
-    """(discrete/accuracy, number of samples) with the least cost; 0 samples: no number suffices. `samples`: their fixed
-    number, or 0."""
+    """(discrete/accuracy, samples) of least cost; 0: no number suffices. `samples`: their fixed number, or 0."""
     best, least = (0.0, 0), np.inf
     for k in range(24):
         accuracy = max(FINEST_ACCURACY, rounded_to_two_digits(COARSEST_ACCURACY * 2 ** (-k / 4)))

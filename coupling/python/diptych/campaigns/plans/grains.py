@@ -5,8 +5,6 @@ cost, and test the rule for the errors of step and tolerance (a factor, 1 +- 0.5
 accuracy that reaches the goal with the least CPU time. A coarser one is cheaper, but leaves less for the interval of
 the mean and so needs more samples. Two levels (levels.py) replace it if they save a fifth of that time."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -220,8 +218,7 @@ class GrainsPlan:
         self._advise()
 
     def _find_repeatability(self) -> None:
-        """Runs diverge from the last digit on. Runs with almost the same accuracy show how far one run may lie from
-        their mean."""
+        """Runs diverge from the last digit on. Almost equal accuracies show how far a run may lie from their mean."""
         points = [self._run_at(share * self.levels[-1].accuracy, ()) for share in (1, 0.98, 0.96, 0.94)]
         for q, asked in enumerate(self.quantities):
             values = [point.values[q][0] for point in points if not point.failure]

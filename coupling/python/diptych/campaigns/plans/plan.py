@@ -1,9 +1,6 @@
 # diptych: the command plan: settings and number of samples that a scene needs for an accuracy
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Pilot runs in DIR/runs, plan.json and planned.prm; with --run the planned samples, too. A plan is a rule on runs of a
-study."""
-
-from __future__ import annotations
+"""Pilot runs in DIR/runs, plan.json and planned.prm; with --run the planned samples. A plan is a rule on runs."""
 
 import argparse
 import math

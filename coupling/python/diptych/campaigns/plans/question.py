@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The question comes from the command line; the answer is plan.json, planned.prm and a report as text."""
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Callable, Sequence
@@ -100,8 +98,7 @@ class Budget:
 @dataclass(kw_only=True)
 class PanelPlan:
     """The plan of one panel. seeds: empty: the one sample of the scene. CPU time and memory are those of one sample.
-    levels: of a plan with two levels: cheap and fine (discrete/accuracy), pairs, fine_cpu_s. The rest is that of the
-    cheap one."""
+    levels: cheap and fine (discrete/accuracy), pairs, fine_cpu_s of two levels. The rest is that of the cheap one."""
 
     panel: str
     command: str

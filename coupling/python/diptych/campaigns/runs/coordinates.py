@@ -3,8 +3,6 @@
 """Strengths, stiffnesses and lengths are varied in their logarithm. A residual angle is varied by its drop, and a
 dilatancy angle by its share of a friction angle, so that no combination contradicts itself."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -21,8 +19,7 @@ USUAL = {"friction_angle_residual": "drop_from", "dilatancy_angle_peak": "share_
 @dataclass(frozen=True, kw_only=True)
 class Parameter:
     """A key of the section continuum, or discrete/KEY. start, low, high: numbers of the coordinate, the value itself
-    (also of a logarithm), a share or a drop. targets: names of the targets that it belongs to; empty: one value for
-    all."""
+    (also of a logarithm), a share or a drop. targets: names of those that it belongs to; empty: one value for all."""
 
     key: str
     coordinate: str

@@ -5,8 +5,6 @@ exit code on a line. Threads hand the runs to workers; under mpirun each other p
 neither on the number of workers nor on the order of the runs.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import os
@@ -55,7 +53,7 @@ class Options:
     words: Sequence[str] = ()  # the command line
 
     @staticmethod
-    def of(line: argparse.Namespace, words: Sequence[str]) -> Options:
+    def of(line: argparse.Namespace, words: Sequence[str]) -> "Options":
         """Those of a parsed command line; a command may lack some."""
         names = [one.name for one in fields(Options) if one.name in line]
         return Options(**{name: getattr(line, name) for name in names}, words=words)
@@ -76,7 +74,7 @@ class Run:
     scene: str  # path of its file
     name: str  # of the scene, for its results
     label: str  # of the run, for messages: "seed 3"
-    settings: Sequence[Setting] = ()
+    settings: "Sequence[Setting]" = ()
     folder: str  # result folder
     log: str  # output and errors are appended to this file
     resume: bool = False

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A history is a table with ascending `progress`, the loading variable: axial strain, shear strain or time."""
 
-from __future__ import annotations
-
 import math
 import os
 

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Parts of a JSON input file, with checked access to their members."""
 
-from __future__ import annotations
-
 import json
 import os
 import re
@@ -32,11 +30,11 @@ class Setting(NamedTuple):
         """ "section/key = value" """
         return f"{self.section}/{self.key} = {self.value}"
 
-    def with_seed(self, seed: int | str) -> Setting:
+    def with_seed(self, seed: int | str) -> "Setting":
         """The setting with {seed} in its value replaced."""
         return self._replace(value=self.value.replace("{seed}", str(seed)))
 
-    def check(self) -> Setting:
+    def check(self) -> "Setting":
         """Raises SceneError if no scene has such a key or such a value of it, or if it sets the folder of a run."""
         _diptych.check_entry(self.with_seed(1))
         if (self.section, self.key) == ("output", "directory"):
@@ -103,7 +101,7 @@ class Part:
         self.file, self.lines, self.value, self.pointer = file, lines, value, pointer
 
     @staticmethod
-    def read(file: str, usual: str) -> Part:
+    def read(file: str, usual: str) -> "Part":
         """The whole of a JSON file; comments are allowed. usual: the keys that it needs."""
         if os.path.isfile(file) and os.path.getsize(file) == 0:
             raise SceneError(f"{file}: is empty; a JSON object with {usual} is needed")
@@ -144,13 +142,13 @@ class Part:
     def has(self, key: str) -> bool:
         return isinstance(self.value, dict) and key in self.value
 
-    def at(self, key: str) -> Part:
+    def at(self, key: str) -> "Part":
         """A member that must be there."""
         if not self.has(key):
             self.refuse(f"'{key}' is missing")
         return Part(self.file, self.lines, self.value[key], f"{self.pointer}/{key.replace('/', '~1', 1)}")
 
-    def list(self, key: str) -> list[Part]:
+    def list(self, key: str) -> "list[Part]":
         """The entries of a list; empty if it is missing."""
         if not self.has(key):
             return []
@@ -195,14 +193,14 @@ class Part:
             self.refuse(f" = '{word}' is not allowed; use one of {', '.join(choices)}", key)
         return word
 
-    def seeds(self, key: str) -> list[int]:
+    def seeds(self, key: str) -> "list[int]":
         """As on the command line: "1-8", "1,3,5-7" or a number. Empty if it is missing."""
         try:
             return read_seeds(value_text(self.value[key])) if self.has(key) else []
         except SceneError as error:
             self.refuse(str(error).removeprefix("--seeds"), key)
 
-    def settings(self, key: str) -> list[Setting]:
+    def settings(self, key: str) -> "list[Setting]":
         """{"section/key": value, ...}, each checked. Empty if it is missing."""
         if not self.has(key):
             return []

@@ -3,8 +3,6 @@
 """The rows of summary.csv: peak, strength, platen force, volume, inclination and width of the band in the last window.
 Their keys, names and margins are those of coupling/comparison/key_quantities.h."""
 
-from __future__ import annotations
-
 import math
 import os
 from collections.abc import Mapping, Sequence

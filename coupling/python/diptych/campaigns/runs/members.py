@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Collects the numbers of a comparison that may be averaged over samples."""
 
-from __future__ import annotations
-
 import functools
 import math
 from dataclasses import dataclass, field
@@ -36,8 +34,7 @@ class Member:
         return self.numbers.get(name, (math.nan,))[0]
 
     def collect(self, value: Any, place: str, name: str) -> None:
-        """Adds the numbers below a value. Lists with names become "probe zone"; of the bands only the first, strongest
-        one."""
+        """Adds the numbers below a value. Lists with names become "probe zone"; only the strongest band counts."""
         if isinstance(value, dict) and "value" in value:
             self.collect(value["value"], place, name)
         elif isinstance(value, dict):
@@ -68,8 +65,7 @@ class Member:
             self.collect(window, place, prefix + name)
 
     def fold(self) -> None:
-        """Folds mirror images of a band onto each other: angle and offset lose their sign, the jump changes it with the
-        angle."""
+        """Folds mirror images of a band: angle and offset lose their sign, the jump changes it with the angle."""
         negative = {name.rpartition(" ")[0] for name, (value, *_, place) in self.numbers.items()
                     if place.endswith("/bands/angle_deg") and value < 0}
         folded = {}
@@ -83,8 +79,7 @@ class Member:
 
 
 def number_name(panel: str, key: str, window: str = "") -> str:
-    """Name of a compared quantity in the numbers of a member. panel: discrete, continuum or continuum_coarse; window:
-    that of a band."""
+    """Name of a compared quantity in a member. panel: discrete, continuum or continuum_coarse; window: of a band."""
     if not window:
         return f"{panel}_summary {key}"
     of = f"{panel} {window}" if panel == "continuum_coarse" else f"{window} {panel}"
@@ -93,8 +88,7 @@ def number_name(panel: str, key: str, window: str = "") -> str:
 
 def member_of(path: str, folded: bool) -> Member:
     """The numbers of a comparison.json. Names: "stage 0.04 discrete probe zone t_over_s", "window 0.02-0.04 continuum
-    band angle_deg" (of the strongest band; absent without one), "discrete_summary peak_stress_ratio". Raises
-    ValueError."""
+    band angle_deg" (of the strongest band), "discrete_summary peak_stress_ratio". Raises ValueError."""
     return member_of_record(read_json(path), folded)
 
 

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Values of independent samples. NaN marks a missing value or an interval that is unknown (fewer than two samples)."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -16,11 +14,9 @@ from ...arrays import Interval
 
 
 def student_quantile(probability: float, degrees_of_freedom: float) -> float:
-    """Quantile of Student's distribution, probability in (0.5, 1); the normal one for infinitely many degrees of
-    freedom.
+    """Quantile of Student's distribution, probability in (0.5, 1); the normal one for infinite degrees of freedom.
 
-    Through the incomplete beta function, to 1e-14; scipy.special.stdtrit has errors of 1e-11 and scipy.stats loads
-    slowly.
+    Through the incomplete beta function, to 1e-14; stdtrit has errors of 1e-11, and scipy.stats loads slowly.
     """
     if math.isinf(degrees_of_freedom):
         return float(ndtri(probability))
@@ -59,8 +55,7 @@ def line_statistics(degrees: Sequence[float]) -> Statistics:
     """The same for angles of lines [degrees], which repeat after 180.
 
     The mean is half the direction of the sum of the doubled unit vectors, in (-90, 90]. The deviation is that of the
-    rotations from it. NaN if the lines have no mean direction. Source: Mardia and Jupp, Directional Statistics (2000),
-    section 2.2.
+    rotations from it. NaN: no mean direction. Source: Mardia and Jupp, Directional Statistics (2000), section 2.2.
     """
     x = known(degrees)
     total = np.exp(1j * np.radians(2 * x)).sum()
@@ -91,7 +86,7 @@ class Difference:
     difference: Interval
     difference_90: Interval
 
-    def with_errors(self, errors: Sequence[tuple[float, float]]) -> Difference:
+    def with_errors(self, errors: Sequence[tuple[float, float]]) -> "Difference":
         """Intervals that hold further independent errors: (standard uncertainty, degrees of freedom). Half widths add
         in squares (Abernethy, Benedict and Dowdell, J. Fluids Eng. 107 (1985) 161)."""
         def wider(found: Interval, confidence: float) -> Interval:
@@ -129,8 +124,7 @@ def paired(first: Sequence[float], second: Sequence[float], kind: str = "absolut
 
 
 def _fieller(a: np.ndarray, b: np.ndarray, confidence: float) -> Interval:
-    """The ratios q that Student's test of mean(b - q a) = 0 does not reject, less 1: between the roots of a
-    parabola."""
+    """The ratios q that Student's test of mean(b - q a) = 0 does not reject, less 1: between roots of a parabola."""
     n, (mean_a, mean_b) = len(a), (statistics(a).mean, statistics(b).mean)
     value = mean_b / mean_a - 1 if mean_a != 0 else math.nan
     if n < 2:
@@ -156,8 +150,7 @@ def fit_convergence(h: Sequence[float], values: Sequence[float]) -> Convergence 
     """Least squares over orders from 1/4 to 6 in steps of 0.01, for at least three different h > 0.
 
     None if the values follow no power law: the best order is at an end of the range, the rms residual exceeds a
-    twentieth of the values' range, or all values are equal. Source: Roache, J. Fluids Eng. 116 (1994) 405: the order is
-    to be observed.
+    twentieth of their range, or all are equal. Source: Roache, J. Fluids Eng. 116 (1994) 405: observe the order.
     """
     sizes, y = np.asarray(h, float), np.asarray(values, float)
     if len(np.unique(sizes)) < 3 or not np.ptp(y) > 0:
@@ -175,8 +168,7 @@ def fit_convergence(h: Sequence[float], values: Sequence[float]) -> Convergence 
 
 
 def jackknife_convergence(h: Sequence[float], values: np.ndarray) -> tuple[Interval, Interval, float] | None:
-    """(order, limit, coefficient) of values (points, samples), with intervals from leaving out one sample at a time
-    (Tukey).
+    """(order, limit, coefficient) of values (points, samples), with jackknife intervals over the samples (Tukey).
 
     They are unknown below three samples, or if there is no power law without one of them.
     """

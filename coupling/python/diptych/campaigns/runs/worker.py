@@ -1,10 +1,7 @@
 # diptych: a process that does one run after another for its parent
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """python -m diptych.campaigns.runs.worker PARENT. Reads runs from standard input until it ends, lines of JSON as
-Run.line() makes them. Appends the output and the errors of each to its log, and answers with its exit code on a
-line."""
-
-from __future__ import annotations
+Run.line() makes them. Appends output and errors of each to its log, and answers with its exit code on a line."""
 
 import json
 import os

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Evaluates a study without a reference. The statistics are described in README.md of this folder."""
 
-from __future__ import annotations
-
 import bisect
 import functools
 import math
@@ -181,8 +179,7 @@ def text_of_quantity(quantity: dict[str, Any]) -> str:
 
 
 def text_of_changes(study: Study, changes: Sequence[dict[str, Any]]) -> list[str]:
-    """ "discrete/friction, not resolved: peak t/s (grains needs about 14 samples)"; one line per verdict and
-    parameter."""
+    """ "discrete/friction, not resolved: peak t/s (grains needs about 14 samples)"; a line per verdict, parameter."""
     if len(study.seeds) < 2:
         return ["one sample has no scatter to compare a change with" +
                 ("" if study.command == "continuum" else "; at least two are needed, such as --seeds 1-4")]

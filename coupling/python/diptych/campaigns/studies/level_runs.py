@@ -3,8 +3,6 @@
 """Every sample runs at the cheap discrete/accuracy. The first samples run once more, grains only, at the fine one;
 pilot pairs tell how many. levels.py has the statistics."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import replace
@@ -39,8 +37,7 @@ class Levels(NamedTuple):
 
 
 def read_levels(text: str, n_samples: int) -> Levels | None:
-    """--levels: "auto" or two accuracies such as "0.05,0.01"; None without it. Raises SceneError, also for a single
-    sample."""
+    """--levels: "auto" or two accuracies such as "0.05,0.01"; None without it. Raises SceneError."""
     if text and n_samples < 2:
         raise SceneError(f"--levels {text} needs at least two samples, for example --seeds 1-16", "--levels")
     if text in ("", "auto"):
@@ -179,12 +176,10 @@ def add_summary(record: dict[str, Any], levels: dict[str, Any]) -> None:
 
 def _compared(found: dict[str, Any], verdict: dict[str, Any],
               errors: Sequence[tuple[float, float]]) -> tuple[Interval, Interval, str]:
-    """The limit, continuum minus limit, and its verdict. errors: those of the continuum, as Difference.with_errors()
-    has them.
+    """The limit, continuum minus limit, and its verdict. errors: of the continuum, as in Difference.with_errors().
 
     Both panels share the samples, so continuum - factor x grains has a limit of its own. With the factor q = continuum
-    / limit it is 0. Its interval divided by the limit is that of the relative difference q - 1, with the scatter of the
-    grains."""
+    / limit it is 0. Its interval / limit is that of the relative difference q - 1, with the scatter of the grains."""
     continuum, cheap, fine = (np.array(values, float) for values in (verdict["continuum"], verdict["discrete"],
                                                                      found["fine"]))
 

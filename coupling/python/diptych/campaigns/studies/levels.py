@@ -10,14 +10,10 @@ nothing. With r = e(fine) / e(cheap) the estimate of the limit is
 
 The first mean has the scatter of the samples, which falls with N; the second has only that of the differences. The
 variance of the estimate is v_many / N + v_pairs / n with v_many = var X - 2 w cov(X, X - Y) and v_pairs = w^2 var(X -
-Y). For a given cost it is least if n / N = sqrt((v_pairs / c_fine) / (v_many / c_cheap)), where c are the costs of one
-run.
+Y). For a given cost it is least if n / N = sqrt((v_pairs / c_fine) / (v_many / c_cheap)), c the cost of a run.
 
-Sources: Giles, Operations Research 56 (2008) 607 (levels, numbers); Lemaire and Pages, Bernoulli 23 (2017) 2643
-(weights).
+Sources: Giles, Operations Research 56 (2008) 607; weights: Lemaire and Pages, Bernoulli 23 (2017) 2643.
 """
-
-from __future__ import annotations
 
 import math
 from bisect import bisect_left
@@ -69,8 +65,7 @@ class Variances(NamedTuple):
 
 
 def _half_interval(pairs: tuple[float, int], rest: tuple[float, int], order: float, confidence: float = 0.95) -> float:
-    """pairs, rest: (variance of their part, number of samples that tell it). Degrees of freedom by Welch and
-    Satterthwaite."""
+    """pairs, rest: (variance of their part, samples that tell it). Degrees of freedom by Welch and Satterthwaite."""
     square, probability = pairs[0] + rest[0], (1 + confidence) / 2
     of_order = student_quantile(probability, math.inf) * order
     if square == 0:
@@ -100,8 +95,7 @@ def predicted(scatter: float, divergence: float, ratio: float, difference: float
 
 
 def numbers_for(found: Sequence[Variances], costs: tuple[float, float], half: float, most: int) -> tuple[int, int]:
-    """The cheapest (N, n) whose 95 % intervals are all narrower than +- half; (0, 0) if more than `most` samples are
-    needed."""
+    """The cheapest (N, n) whose 95 % intervals are all narrower than +- half; (0, 0): more than `most` samples."""
     share = max(one.share(costs) for one in found)
 
     def pairs(n: int) -> int:

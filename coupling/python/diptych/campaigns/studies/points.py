@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Points are references and places on the axes of families. Each has one run per sample."""
 
-from __future__ import annotations
-
 import itertools
 import math
 import os
@@ -39,8 +37,7 @@ class Point:
 
 
 def on_sample(settings: Sequence[Setting], seed: int | None, file: str) -> list[Setting]:
-    """The settings for one sample: the seed replaces {seed} in the values, or becomes sample/seed. file: gives the
-    seeds."""
+    """The settings for one sample: the seed replaces {seed}, or becomes sample/seed. file: gives the seeds."""
     if seed is None:
         return list(settings)
     names_seed = any("{seed}" in setting.value for setting in settings)
@@ -72,8 +69,7 @@ def _point(study: Study, settings: list[Setting], **place: Any) -> Point:
 
 def points_of(study: Study) -> list[Point]:
     """References first: that of the study, then one for every point of axes with their own references. Then all
-    families, the last axis fastest. Raises SceneError if a reference or every point is refused, or if there are more
-    than 100000 runs."""
+    families, the last axis fastest. Raises SceneError for a refused reference, if all are refused, or for MOST_RUNS."""
     n = 1 + sum(math.prod(len(axis.points) for axis in family.axes) if family.grid else len(family.axes[0].points)
                 for family in study.families)
     n_samples = len(study.seeds) or 1

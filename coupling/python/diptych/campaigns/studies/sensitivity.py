@@ -1,11 +1,8 @@
 # diptych: global sensitivity of the quantities of a study: Sobol indices of sparse polynomials
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A study with `ranges` runs a Latin hypercube of points. For each quantity orthogonal polynomials are fitted to the
-values (polynomial chaos; Sudret, Reliab. Eng. Syst. Saf. 93, 2008); the squares of their coefficients are shares of the
-variance.
+values (polynomial chaos; Sudret, Reliab. Eng. Syst. Saf. 93, 2008); squared coefficients are shares of the variance.
 """
-
-from __future__ import annotations
 
 import ctypes
 import importlib.util
@@ -67,8 +64,7 @@ def need_openturns() -> None:
 
 @contextmanager
 def _ctrl_c_waits() -> Iterator[None]:
-    """Each function of openturns takes over Ctrl-C and then aborts the process. Ctrl-C waits, and its handler is put
-    back."""
+    """Functions of openturns take over Ctrl-C and then abort the process. It waits, and its handler is put back."""
     libc, handler = ctypes.CDLL(None), ctypes.create_string_buffer(256)  # larger than a struct sigaction
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     libc.sigaction(signal.SIGINT, None, handler)
@@ -133,8 +129,7 @@ def _fitted(points: Array, values: Array, degree: int) -> tuple[Any, Array]:
 
 
 def sensitivity_of(study: Study, results: Results, records: Sequence[dict[str, Any]]) -> dict[str, Any]:
-    """The entry `sensitivity` of study.json. A point has the mean of its samples; points without a value are left
-    out."""
+    """The entry `sensitivity` of study.json. A point has the mean of its samples; points without one are left out."""
     finished = np.array([is_finished(runs) for runs in results])
     failed = sum(any(run.exit_code for run in runs) for runs in results)
     indices = []
@@ -176,8 +171,7 @@ def sensitivity_table(record: dict[str, Any]) -> pd.DataFrame:
 
 
 def text_of_indices(study: Study, record: dict[str, Any]) -> list[str]:
-    """ "peak t/s, continuum (128 of 128 points, Q2 0.982): friction_angle_peak 0.79 [0.74, 0.84], ..."; largest
-    first."""
+    """ "peak t/s, continuum (128 of 128 points, Q2 0.982): friction_angle_peak 0.79 [0.74, 0.84], ...", descending."""
     lines = ["total indices from 0.01: the share of the variance that a parameter causes alone and together with "
              "others"]
     for quantity, one in zip(study.quantities, record["indices"]):

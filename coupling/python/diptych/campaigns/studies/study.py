@@ -1,12 +1,9 @@
 # diptych: the command study: many points of a scene, each on every sample
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Runs the points of a study, evaluates them and writes study.json, study.csv, study_cost.json, study.h5 and
-report.html.
+"""Runs the points of a study, evaluates them, writes study.json, .csv, .h5, study_cost.json and report.html.
 
 A study without a reference also writes effects.csv, one with ranges sensitivity.csv.
 """
-
-from __future__ import annotations
 
 import argparse
 import math

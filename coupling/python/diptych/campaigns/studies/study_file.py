@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Reads and checks study files. The keys are described in README.md of this folder."""
 
-from __future__ import annotations
-
 import math
 import os
 from collections.abc import Sequence
@@ -38,8 +36,7 @@ class AxisPoint:
 
 @dataclass(kw_only=True)
 class Axis:
-    """`converges`: results have a limit as the values go to 0. `own_reference`: each point has a reference of its
-    own."""
+    """`converges`: results have a limit as values go to 0. `own_reference`: every point has its own reference."""
 
     name: str
     points: list[AxisPoint] = field(default_factory=list)
@@ -292,8 +289,7 @@ def read_study(file: str, overrides: Sequence[Setting] = ()) -> Study:
     """Reads a study file. `overrides` are settings of all points.
 
     Paths are relative to the folder of the study; those of overrides to the working directory. Keys and values are
-    checked one by one; the combinations are checked with the points. Raises SceneError with file, line, key, value and
-    the allowed values.
+    checked one by one, the combinations with the points. Raises SceneError with file, line, key and allowed values.
     """
     return study_of(Part.read(file, "scene and axes"), name_of(file, "study"), overrides)
 

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """`diptych study SCENE --vary KEY=VALUES` as the study file that gives the same study."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import os
@@ -46,8 +44,7 @@ def _axis(text: str) -> dict[str, Any]:
 
 
 def levels_of_words(line: argparse.Namespace, study: Study) -> Levels | None:
-    """--levels, whose cheap accuracy becomes a setting of all points. Raises SceneError if this study can have no
-    levels."""
+    """--levels, whose cheap accuracy becomes a setting of all points. Raises SceneError if none are possible."""
     wrong = {"has no grains (--panels continuum)": study.command not in ("run", "discrete"),
              "has ranges; give axes": study.ranges, "has a reference; remove it": study.reference is not None}
     for words in [words for words, applies in wrong.items() if applies and line.levels]:
@@ -59,8 +56,7 @@ def levels_of_words(line: argparse.Namespace, study: Study) -> Levels | None:
 
 
 def study_of_words(line: argparse.Namespace) -> tuple[Study, str]:
-    """The study of `diptych study` and the text of its study file. Raises SceneError for words that contradict each
-    other."""
+    """The study of `diptych study` and the text of its study file. Raises SceneError for contradictory words."""
     file, overrides = line.target, settings_of(line.set, line.set_file)
     if _is_study_file(file):
         for option, here in (("--vary", line.vary), ("--seeds", line.seeds), ("--panels", line.panels)):
