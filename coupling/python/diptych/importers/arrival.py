@@ -67,15 +67,10 @@ class Arrival:
     lacking: list[str] = field(default_factory=list)  # quantities that the files do not contain; null in all results
     doubtful: list[str] = field(default_factory=list)  # findings of the checks that a user should look at
 
-    def note(self, text: str) -> None:
-        """Adds a remark; once."""
-        if text not in self.remarks:
-            self.remarks.append(text)
-
     def record(self) -> dict[str, Any]:
         """The content of import.json; nan: unknown."""
-        names = ("format", "files", "thickness", "mean_diameter", "density", "remarks", "lacking", "doubtful")
-        return {**{name: getattr(self, name) for name in names}, "frames": self.checks}
+        return {name: value for name, value in vars(self).items() if name not in ("id", "checks")} | {
+            "frames": self.checks}
 
 
 def _sorted_grains(frame: Frame) -> dict[str, np.ndarray]:
@@ -100,51 +95,45 @@ def _require_effect(format: str, frames: Sequence[Frame], options: Options) -> N
         raise SceneError(f"import {format}: --density would have no effect: the files contain the masses of the grains")
 
 
-def _has_masses_of_spheres(radius: np.ndarray, mass: np.ndarray) -> bool:
-    """Masses that grow as r^3 belong to spheres, even if the run was in the plane."""
+def _thickness(format: str, is_spheres: bool, grains: dict[str, np.ndarray], options: Options) -> float:
+    """Spheres lie in one layer, and forces are those of its whole thickness. Masses that grow as r^3 belong to spheres,
+    even if the run was in the plane."""
+    radius, mass = grains["radius"], grains["mass"]
     by_area, by_volume = mass / (radius * radius), mass / (radius * radius * radius)
-    return bool(np.nanmax(by_volume, initial=0) < 1.001 * np.nanmin(by_volume, initial=np.inf)
-                and np.nanmax(by_area, initial=0) > 1.01 * np.nanmin(by_area, initial=np.inf))
-
-
-def _thickness(format: str, is_spheres: bool, options: Options) -> float:
-    """Spheres lie in one layer, and forces are those of its whole thickness."""
+    is_spheres = is_spheres or bool(np.nanmax(by_volume, initial=0) < 1.001 * np.nanmin(by_volume, initial=np.inf)
+                                    and np.nanmax(by_area, initial=0) > 1.01 * np.nanmin(by_area, initial=np.inf))
     if options.thickness is None and is_spheres:
         raise SceneError(f"import {format}: the grains are spheres; give --thickness T, the thickness over which the "
                          "forces act (stress = force / (length x T)), or 1 to keep forces per length")
     return 1.0 if options.thickness is None else options.thickness
 
 
-def _weights(frame: Frame, mass: np.ndarray, options: Options, arrival: Arrival) -> np.ndarray:
+def _weights(frame: Frame, mass: np.ndarray, options: Options) -> np.ndarray:
     gravity = np.array(frame.gravity if options.gravity is None else options.gravity, dtype=float)  # None: nan
     if not np.isfinite(gravity).all() or not gravity.any():
         return np.zeros((len(mass), 2))
     if not math.isfinite(mass[0]):
         raise refused(frame.grain_file, f"frame {frame.name}: gravity acts on the grains, but the files contain no "
                       "masses; give --density, the mass per area")
-    arrival.note("the grains have weight; the continuum of a run has none")
+    options.note("the grains have weight; the continuum of a run has none")
     return mass[:, None] * gravity
 
 
-def _require_same_grains(ids: np.ndarray, here: np.ndarray, frame: Frame) -> None:
-    lost = np.setdiff1d(ids, here)
-    if len(lost):
-        raise refused(frame.grain_file, f"frame {frame.name} lacks grain {lost[0]} of the first frame; displacements "
-                      "need the same grains in all frames")
+def _ordered(frame: Frame, grains: dict[str, np.ndarray], arrival: Arrival, options: Options) -> Instant:
+    ids, here = arrival.id, grains["id"]
+    for lost in np.setdiff1d(ids, here)[:1]:
+        raise refused(frame.grain_file, f"frame {frame.name} lacks grain {lost} of the first frame; displacements need "
+                      "the same grains in all frames")
     if len(here) != len(ids):
         raise refused(frame.grain_file, f"frame {frame.name} has {len(here)} grains, but the first frame "
                       f"has {len(ids)}")
-
-
-def _ordered(frame: Frame, grains: dict[str, np.ndarray], arrival: Arrival, options: Options) -> Instant:
-    _require_same_grains(arrival.id, grains["id"], frame)
     if arrival.frames and (frame.contacts is None or not len(frame.contacts["first"])):
         raise refused(frame.grain_file, f"frame {frame.name} has no contacts; every frame after the first needs them "
                       "for its stresses")
     grains["resultant"] = grains["resultant"] / arrival.thickness
     by_area = np.pi * grains["radius"] * grains["radius"] * (math.nan if options.density is None else options.density)
     grains["mass"] = np.where(np.isfinite(grains["mass"]), grains["mass"] / arrival.thickness, by_area)
-    grains["weight"] = _weights(frame, grains["mass"], options, arrival)
+    grains["weight"] = _weights(frame, grains["mass"], options)
     now = Instant(name=frame.name, grain_file=frame.grain_file, wall_file=frame.wall_file or frame.grain_file,
                   time=math.nan if frame.time is None else float(frame.time), grains=grains)
     take_contacts(frame, now, arrival, options)
@@ -153,14 +142,6 @@ def _ordered(frame: Frame, grains: dict[str, np.ndarray], arrival: Arrival, opti
         raise refused(frame.grain_file, f"frame {now.name} has the time {number(now.time)}, but frame {before.name} "
                       f"before it has {number(before.time)}")
     return now
-
-
-def _note_ids(arrival: Arrival) -> None:
-    first, last = arrival.id[0], arrival.id[-1]
-    gaps = last - first + 1 - len(arrival.id)
-    if gaps > 0:
-        arrival.remarks.append(f"ids run from {first} to {last} with {gaps} missing; grains are counted from 0 in the "
-                               "order of their ids")
 
 
 def _note_what_is_lacking(arrival: Arrival) -> None:
@@ -182,19 +163,21 @@ def arrive(format: str, frames: Sequence[Frame], options: Options) -> Arrival:
     """Orders and checks the frames. Raises SceneError with file, line and contradiction."""
     _require_effect(format, frames, options)
     grains = [_sorted_grains(frame) for frame in frames]
-    radius, n = grains[0]["radius"], len(grains[0]["id"])
-    if n < 3:
-        raise refused(frames[0].grain_file, f"{n} grains; at least 3 are needed")
-    is_spheres = any(frame.spheres for frame in frames) or _has_masses_of_spheres(radius, grains[0]["mass"])
-    arrival = Arrival(format=format, files=options.files, id=grains[0]["id"], remarks=list(options.notes),
-                      thickness=_thickness(format, is_spheres, options),
-                      mean_diameter=total(2 * radius / n) if options.mean_diameter is None else options.mean_diameter)
-    _note_ids(arrival)
+    first, ids = grains[0], grains[0]["id"]
+    if len(ids) < 3:
+        raise refused(frames[0].grain_file, f"{len(ids)} grains; at least 3 are needed")
+    thickness = _thickness(format, any(frame.spheres for frame in frames), first, options)
+    diameter = total(2 * first["radius"] / len(ids)) if options.mean_diameter is None else options.mean_diameter
+    arrival = Arrival(format=format, files=options.files, id=ids, remarks=options.notes, thickness=thickness,
+                      mean_diameter=diameter)
+    gaps = ids[-1] - ids[0] + 1 - len(ids)
+    if gaps > 0:
+        options.note(f"ids run from {ids[0]} to {ids[-1]} with {gaps} missing; grains are counted from 0 in the order "
+                     "of their ids")
     for frame, its in zip(frames, grains):
         arrival.frames.append(_ordered(frame, its, arrival, options))
     if options.walls_touch and not any(frame.is_guessed for frame in arrival.frames):
         raise SceneError(f"import {format}: --walls-touch would have no effect: the files give the place of every wall")
-    first = arrival.frames[0].grains
     arrival.density = total(first["mass"]) / total(np.pi * first["radius"] * first["radius"])
     arrival.lacking = list(dict.fromkeys(text for frame in frames for text in frame.lacking))
     _note_what_is_lacking(arrival)

@@ -28,7 +28,7 @@ REACH = 2.2  # of the search for overlaps [largest radii]; 2 finds all, more als
 MOST_OVERLAPS = 20  # per grain; discs that touch have at most three pairs per disc, whatever their sizes
 
 
-def _check_walls(now: Instant) -> None:
+def _checked_solid_fraction(now: Instant) -> float:
     """A wall with grains on both sides is in the wrong place or faces the wrong way."""
     for low in (0, 2):
         if now.place[low] >= now.place[low + 1]:
@@ -38,20 +38,16 @@ def _check_walls(now: Instant) -> None:
         if beyond > MOST_BEYOND * len(x):
             raise now.refused(f"the centres of {beyond} of {len(x)} grains lie beyond the {SIDES[side]} wall; it "
                               "stands across the sample", "wall_file")
-
-
-def _area(now: Instant) -> float:
-    return (now.place[3] - now.place[2]) * (now.place[1] - now.place[0])
-
-
-def _solid_fraction(now: Instant) -> float:
-    radius = now.grains["radius"]
-    share = total(np.pi * radius * radius) / _area(now)
+    share = total(np.pi * now.grains["radius"] * now.grains["radius"]) / _area(now)
     if share > MOST_SOLID_FRACTION:  # false without side walls
         raise now.refused(f"the discs cover {int(100 * share)} % of the area between the walls; at most "
                           f"{int(100 * MOST_SOLID_FRACTION)} % is possible. Check the places of the walls and the "
                           "radii (is one of them a diameter?)", "wall_file")
     return share
+
+
+def _area(now: Instant) -> float:
+    return (now.place[3] - now.place[2]) * (now.place[1] - now.place[0])
 
 
 def _near_pairs(now: Instant) -> Iterator[tuple[np.ndarray, np.ndarray]]:
@@ -185,11 +181,10 @@ def _doubts(now: Instant, check: dict[str, Any], gravity: np.ndarray | None, arr
 
 def _check(now: Instant, first_height: float, arrival: Any) -> dict[str, Any]:
     """The numbers of a frame, with the names of import.json; nan: unknown."""
-    n = len(arrival.id)
-    _check_walls(now)
+    n, solid_fraction = len(arrival.id), _checked_solid_fraction(now)
     check: dict[str, Any] = {
         "frame": now.name, "time": now.time, "axial_strain": 1 - (now.place[1] - now.place[0]) / first_height,
-        "grains": n, "mass": total(now.grains["mass"]), "solid_fraction": _solid_fraction(now),
+        "grains": n, "mass": total(now.grains["mass"]), "solid_fraction": solid_fraction,
         "largest_overlap": _largest_overlap(now) / arrival.mean_diameter,
         "contacts": int(np.sum(now.contacts["j"] < n)),
         **{side + "_contacts": int(np.sum(now.contacts["j"] == n + k)) for k, side in enumerate(SIDES)},

@@ -30,14 +30,6 @@ def _require_places(arrival: Arrival) -> None:
                               "to 100000 are allowed", "wall_file")
 
 
-def _strains(arrival: Arrival) -> dict[str, np.ndarray]:
-    """(frames): descent and travel of the upper wall / initial height."""
-    first = arrival.frames[0]
-    height = first.place[1] - first.place[0]
-    return {"axial_strain": np.array([1 - (now.place[1] - now.place[0]) / height for now in arrival.frames]),
-            "shear_strain": np.array([(now.travel - first.travel) / height for now in arrival.frames])}
-
-
 def _loading_variable(arrival: Arrival, strains: dict[str, np.ndarray]) -> str:
     """The strain that grows from frame to frame. Raises SceneError if neither does."""
     grows = {name: bool(np.all(strain[1:] > strain[:-1] + GROWTH)) for name, strain in strains.items()}
@@ -47,12 +39,6 @@ def _loading_variable(arrival: Arrival, strains: dict[str, np.ndarray]) -> str:
                       "loading: neither the descent of the upper wall nor its motion to the right grows from frame to "
                       "frame; import frames of one monotonic path, each once")
     return max((name for name in grows if grows[name]), key=lambda name: abs(strains[name][-1]))
-
-
-def _spin_terms(g: dict[str, np.ndarray]) -> np.ndarray:
-    """(1/2) omega^2 I of discs; 0 if spin or mass is unknown."""
-    term = 0.25 * g["mass"] * g["radius"] * g["radius"] * g["spin"] * g["spin"]
-    return np.where(np.isfinite(term), term, 0)
 
 
 def _forces(now: Instant, names: Sequence[str]) -> dict[str, float]:
@@ -65,8 +51,9 @@ def _snapshot(now: Instant, first: Instant, setting: dict[str, Any]) -> Any:
     grains = {name: g[name] for name in ("position", "velocity", "spin", "radius", "mass")}
     grains |= {name: g[of] - first.grains[of] for name, of in (("displacement", "position"), ("rotation", "rotation"))}
     touched = np.bincount(np.concatenate([now.contacts["i"], now.contacts["j"]]).astype(int), minlength=n)[:n]
-    grains |= {"mean_spin_term": _spin_terms(g), "rattler": touched == 0, "fixed": np.zeros(n),
-               "applied_force": g["weight"]}
+    spin_term = 0.25 * g["mass"] * g["radius"] * g["radius"] * g["spin"] * g["spin"]  # (1/2) omega^2 I of discs
+    grains |= {"mean_spin_term": np.where(np.isfinite(spin_term), spin_term, 0), "rattler": touched == 0,
+               "fixed": np.zeros(n), "applied_force": g["weight"]}
     setting |= {"time": now.time - (first.time if math.isfinite(first.time) else 0), "step": math.nan,
                 "residual": math.nan, "upper_platen_displacement_x": now.travel - first.travel,
                 "upper_platen_displacement_y": now.place[1] - first.place[1],
@@ -82,17 +69,6 @@ def _unbalanced_force(now: Instant) -> float:
     return total(length(sum_of_forces(now) + weight) / len(weight)) / normal
 
 
-def _platen_sliding(now: Instant) -> float:
-    n, status = len(now.grains["id"]), now.contacts["status"]
-    on_platens = (now.contacts["j"] == n) | (now.contacts["j"] == n + 1)
-    return np.mean(status[on_platens] == 2) if on_platens.any() and np.all(status != 3) else math.nan
-
-
-def _kinetic_energy(g: dict[str, np.ndarray]) -> float:
-    turning = 0.5 * g["radius"] * g["radius"] * g["spin"] * g["spin"]
-    return total(0.5 * g["mass"] * (dot(g["velocity"], g["velocity"]) + turning))
-
-
 UNKNOWN = ("kinetic_energy_ratio", "friction_dissipation", "impact_dissipation", "external_work", "correction_work",
            "rolling_dissipation", "energy_residual", "momentum_residual", "residual", "skew_moment", "inertial_number",
            "spin_term_share")
@@ -102,17 +78,19 @@ WALL_FORCES = [side + "_f" for side in SIDES]
 
 def _row(now: Instant, check: dict[str, Any], s: Any, first_area: float) -> dict[str, Any]:
     """A row of discrete.csv; columns that it does not have are 0."""
-    g = now.grains
+    g, c, n = now.grains, now.contacts, len(now.grains["id"])
+    turning = 0.5 * g["radius"] * g["radius"] * g["spin"] * g["spin"]
+    status = c["status"][(c["j"] == n) | (c["j"] == n + 1)]  # of contacts with the platens
     (sxx, sxy), (syx, syy) = stress = total(s.internal_moment / s.area)
     mean, t = 0.5 * (sxx + syy), np.hypot(0.5 * (sxx - syy), 0.5 * (sxy + syx))
     row = dict.fromkeys(UNKNOWN, math.nan) | {name: getattr(s, name) for name in SAME} | _forces(now, WALL_FORCES)
     row |= {"sxx": sxx, "sxy": sxy, "syx": syx, "syy": syy, "volumetric_strain": 1 - s.area / first_area,
             "stress_ratio": t / mean if np.isfinite(stress).all() and mean > 0 else math.nan,
-            "solid_fraction": total(np.pi * g["radius"] * g["radius"]) / s.area, "contacts": len(now.contacts["i"]),
-            "rattlers": int(s.rattler.sum()), "kinetic_energy": _kinetic_energy(g),
-            "max_penetration": check["largest_overlap"],
-            "unbalanced_force": _unbalanced_force(now) if len(now.contacts["i"]) else math.nan,
-            "platen_sliding": _platen_sliding(now)}
+            "solid_fraction": total(np.pi * g["radius"] * g["radius"]) / s.area, "contacts": len(c["i"]),
+            "kinetic_energy": total(0.5 * g["mass"] * (dot(g["velocity"], g["velocity"]) + turning)),
+            "rattlers": int(s.rattler.sum()), "max_penetration": check["largest_overlap"],
+            "unbalanced_force": _unbalanced_force(now) if len(c["i"]) else math.nan,
+            "platen_sliding": np.mean(status == 2) if len(status) and np.all(c["status"] != 3) else math.nan}
     if math.isfinite(g["spin"][0]) and math.isfinite(g["mass"][0]):
         row["spin_term_share"] = total(s.mean_spin_term) / s.area / mean
     return row
@@ -125,7 +103,10 @@ def results_of(arrival: Arrival) -> Any:
     Raises SceneError if the upper wall neither descends nor moves sideways steadily from frame to frame.
     """
     _require_places(arrival)
-    strains, first = _strains(arrival), arrival.frames[0]
+    first = arrival.frames[0]
+    height = first.place[1] - first.place[0]
+    strains = {"axial_strain": np.array([1 - (now.place[1] - now.place[0]) / height for now in arrival.frames]),
+               "shear_strain": np.array([(now.travel - first.travel) / height for now in arrival.frames])}
     walk = _loading_variable(arrival, strains) if len(arrival.frames) > 1 else "axial_strain"
     snapshots = []
     for k, now in enumerate(arrival.frames):

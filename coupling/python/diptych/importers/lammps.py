@@ -36,9 +36,9 @@ def _kinds_of(section: Section, options: Options) -> list[str]:
         table.columns = names
     is_grains = section.has_places() and table.find(*RADIUS, *DIAMETER) is not None
     if not is_grains and not _walls_in(table):
-        raise refused(table.path,
-                      f"step {section.step}: grains need the columns id, x y (or xs ys, xu yu) and radius or diameter, "
-                      "wall " f"contacts f_NAME[2] ...; its columns are {', '.join(table.columns)}; name others with "
+        columns = ", ".join(table.columns)
+        raise refused(table.path, f"step {section.step}: grains need the columns id, x y (or xs ys, xu yu) and radius "
+                      f"or diameter, wall contacts f_NAME[2] ...; its columns are {columns}; name others with "
                       "--columns particles=...", section.head())
     return ["grains"] * is_grains + ["walls"] * bool(_walls_in(table))
 
@@ -50,24 +50,19 @@ def _contacts(table: Table, frame: Frame, options: Options) -> dict[str, np.ndar
                       "--columns contacts=index,patom1,patom2,...")
     table.columns = names or table.columns
     first, second, force = table.whole(*FIRST), table.whole(*SECOND), table.vectors("fx", "fy")
-    _verify(table, frame, first, second, force)
+    ids, position = frame.grains["id"], frame.grains["position"]
+    a, b = rows_of(ids, first), rows_of(ids, second)
+    branch, size = position[a] - position[b], np.linalg.norm(force, axis=1)
+    across = abs(branch[:, 0] * force[:, 1] - branch[:, 1] * force[:, 0])  # else the columns mean something else
+    table.refuse((across > 1e-4 * np.linalg.norm(branch, axis=1) * size) & (a >= 0) & (b >= 0),
+                 lambda _: "fx, fy are not parallel to the line of the centres; do the columns have another meaning "
+                 "(--columns contacts=index,patom1,patom2,dist,...)?")
     if table.has("p1", "p2"):
         force = force + table.vectors("p1", "p2")
     else:
         frame.lacking = ["tangential forces (fx, fy of compute pair/local are the normal part, p1, p2 the tangential "
                          "part)"]
     return acting(contacts_of(first, second, force, line=table.lines))
-
-
-def _verify(table: Table, frame: Frame, first: np.ndarray, second: np.ndarray, force: np.ndarray) -> None:
-    """The normal force is parallel to the line of the centres: else the columns mean something else."""
-    ids, position = frame.grains["id"], frame.grains["position"]
-    a, b = rows_of(ids, first), rows_of(ids, second)
-    branch, size = position[a] - position[b], np.linalg.norm(force, axis=1)
-    across = abs(branch[:, 0] * force[:, 1] - branch[:, 1] * force[:, 0])
-    table.refuse((across > 1e-4 * np.linalg.norm(branch, axis=1) * size) & (a >= 0) & (b >= 0),
-                 lambda _: "fx, fy are not parallel to the line of the centres; do the columns have another meaning "
-                 "(--columns contacts=index,patom1,patom2,dist,...)?")
 
 
 def _wall_contacts(table: Table, frame: Frame) -> list[dict[str, np.ndarray]]:

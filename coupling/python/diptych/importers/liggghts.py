@@ -75,9 +75,8 @@ def _kinds_of(sections: list[Section], frames: dict[int, Frame], options: Option
         fitting = [kind for kind in USUAL if _fits(_named(section, kind, options), kind, frame)]
         if not fitting:
             raise refused(table.path, f"step {section.step}: {len(table.columns)} columns are neither contacts nor "
-                          "wall "
-                          "contacts; give the compute's keywords: --columns contacts=pos,id,... or walls=pos,id,...",
-                          section.head() + 1)
+                          "wall contacts; give the compute's keywords: --columns contacts=pos,id,... or "
+                          "walls=pos,id,...", section.head() + 1)
         kinds[group] = next((kind for kind in fitting if kind not in kinds.values()), fitting[0])
     return kinds
 
@@ -144,9 +143,8 @@ def read(options: Options) -> list[Frame]:
     require_same_steps(found, options)
     plates = {number_in_name(path): path for path in files["stl"]}
     for step, frame in frames.items():
-        parts = [(_contacts if kind == "contacts" else _wall_contacts)(_named(found[kind][step], kind, options), frame,
-                                                                       options)
-                 for kind in ("contacts", "walls") if step in found[kind]]
+        parts = [take(_named(found[kind][step], kind, options), frame, options)
+                 for kind, take in (("contacts", _contacts), ("walls", _wall_contacts)) if step in found[kind]]
         frame.contacts = joined(*parts) if parts else None
         if step in plates:
             _add_plates(plates[step], frame)

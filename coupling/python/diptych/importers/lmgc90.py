@@ -79,8 +79,8 @@ def _hdf5_frames(path: str, bodies: Bodies, gravity: tuple[float, float] | None)
             for name, group in file["Evolution"].items():
                 frame = Frame(name, {}, gravity=gravity, grain_file=path, contact_file=path)
                 frame.time, frame.step = float(np.ravel(group["TPS"][()])[0]), int(np.ravel(group["NStep"][()])[0])
-                motion, real, whole = (group[table][()] for table in ("RBDY2/rdata", "VlocRloc/rdata",
-                                                                      "VlocRloc/idata"))
+                tables = "RBDY2/rdata", "VlocRloc/rdata", "VlocRloc/idata"
+                motion, real, whole = (group[table][()] for table in tables)
                 if not np.all(np.isfinite(motion)) or not np.all(np.isfinite(real)) or len(real) != len(whole):
                     raise refused(path, f"Evolution/{name} has a number that is not finite, or tables of different "
                                   "lengths")
@@ -89,8 +89,8 @@ def _hdf5_frames(path: str, bodies: Bodies, gravity: tuple[float, float] | None)
                 values = np.column_stack([real[:, _columns(file, path, "VlocRloc/rdata/" + q, n)] for q, n in parts])
                 status = whole[:, _columns(file, path, "VlocRloc/idata/status", 1)][:, 0]
                 numbers = whole[:, _columns(file, path, "VlocRloc/idata/ibdyty", 2)]
-                frame.contacts = contacts_with(path, numbers, values, (status == 6) | (status == 7),
-                                               bodies)  # slides either way
+                slides = (status == 6) | (status == 7)  # either way
+                frame.contacts = contacts_with(path, numbers, values, slides, bodies)
                 frames.append(frame)
         return frames
     except (OSError, RuntimeError, KeyError, IndexError, TypeError, AttributeError, OverflowError) as error:

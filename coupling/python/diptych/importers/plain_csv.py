@@ -19,8 +19,8 @@ def _add_contacts(table: Table, frame: Frame, options: Options) -> None:
     first, second, force = table.whole(*FIRST), table.whole(*SECOND), table.vectors("fx", "fy")
     table.refuse((first < 0) & (second < 0), lambda k: "this is a contact of two walls")
     swap = first < 0
-    first, second, force = np.where(swap, second, first), np.where(swap, first, second), np.where(swap[:, None], -force,
-                                                                                                  force)
+    first, second = np.where(swap, second, first), np.where(swap, first, second)
+    force = np.where(swap[:, None], -force, force)
     numbers = sorted({int(number) for number in second[second < 0]}, reverse=True)
     frame.walls += [Wall(f"wall {number}") for number in numbers]
     wall = np.array([numbers.index(number) if number < 0 else -1 for number in second], dtype=int)

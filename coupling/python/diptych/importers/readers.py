@@ -60,14 +60,6 @@ def _refuse_unused(format: str, options: Options) -> None:
                              "columns, or the files name them")
 
 
-def _refuse_unknown(frame: Frame) -> None:
-    """A misspelt name would leave out what it holds."""
-    for kind, known in (("grains", GRAINS), ("contacts", CONTACTS)):
-        unknown = [name for name in getattr(frame, kind) or {} if name not in known]
-        if unknown:
-            raise SceneError(f"{kind} of frame {frame.name}: unknown name '{unknown[0]}'; known are {', '.join(known)}")
-
-
 def read_frames(format: str, options: Options) -> list[Frame]:
     """The frames that the options choose; those without grains are left out. Raises SceneError."""
     for path in options.files:
@@ -82,7 +74,10 @@ def read_frames(format: str, options: Options) -> list[Frame]:
     for frame in frames:
         frame.grain_file = frame.grain_file or f"import {format}"
         frame.contact_file = frame.contact_file or frame.grain_file
-        _refuse_unknown(frame)
+        for kind, known in (("grains", GRAINS), ("contacts", CONTACTS)):
+            # a misspelt name would leave out what it holds
+            for name in [name for name in getattr(frame, kind) or {} if name not in known]:
+                raise SceneError(f"{kind} of frame {frame.name}: unknown name '{name}'; known are {', '.join(known)}")
         if not len(frame.grains["id"]):
             options.note(f"frame {frame.name} has no grains; it was left out")
     frames = [frame for frame in frames if len(frame.grains["id"])]

@@ -94,7 +94,7 @@ def rows_below(path: str, lines: Sequence[str], start: int, count: int, columns:
     for k, row in enumerate(rows, 1):
         if len(row) != len(columns):
             raise refused(path, f"row {k} of {count} has {len(row)} entries instead of {len(columns)} "
-                          f"({' '.join(columns)}); " "is the number of rows in the head right?", start + k)
+                          f"({' '.join(columns)}); is the number of rows in the head right?", start + k)
     if len(rows) < count:
         raise refused(path, f"the file ends after {len(rows)} of {count} rows; is it truncated?", len(lines))
     return Table(path, columns, rows, np.arange(count) + start + 1)

@@ -19,10 +19,6 @@ SAME_FORCE = 1e-6  # of the two rows of a pair, relative
 FLAT = 0.02  # allowed scatter of a wall's contact points along its normal [mean radii]
 
 
-def _unknown_forces() -> np.ndarray:
-    return np.full((4, 2), np.nan)
-
-
 @dataclass(kw_only=True, repr=False)
 class Instant:
     """A frame in order, per unit thickness. nan: not in the files. Walls have the order of SIDES."""
@@ -36,8 +32,9 @@ class Instant:
     has_contacts: bool = False
     place: np.ndarray = field(default_factory=lambda: np.full(4, np.nan))
     travel: float = 0.0  # of the upper wall, to the right, since the first frame
-    force: np.ndarray = field(default_factory=_unknown_forces)  # on the sample: sum of contacts, or from a table
-    told_force: np.ndarray = field(default_factory=_unknown_forces)  # from a table
+    # on the sample: sum of contacts, or from a table; and from a table
+    force: np.ndarray = field(default_factory=lambda: np.full((4, 2), np.nan))
+    told_force: np.ndarray = field(default_factory=lambda: np.full((4, 2), np.nan))
     is_guessed: bool = False  # a wall was placed at the outermost grains
     # The largest difference of overlaps in the file and of the discs, distance of a wall from its contact points, gap
     # of two bodies in contact, distance of a contact point from where the surfaces meet.
@@ -186,13 +183,6 @@ def _meeting(now: Instant, i: np.ndarray, j: np.ndarray) -> tuple[np.ndarray, np
     return normal, point, overlap, np.where(on_wall, abs(height), distance - r[other]) - r[i]
 
 
-def _repeated(i: np.ndarray, j: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
-    """The row of each pair's first occurrence, and True where that is another row. Contacts with walls may repeat."""
-    rows = np.arange(len(i))
-    _, index, inverse = np.unique(np.where(j < n, i * n + j, -1 - rows), return_index=True, return_inverse=True)
-    return index[inverse], index[inverse] != rows
-
-
 def _contacts(rows: _Rows, sides: list[int], now: Instant, bodies: tuple[np.ndarray, np.ndarray],
               thickness: float) -> int:
     """Fills now.contacts; returns how many pairs were repeated."""
@@ -202,7 +192,10 @@ def _contacts(rows: _Rows, sides: list[int], now: Instant, bodies: tuple[np.ndar
     force = rows.of["force"] / thickness
     force = np.where((j < i)[:, None], -force, force)
     i, j = np.minimum(i, j), np.maximum(i, j)
-    original, again = _repeated(i, j, n)
+    row = np.arange(len(i))
+    _, index, inverse = np.unique(np.where(j < n, i * n + j, -1 - row), return_index=True, return_inverse=True)
+    original = index[inverse]  # the first row of the same pair; contacts with walls may repeat
+    again = original != row
     normal, point, overlap, gap = _meeting(now, i, j)
     radius = now.grains["radius"]
     diameter = 2 * np.maximum(radius[i], np.where(j < n, radius[np.where(j < n, j, 0)], 0))
@@ -255,5 +248,5 @@ def take_contacts(frame: Frame, now: Instant, arrival: Any, options: Options) ->
     sides = _sides_of(rows, bodies[0], now.grains, arrival.mean_diameter)
     _place_walls(rows, sides, now, arrival.thickness, options.walls_touch)
     if _contacts(rows, sides, now, bodies, arrival.thickness) > 0:
-        arrival.note("pairs of grains occur in two rows; each was counted once")
-    _turn(now, arrival.note)
+        options.note("pairs of grains occur in two rows; each was counted once")
+    _turn(now, options.note)

@@ -15,8 +15,8 @@ PLACES = {"lower": "lower_y", "upper": "upper_y", "left": "left_x", "right": "ri
 
 def is_wall_columns(columns: set[str]) -> bool:
     """True for the columns of a wall table, in lower case."""
-    return bool(columns & {"height", "lower_y", "upper_y"} and columns & {"width", "left_x", "right_x", "step", "time",
-                                                                          "frame"})
+    others = {"width", "left_x", "right_x", "step", "time", "frame"}
+    return bool(columns & {"height", "lower_y", "upper_y"} and columns & others)
 
 
 def sorted_files(options: Options, **kinds: Callable[[str], bool]) -> dict[str, list[str]]:

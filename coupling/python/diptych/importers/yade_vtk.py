@@ -79,7 +79,7 @@ def _interactions(path: str, frame: Frame) -> dict[str, np.ndarray]:
     rows = np.array([row_at.get(tuple(place), -1) for place in mesh.points[:, :2].tolist()])[ends]
     if np.any(rows < 0):
         raise refused(path, f"line {np.flatnonzero(np.any(rows < 0, axis=1))[0]} (counted from 0) does not end at a "
-                      "sphere of " f"{frame.grain_file}: the frames do not match")
+                      f"sphere of {frame.grain_file}: the frames do not match")
     branch = frame.grains["position"][rows[:, 0]] - frame.grains["position"][rows[:, 1]]
     normal = branch / np.linalg.norm(branch, axis=1)[:, None]
     return contacts_of(frame.grains["id"][rows[:, 0]], frame.grains["id"][rows[:, 1]], force[:, None] * normal)
