@@ -72,11 +72,12 @@ def test_numbers_of_samples_are_the_least_that_suffice():
 
 def test_the_choice_of_the_grains_is_the_cheapest():
     known = [GrainErrors(Estimate(1, 0.2), 0.03, True), GrainErrors(Estimate(1.5, 0.5), 0.02, True)]
-    cost = [(0.05, 1), (0.025, 1.6)]
+
+    def cost(accuracy):
+        return errors.cost_at([(0.05, 1), (0.025, 1.6)], accuracy)
 
     def total(accuracy):
-        n = max(errors.samples_for(one.scatter, 0.04 - one.at(accuracy)) or 1e6 for one in known)
-        return n * errors.cost_at(cost, accuracy)
+        return cost(accuracy) * max(errors.samples_for(one.scatter, 0.04 - one.at(accuracy)) or 1e6 for one in known)
 
     accuracy, samples = errors.cheapest_choice(known, cost, 0.04, 0)
     assert samples > 0
@@ -97,12 +98,12 @@ def test_wrong_accuracies_are_refused(wrong):
 
 def grains_plan(accuracy, factor=1.0, scatter=0.04, noise=0.01, file=""):
     """Grains whose strength errs by `factor` times the rule's expectation. The cost is proportional to 1/accuracy."""
-    def run(task):
-        if last(task.settings, "discrete/method", ""):
+    def run(_, settings, seeds, __):
+        if last(settings, "discrete/method", ""):
             return Pilot(failure="springs stay out of this plan")
-        a = float(last(task.settings, "discrete/accuracy", "nan"))
+        a = float(last(settings, "discrete/accuracy", "nan"))
         values = [0.3 * (1 + scatter * np.random.default_rng(seed).normal()) *
-                  (1 + noise * np.random.default_rng([seed, int(1e6 * a)]).normal() + factor * a) for seed in task.seeds
+                  (1 + noise * np.random.default_rng([seed, int(1e6 * a)]).normal() + factor * a) for seed in seeds
                   or [1]]
         return Pilot(values=[values], cpu_s=0.05 / a, expected_error={"strength": a, "dilation": 1.25 * a})
 
@@ -147,7 +148,7 @@ def test_springs_replace_contact_dynamics_where_they_are_cheaper(method, cpu_s, 
                      quantities=[Budget(name="strength", mean=0.3, scatter=0.02,
                                         parts=[Part(cause="step, tolerance", error=0.01),
                                                Part(cause="samples", error=0.0167)])])
-    try_springs(plan, question(0.03), lambda task: Pilot(values=[[0.3]], sample_cpu_s=[cpu_s], cpu_s=cpu_s), asked,
+    try_springs(plan, question(0.03), lambda *_: Pilot(values=[[0.3]], sample_cpu_s=[cpu_s], cpu_s=cpu_s), asked,
                 method)
     assert (last(plan.settings, "discrete/method", "") == method) == used
     assert (method, used) != ("compliant", True) or plan.quantities[0].method == pytest.approx(0.02)
@@ -173,16 +174,16 @@ def test_one_sample_from_a_file_has_the_variation_of_one_run_instead_of_scatter(
 
 def test_accuracies_out_of_reach_are_reported():
     assert not grains_plan(0.001, scatter=300).reaches
-    failed = GrainsPlan(question(0.02), scenes.read({}), lambda task: Pilot(failure="no room")).make()
+    failed = GrainsPlan(question(0.02), scenes.read({}), lambda *_: Pilot(failure="no room")).make()
     assert not failed.reaches and "no room" in failed.decisions[-1]
 
 
 def elements(of_elements=0.002, of_steps=2.0, of_law=0.0, is_local=False, longest=math.inf):
     """A continuum whose strength errs with the square of its element size and linearly with its load step."""
-    def run(task):
-        h, step, tolerance = (float(last(task.settings, "continuum/" + key, usual))
+    def run(_, settings, *__):
+        h, step, tolerance = (float(last(settings, "continuum/" + key, usual))
                               for key, usual in (("element_size", "1"), ("max_step", "0.01"), ("tolerance", "1e-5")))
-        law = last(task.settings, "continuum/law", "")
+        law = last(settings, "continuum/law", "")
         local = is_local and law != "cosserat_mohr_coulomb"
         value = 0.4 * (1 + (0.05 * math.log2(h) if local else of_elements * h * h)) * (1 + of_steps
                                                                                        * min(step, longest))

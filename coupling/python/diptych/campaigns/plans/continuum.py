@@ -13,8 +13,8 @@ import numpy as np
 from ... import _diptych
 from ..runs.input_file import Setting
 from .errors import (Refinement, half_interval, refinement, relative_difference, rounded_to_two_digits, samples_for,
-                          summary_of)
-from .question import Budget, PanelPlan, Part, Pilot, Question, RunPilot, Task, percent, planned
+                     summary_of)
+from .question import Budget, PanelPlan, Part, Pilot, Question, RunPilot, percent, planned
 
 # Shares of the accuracy. The rest, at least the last share, is for the scatter of the samples.
 OF_ELEMENTS, OF_LOAD_STEPS, OF_TOLERANCE, OF_MODELS, OF_SAMPLES = 0.4, 0.2, 0.05, 0.15, 0.2
@@ -76,8 +76,7 @@ class ContinuumPlan:
     def make(self) -> PanelPlan:
         if self.options["platens"] == "rough" and self.options["hardening"] == "constant":
             self._note("rough platens with continuum/hardening = constant: the error of the force in fully plastic "
-                       "flow "
-                       "falls with the element size to the power 0.9; 16 elements per side leave 9 % "
+                       "flow falls with the element size to the power 0.9; 16 elements per side leave 9 % "
                        "(benchmarks/referee)")
         if self.options["mesh"] not in ("outline", "rectangle"):
             self._note("elements: from the mesh file; their error is unknown and not in the budget")
@@ -98,13 +97,12 @@ class ContinuumPlan:
         settings = [*self.question.changes, *self.chosen]
         if self.plan.command == "run":  # the windows of the bands need a run of the grains
             settings.append(planned("discrete/accuracy", "0.05"))
-        return self.run(Task(command=self.plan.command, settings=[*settings, *more], seeds=seeds,
-                             quantities=self.quantities))
+        return self.run(self.plan.command, [*settings, *more], seeds, self.quantities)
 
     def _shifts(self, a: Pilot, b: Pilot) -> list[float]:
         """Differences of two points on one sample, relative to the second."""
-        return [relative_difference(a.values[q], b.values[q], asked["line"]).mean for q,
-                asked in enumerate(self.quantities)]
+        return [relative_difference(*both, asked["line"]).mean
+                for *both, asked in zip(a.values, b.values, self.quantities)]
 
     def _refine(self, knob: Knob) -> Settled:
         settled, allowed = Settled(), knob.share * self.question.accuracy
@@ -115,8 +113,8 @@ class ContinuumPlan:
                 if settled.points:
                     break
                 continue  # too coarse to run
-            values = ", ".join(f"{asked['name']} {values[0]:.4g}" for asked,
-                               values in zip(self.quantities, point.values))
+            values = ", ".join(f"{asked['name']} {of_samples[0]:.4g}"
+                               for asked, of_samples in zip(self.quantities, point.values))
             self._note(f"{knob.name} = {_diptych.text_of_number(size)}: {values}; {point.cpu_s:.3g} CPU s")
             if settled.points and settled.points[-1].values == point.values:
                 settled.sizes.pop(), settled.points.pop()  # the previous size limited nothing
@@ -209,7 +207,7 @@ class ContinuumPlan:
         worst, saving = max(map(abs, shifts)), 1 - point.cpu_s / self.now.cpu_s
         if worst > self.left_for_models or saving < WORTH_SAVING:
             self._note(f"{name}: not used; it would save {f'{percent(saving)} of the' if saving > 0 else 'no'} time "
-                       "and " f"change a quantity by up to {percent(worst)}")
+                       f"and change a quantity by up to {percent(worst)}")
             return
         for parts, shift in zip(self.parts, shifts):
             parts.append(Part(cause=name, error=abs(shift), bias=shift))

@@ -3,7 +3,7 @@
 """All errors are relative to the mean; those of angles are relative to 45 degrees."""
 
 from bisect import bisect_left
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -130,7 +130,7 @@ class GrainErrors:
         return accuracy * (abs(self.step.mean) if self.from_a_rule else float(np.hypot(*self.step)))
 
 
-def cheapest_choice(errors: Sequence[GrainErrors], cost: Sequence[tuple[float, float]], target: float,
+def cheapest_choice(errors: Sequence[GrainErrors], cost: Callable[[float], float], target: float,
                     samples: int) -> tuple[float, int]:
     """(discrete/accuracy, samples) of least cost; 0: no number suffices. `samples`: their fixed number, or 0."""
     best, least = (0.0, 0), np.inf
@@ -139,6 +139,6 @@ def cheapest_choice(errors: Sequence[GrainErrors], cost: Sequence[tuple[float, f
         left = [target - one.at(accuracy) for one in errors]
         needed = [samples or samples_for(one.scatter, rest) for one, rest in zip(errors, left)]
         n = max(1, samples, *needed)
-        if min(left) > 0 and min(needed) > 0 and n <= MOST_SAMPLES_OF_A_PLAN and n * cost_at(cost, accuracy) < least:
-            best, least = (accuracy, n), n * cost_at(cost, accuracy)
+        if min(left) > 0 and min(needed) > 0 and n <= MOST_SAMPLES_OF_A_PLAN and n * cost(accuracy) < least:
+            best, least = (accuracy, n), n * cost(accuracy)
     return best

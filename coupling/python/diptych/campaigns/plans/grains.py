@@ -14,9 +14,9 @@ from ... import _diptych
 from ..runs.input_file import Setting
 from ..studies.levels import LEAST_PAIRS, MOST_RATIO, Variances, numbers_for, predicted
 from .errors import (COARSEST_ACCURACY, FINEST_ACCURACY, MOST_SAMPLES_OF_A_PLAN, Estimate, GrainErrors, cheapest_choice,
-                          cost_at, half_interval, improved, relative_difference, rounded_to_two_digits, samples_for,
+                     cost_at, half_interval, improved, relative_difference, rounded_to_two_digits, samples_for,
                      summary_of)
-from .question import Budget, PanelPlan, Part, Pilot, Question, RunPilot, Task, percent, planned
+from .question import Budget, PanelPlan, Part, Pilot, Question, RunPilot, percent, planned
 from .springs import try_springs
 from ..runs.statistics import Statistics
 
@@ -54,7 +54,7 @@ class GrainsPlan:
 
     def __init__(self, question: Question, scene: _diptych.Scene, run: RunPilot) -> None:
         self.question, self.run, self.quantities = question, run, question.quantities["discrete"]
-        keys = scene.dict()
+        self.keys = keys = scene.dict()
         command = "run" if any(q["source"] == "comparison" for q in self.quantities) else "discrete"
         self.plan = PanelPlan(panel="discrete", command=command)
         first = min(keys["sample"]["seed"], LARGEST_FIRST_SEED)
@@ -68,10 +68,7 @@ class GrainsPlan:
         if command == "run":
             self.common += [planned("comparison/" + key, "0")
                             for key in ("coarse_element_size", "band_resamples", "probe_resamples")]
-        self.corrects = keys["discrete"]["penetration_correction"] != "none"
-        self.preparation_steps = keys["sample"]["preparation_steps"]
         self.cost_over_springs = scene.cost_over_springs
-        self.method, self.grains = keys["discrete"]["method"], keys["sample"]["grains"]
         self.levels: list[Level] = []
         self.cheaper: dict[str, list[float]] = {}  # cheaper settings in use: effect on each quantity, with sign
         self.one_run = [0.0] * len(self.quantities)  # half an interval of a single run, for a single sample
@@ -85,7 +82,8 @@ class GrainsPlan:
             self._add_level(FINER * COARSEST_ACCURACY, self.seeds[:PAIRED_SAMPLES])
             if self.seeds:
                 self._try_less_preparation()
-                self._try_without_correction()
+                if self.keys["discrete"]["penetration_correction"] != "none":
+                    self._try_without_correction()
             else:
                 self._find_repeatability()
             choice = self._choose()
@@ -95,7 +93,8 @@ class GrainsPlan:
                 choice = self._choose()
             two = self._two_levels(choice)
             self._conclude(*choice, two)
-            if self.method == "nscd" and self.grains >= GRAINS_FOR_IMPLICIT_SPRINGS:
+            implicit = self.keys["sample"]["grains"] >= GRAINS_FOR_IMPLICIT_SPRINGS
+            if self.keys["discrete"]["method"] == "nscd" and implicit:
                 try_springs(self.plan, self.question, self.run, self.quantities, "compliant")
             if self.cost_over_springs(choice[0]) > 0.5:
                 try_springs(self.plan, self.question, self.run, self.quantities, "penalty")
@@ -105,7 +104,7 @@ class GrainsPlan:
 
     def _run_at(self, accuracy: float, seeds: Sequence[int], more: Sequence[Setting] = ()) -> Pilot:
         settings = [*self.question.changes, *self.common, planned("discrete/accuracy", accuracy), *more]
-        return self.run(Task(command=self.plan.command, settings=settings, seeds=seeds, quantities=self.quantities))
+        return self.run(self.plan.command, settings, seeds, self.quantities)
 
     def _add_level(self, accuracy: float, seeds: Sequence[int]) -> None:
         point = self._run_at(accuracy, seeds)
@@ -140,12 +139,12 @@ class GrainsPlan:
                                      bool(asked["step_error"])))
         return found
 
-    def _cost(self) -> list[tuple[float, float]]:
-        return [(level.accuracy, level.cpu_s) for level in self.levels]
+    def _cost_at(self, accuracy: float) -> float:
+        return cost_at([(level.accuracy, level.cpu_s) for level in self.levels], accuracy)
 
     def _choose(self) -> tuple[float, int]:
         left = self.question.accuracy - max(self._taken())
-        return cheapest_choice(self._errors(), self._cost(), left, 0 if self.seeds else 1)
+        return cheapest_choice(self._errors(), self._cost_at, left, 0 if self.seeds else 1)
 
     def _variances(self, fine: float) -> list[Variances]:
         """Of the relative means with levels at 0.05 and fine; empty if both have nearly the same step. How far the runs
@@ -160,7 +159,7 @@ class GrainsPlan:
 
     def _numbers(self, fine: float) -> tuple[int, int, float]:
         """(samples, pairs, CPU s) of a plan with two levels; infinite CPU s: no number suffices."""
-        found, costs = self._variances(fine), (self.levels[0].cpu_s, cost_at(self._cost(), fine))
+        found, costs = self._variances(fine), (self.levels[0].cpu_s, self._cost_at(fine))
         half = self.question.accuracy - max(self._taken())
         samples, pairs = numbers_for(found, costs, half, MOST_SAMPLES_OF_A_PLAN) if found else (0, 0)
         return samples, pairs, samples * costs[0] + pairs * costs[1] if samples else np.inf
@@ -171,7 +170,7 @@ class GrainsPlan:
         if not self.seeds or not all(asked["step_error"] for asked in self.quantities):
             return None
         fine = min(FINE_LEVELS, key=lambda fine: self._numbers(fine)[2])
-        limit = WORTH_TWO_LEVELS * one[1] * cost_at(self._cost(), one[0]) if one[1] else np.inf
+        limit = WORTH_TWO_LEVELS * one[1] * self._cost_at(one[0]) if one[1] else np.inf
         if self._numbers(fine)[2] < limit and all(level.accuracy != fine for level in self.levels):
             self._add_level(fine, self.seeds[:LEAST_PAIRS])
             self.levels.sort(key=lambda level: -level.accuracy)
@@ -191,21 +190,20 @@ class GrainsPlan:
         plan = self.plan
         if two:
             accuracy, samples = COARSEST_ACCURACY, two[1]
-            plan.levels = {"cheap": accuracy, "fine": two[0], "pairs": two[2],
-                           "fine_cpu_s": cost_at(self._cost(), two[0])}
+            plan.levels = {"cheap": accuracy, "fine": two[0], "pairs": two[2], "fine_cpu_s": self._cost_at(two[0])}
         plan.reaches = samples > 0
         if not plan.reaches:
             accuracy = float(np.clip(self.question.accuracy / 2, FINEST_ACCURACY, COARSEST_ACCURACY))
             samples = PILOT_SAMPLES if self.seeds else 1
         plan.settings = [*self.common, planned("discrete/accuracy", accuracy)]
         plan.seeds = [self.seeds[0] + k for k in range(samples)] if self.seeds else []
-        plan.cpu_s = cost_at(self._cost(), accuracy)
+        plan.cpu_s = self._cost_at(accuracy)
         plan.peak_memory_mb = self.levels[-1].point.peak_memory_mb
         for q, errors in enumerate(self._errors()):
             mean = summary_of(self.levels[0].point.values[q], self.quantities[q]["line"])[0].mean
             if two:
-                parts = [Part(cause="samples, pairs and order",
-                              error=self._variances(two[0])[q].half_interval(*two[1:]))]
+                half = self._variances(two[0])[q].half_interval(*two[1:])
+                parts = [Part(cause="samples, pairs and order", error=half)]
             else:
                 parts = [Part(cause="step, tolerance", error=errors.at(accuracy), bias=errors.step.mean * accuracy,
                               deviation=errors.step.deviation * accuracy),
@@ -231,9 +229,9 @@ class GrainsPlan:
         for q, asked in enumerate(self.quantities if self.seeds else ()):
             first, second = self.levels[:2]
             d = self._difference(first.point, second.point, q)
-            self._note(f"  {asked['name']}: {percent(d.mean)} +- {percent(half_interval(d.deviation, d.n))} from "
-                       f"{_diptych.text_of_number(first.accuracy)} to {_diptych.text_of_number(second.accuracy)} on "
-                       f"{d.n} " "samples")
+            ends = " to ".join(_diptych.text_of_number(level.accuracy) for level in (first, second))
+            half = percent(half_interval(d.deviation, d.n))
+            self._note(f"  {asked['name']}: {percent(d.mean)} +- {half} from {ends} on {d.n} samples")
 
     def _try_knob(self, name: str, cheaper: Setting, saving: float, deviations: Sequence[float]) -> None:
         """Runs a cheaper setting if it may be worth it and eight samples can measure its effect. Keeps it if the effect
@@ -243,7 +241,7 @@ class GrainsPlan:
             verdict = f"not tried; it would save {f'only {percent(saving)} of the' if saving > 0 else 'no'} time"
         elif not interval <= SHARE_OF_A_KNOB * self.question.accuracy:
             verdict = (f"not used; it would save {percent(saving)} of the time, but {len(self.seeds)} samples give its "
-                       "error " f"only to +- {percent(interval)}")
+                       f"error only to +- {percent(interval)}")
         else:
             verdict = self._verdict_on(name, cheaper, saving)
         self._note(f"{name}: {verdict}")
@@ -267,7 +265,7 @@ class GrainsPlan:
 
     def _try_less_preparation(self) -> None:
         """Another preparation makes different samples, so pairing brings nothing."""
-        less, point = self.preparation_steps // 3, self.levels[-1].point
+        less, point = self.keys["sample"]["preparation_steps"] // 3, self.levels[-1].point
         if less > 0:
             self._try_knob(f"preparation of {less} steps", planned("sample/preparation_steps", str(less)),
                            2 / 3 * point.preparation_cpu_s / point.cpu_s,
@@ -275,8 +273,6 @@ class GrainsPlan:
 
     def _try_without_correction(self) -> None:
         """One sample gives the cost. The runs diverge as much as between two steps."""
-        if not self.corrects:
-            return
         name, none = "no penetration correction", planned("discrete/penetration_correction", "none")
         without, usual = (self._run_at(COARSEST_ACCURACY, self.seeds[:1], more) for more in ([none], []))
         if without.failure or usual.failure:
@@ -296,4 +292,4 @@ class GrainsPlan:
         self._note(f"eight samples give the scatter to within a factor of 0.66 to 2.0: {low} to {high} samples may be "
                    "needed")
         self._note(f"{deciding.name} determines the number of samples; one sample scatters by "
-                   f"{percent(deciding.scatter)}; " "the scatter falls with the square root of the number of grains")
+                   f"{percent(deciding.scatter)}; the scatter falls with the square root of the number of grains")

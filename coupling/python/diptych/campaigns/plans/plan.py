@@ -17,11 +17,12 @@ from ...entries import describe
 from ...errors import NotConverged, Stopped
 from ..runs.engine import Options, tell
 from ..runs.folders import Folder, Runs, write_json, write_text
+from ..runs.input_file import Setting
 from ..studies.levels import limit_of
 from .continuum import ContinuumPlan
 from .errors import half_interval, samples_for, summary_of
 from .grains import GrainsPlan
-from .question import PanelPlan, Pilot, Plan, Question, Task, percent, planned, read_question, text_of
+from .question import PanelPlan, Pilot, Plan, Question, percent, planned, read_question, text_of
 from ..studies.points import RunResult, on_sample, result_of, scene_run
 
 LEAST_SHARE_THAT_FINISHES = 0.75  # other samples are left out, as long as they are few
@@ -83,20 +84,21 @@ class PilotRuns:
         self.question, self.runs, self.options = question, Runs(directory), replace(options, resume=False)
         self.cpu_s, self._counted = 0.0, set()
 
-    def run(self, task: Task) -> Pilot:
+    def run(self, command: str, settings: Sequence[Setting], seeds: Sequence[int],
+            quantities: Sequence[dict[str, Any]]) -> Pilot:
         """Raises Stopped on a stop signal."""
         scene = self.question.scene
-        runs = [scene_run(scene, task.command, on_sample(task.settings, seed, scene)) for seed in task.seeds or [None]]
+        runs = [scene_run(scene, command, on_sample(settings, seed, scene)) for seed in seeds or [None]]
         for run in runs:
             if run.refusal:  # settings that contradict the scene
                 return Pilot(failure=run.refusal)
         if any(outcome.interrupted for outcome in self.runs.do(runs, self.options).values()):
             raise Stopped("stopped on request")
-        results = [result_of(self.runs, run, task.quantities) for run in runs]
+        results = [result_of(self.runs, run, quantities) for run in runs]
         new = {run.name: result for run, result in zip(runs, results) if run.name not in self._counted}
         self.cpu_s += sum(map(_cpu_s, new.values()))
         self._counted |= set(new)
-        return _pilot_of(results, task.quantities)
+        return _pilot_of(results, quantities)
 
 
 def _pilot_of(results: Sequence[RunResult], quantities: Sequence[dict[str, Any]]) -> Pilot:
@@ -126,12 +128,12 @@ def _carry_out(question: Question, plan: Plan, panel: PanelPlan, pilot: PilotRun
     most, seeds, wanted = 2 * panel.n_samples + SPARE_SAMPLES, list(panel.seeds), question.quantities[panel.panel]
     while True:
         settings = [*question.changes, *plan.settings]
-        point, fine = pilot.run(Task(command=panel.command, settings=settings, seeds=seeds, quantities=wanted)), None
+        point, fine = pilot.run(panel.command, settings, seeds, wanted), None
         panel.outcomes, panel.outcome_cpu_s = [], point.cpu_s
         if panel.levels:
             n_pairs = min(len(seeds), math.ceil(len(seeds) * panel.levels["pairs"] / panel.n_samples))
             settings = [*settings, planned("discrete/accuracy", panel.levels["fine"])]
-            fine = pilot.run(Task(command=panel.command, settings=settings, seeds=seeds[:n_pairs], quantities=wanted))
+            fine = pilot.run(panel.command, settings, seeds[:n_pairs], wanted)
         if point.failure or fine and fine.failure:
             panel.decisions.append(f"--run: {point.failure or fine.failure}")
             return False
@@ -165,12 +167,12 @@ def _missing(accuracy: float, panel: PanelPlan, n: int) -> int:
 def make_plan(question: Question, scene: _diptych.Scene, pilot: PilotRuns) -> Plan:
     """The plans of all panels that the question asks for."""
     makers = {"discrete": GrainsPlan, "continuum": ContinuumPlan}
-    panels = [makers[panel](question, scene, pilot.run).make() for panel,
-              wanted in question.quantities.items() if wanted]
+    panels = [makers[panel](question, scene, pilot.run).make()
+              for panel, wanted in question.quantities.items() if wanted]
     plan = Plan(scene=os.path.basename(question.scene), accuracy=question.accuracy, panels=panels)
     if plan.shares_samples:  # the cost of `diptych run` with the settings of both panels
         seeds = max((panel.seeds for panel in panels), key=len)[:SHARED_SAMPLES]
-        point = pilot.run(Task(command="run", settings=[*question.changes, *plan.settings], seeds=seeds, quantities=[]))
+        point = pilot.run("run", [*question.changes, *plan.settings], seeds, [])
         for panel in panels if not point.failure else ():
             panel.cpu_s, panel.peak_memory_mb = point.cpu_s, point.peak_memory_mb
     plan.pilot_cpu_s = pilot.cpu_s

@@ -36,18 +36,8 @@ class Question:
 
 
 @dataclass(kw_only=True)
-class Task:
-    """A scene with settings on samples."""
-
-    command: str
-    settings: list[Setting]
-    seeds: Sequence[int]  # empty: the one sample of the scene
-    quantities: list[dict[str, Any]]
-
-
-@dataclass(kw_only=True)
 class Pilot:
-    """The results of a task. CPU times and memory per sample: mean and largest."""
+    """The results of a scene with settings on samples. CPU times and memory per sample: mean and largest."""
 
     values: list[list[float]] = field(default_factory=list)  # [quantity][sample]; NaN if there is none
     failure: str = ""  # reason if a run did not finish
@@ -59,7 +49,8 @@ class Pilot:
     expected_error: dict[str, float] = field(default_factory=dict)  # by the rule of the step: strength, dilation
 
 
-RunPilot = Callable[[Task], Pilot]
+# command, settings, seeds (empty: the one sample of the scene), quantities
+RunPilot = Callable[[str, list[Setting], Sequence[int], list[dict[str, Any]]], Pilot]
 
 
 @dataclass(kw_only=True)
@@ -265,10 +256,10 @@ def _panel_text(panel: PanelPlan) -> list[str]:
     lines.append(f"  {panel.command} on {panel.n_samples} sample{'s' if panel.n_samples > 1 else ''}{seeds}: "
                  f"{panel.cpu_s:.3g} CPU s each, {panel.total_cpu_s:.3g} s in all, {panel.peak_memory_mb:.3g} MB")
     if panel.levels:
-        lines.append(f"  two levels: {panel.levels['pairs']} of these also at discrete/accuracy = "
-                     f"{panel.levels['fine']:g}, "
-                     f"{panel.levels['fine_cpu_s']:.3g} CPU s each; the means are those in the limit of short steps. "
-                     f"For both panels: --levels {panel.levels['cheap']:g},{panel.levels['fine']:g} of diptych run")
+        pairs, cheap, fine, cpu_s = (panel.levels[name] for name in ("pairs", "cheap", "fine", "fine_cpu_s"))
+        lines.append(f"  two levels: {pairs} of these also at discrete/accuracy = {fine:g}, {cpu_s:.3g} CPU s each; "
+                     "the means are those in the limit of short steps. For both panels: --levels "
+                     f"{cheap:g},{fine:g} of diptych run")
     if panel.outcomes:
         lines.append(f"  result, at {panel.outcome_cpu_s:.3g} CPU s per sample:")
         lines += [f"    {one['name']:<41} {one['mean']:.3g}" +

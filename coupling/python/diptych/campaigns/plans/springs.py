@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from .errors import half_interval, samples_for
-from .question import Budget, PanelPlan, Part, Question, RunPilot, Task, planned
+from .question import Budget, PanelPlan, Part, Question, RunPilot, planned
 
 STIFFNESS = planned("discrete/penalty_stiffness", 1e4)
 # Largest relative errors of these springs: of explicit ones against the limit of short steps, of implicit ones against
@@ -21,8 +21,8 @@ def try_springs(plan: PanelPlan, question: Question, run: RunPilot, quantities: 
     """Replaces settings, samples and errors of a complete plan of the grains if springs are cheaper. method: that of
     the springs. A plan with two levels has removed the error of the step, so implicit springs are not tried there."""
     implicit = method == "compliant"
-    if not plan.reaches or not plan.seeds or not all(asked["step_error"] for asked in quantities) or (implicit
-                                                                                                      and plan.levels):
+    has_rules = all(asked["step_error"] for asked in quantities)
+    if not plan.reaches or not plan.seeds or not has_rules or (implicit and plan.levels):
         return
     settings = [planned("discrete/method", method), STIFFNESS]
     settings = [*plan.settings, *settings] if implicit else [*settings, planned("discrete/penalty_step_fraction", 0.5)]
@@ -35,8 +35,7 @@ def try_springs(plan: PanelPlan, question: Question, run: RunPilot, quantities: 
         plan.decisions.append(f"{name}: not tried; their error is too large for this accuracy")
         return
     samples, before = max(needed), plan.total_cpu_s
-    pilot = run(Task(command=plan.command, settings=[*question.changes, *settings], seeds=plan.seeds[:1],
-                     quantities=quantities))
+    pilot = run(plan.command, [*question.changes, *settings], plan.seeds[:1], quantities)
     cpu_s = samples * pilot.cpu_s
     used = not pilot.failure and cpu_s < before
     plan.decisions.append(f"{name}: {pilot.failure or f'{cpu_s:.3g} CPU s on {samples} samples'}; "
