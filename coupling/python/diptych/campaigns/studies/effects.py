@@ -14,7 +14,7 @@ import pandas as pd
 from ...arrays import Interval
 from ...entries import describe
 from .points import Point
-from ..runs.statistics import line_statistics, line_turn, statistics
+from ..runs.statistics import line_statistics, line_turn
 from .study_file import Family, Study
 
 PANELS = {"discrete": "grains", "continuum": "continuum", "difference": "difference",
@@ -73,11 +73,6 @@ def samples_needed(change: float, s: float, n_points: int) -> float:
 
     found = bisect.bisect_left(range(2, MOST_SAMPLES + 1), True, key=resolves) + 2
     return found if found <= MOST_SAMPLES else math.nan
-
-
-def mean_of(quantity: dict[str, Any], values: Sequence[float]) -> dict[str, Any]:
-    """One quantity of a point as study.json has it."""
-    return {"values": list(values), **(line_statistics if quantity["line"] else statistics)(values)._asdict()}
 
 
 def _parameters(family: Family) -> list[tuple[str, list[str]]]:
@@ -141,8 +136,8 @@ def effects_table(study: Study, points: Sequence[Point], records: Sequence[dict[
         family = study.families[point.family]
         places = [axis.points[k] for axis, k in zip(family.axes, point.places)]
         of_point = {"family": family.name} if len(study.families) > 1 else {}
-        of_point |= {axis.name: place.label if math.isnan(place.value) else place.value for axis,
-                     place in zip(family.axes, places)}
+        of_point |= {axis.name: place.label if math.isnan(place.value) else place.value
+                     for axis, place in zip(family.axes, places)}
         rows += [{**of_point, "quantity": quantity["name"], "panel": PANELS[quantity["source"]],
                   "unit": quantity["unit"], **{key: value for key, value in found.items() if key != "values"}}
                  for quantity, found in zip(study.quantities, record["quantities"])]
@@ -165,11 +160,11 @@ def text_of_means(study: Study, points: Sequence[Point], records: Sequence[dict[
     one = len(study.families) == 1
     names = [("" if one else study.families[point.family].name + ": ") + ", ".join(point.labels) for point in points]
     axes = ", ".join(axis.name for axis in study.families[0].axes) if one else ""
-    rows = {text_of_quantity(q): [_shown(record["quantities"][k]) for record in records] for k,
-            q in enumerate(study.quantities)}
+    rows = {text_of_quantity(q): [_shown(record["quantities"][k]) for record in records]
+            for k, q in enumerate(study.quantities)}
     table = pd.DataFrame.from_dict(rows, orient="index", columns=names).rename_axis(columns=axes)
-    return "means" + (" and half widths of their 95 % intervals" if len(study.seeds) > 1
-                      else "") + "\n" + table.to_string()
+    widths = " and half widths of their 95 % intervals" if len(study.seeds) > 1 else ""
+    return f"means{widths}\n{table.to_string()}"
 
 
 def text_of_quantity(quantity: dict[str, Any]) -> str:
@@ -193,11 +188,9 @@ def text_of_changes(study: Study, changes: Sequence[dict[str, Any]]) -> list[str
                     panels.setdefault(change["quantity"], []).append(change["panel"] + _needs(change))
             if panels:
                 names = "; ".join(f"{name} ({', '.join(of_name)})" for name, of_name in panels.items())
-                lines.append(f"{family}{': ' if family else ''}{parameter}, {_VERDICTS.get(verdict, verdict)}: {names}")
+                why = ", since fewer than two samples have a value at every point" if verdict == "unknown" else ""
+                lines.append(f"{family}{': ' if family else ''}{parameter}, {verdict}{why}: {names}")
     return lines
-
-
-_VERDICTS = {"unknown": "unknown, since fewer than two samples have a value at every point"}
 
 
 def _needs(change: dict[str, Any]) -> str:

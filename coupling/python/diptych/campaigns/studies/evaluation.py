@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from ...entries import describe
-from .effects import mean_of
 from .levels import Limit
 from .points import Point, RunResult
 from ..runs.statistics import Interval, jackknife_convergence, known, line_statistics, paired, statistics
@@ -105,7 +104,8 @@ def evaluate(study: Study, points: Sequence[Point], results: Results,
             "words": next((run.words for run in runs if run.words), ""), "warned": sum(run.warned for run in runs),
             "halved_steps": max(run.halved_steps for run in runs), "cut_backs": max(run.cut_backs for run in runs)}
         if study.reference is None:
-            record["quantities"] = [mean_of(*one) for one in zip(study.quantities, values)]
+            record["quantities"] = [{"values": here, **(line_statistics if q["line"] else statistics)(here)._asdict()}
+                                    for q, here in zip(study.quantities, values)]
             for one, limit in zip(reversed(record["quantities"]), reversed(limits[len(records)]) if limits else ()):
                 one |= dict(zip(("mean", "low", "high"), limit.limit))
         else:
@@ -198,8 +198,7 @@ def cost_of(study: Study, points: Sequence[Point], results: Results, records: Se
     for reference in range(len(points)):
         # A point that is its own reference has no error and must not compete.
         rivals = [one for one in costs if points[one["point"]].family >= 0 and points[one["point"]].reference
-                  == reference
-                  and records[one["point"]]["folders"] != records[reference]["folders"]]
+                  == reference and records[one["point"]]["folders"] != records[reference]["folders"]]
         if rivals:
             _mark_fronts(study, records, rivals)
             cheapest += _cheapest(study, records, rivals, reference)

@@ -48,7 +48,7 @@ def read_levels(text: str, n_samples: int) -> Levels | None:
         cheap = fine = math.nan
     if not (0.001 <= fine <= CLOSEST * cheap and cheap <= 0.05):
         raise SceneError(f"--levels {text} is not allowed; write auto, or two values of discrete/accuracy from 0.05 to "
-                         "0.001, " f"the second at most {CLOSEST} times the first, such as 0.05,0.01", "--levels")
+                         f"0.001, the second at most {CLOSEST} times the first, such as 0.05,0.01", "--levels")
     return Levels(cheap, fine)
 
 
@@ -74,20 +74,17 @@ def _column(results: Sequence[RunResult], q: int, n: int) -> list[float]:
     return [run.values[q] for run in results] + [math.nan] * (n - len(results))
 
 
-def _ratio(cheap: Sequence[RunResult], fine: Sequence[RunResult]) -> float:
-    """Expected error of the fine runs / that of the cheap ones; NaN if unknown or too close to 1."""
-    below, above = (known([run.expected_error.get("strength", math.nan) for run in results])
-                    for results in (fine, cheap))
-    ratio = below.mean() / above.mean() if len(below) and len(above) else math.nan
-    return float(ratio) if ratio <= MOST_RATIO else math.nan
-
-
 class PairedPoint:
-    """The runs of one point: all samples at the cheap accuracy, the first ones also at the fine one."""
+    """The runs of one point: all samples at the cheap accuracy, the first ones also at the fine one. ratio: expected
+    error of the fine runs / that of the cheap ones; NaN if unknown or too close to 1."""
 
     def __init__(self, cheap: Sequence[RunResult], fine: Sequence[RunResult],
                  quantities: Sequence[dict[str, Any]]) -> None:
-        self.cheap, self.fine, self.quantities, self.ratio = cheap, fine, quantities, _ratio(cheap, fine)
+        self.cheap, self.fine, self.quantities = cheap, fine, quantities
+        below, above = (known([run.expected_error.get("strength", math.nan) for run in results])
+                        for results in (fine, cheap))
+        ratio = float(below.mean() / above.mean()) if len(below) and len(above) else math.nan
+        self.ratio = ratio if ratio <= MOST_RATIO else math.nan
 
     def _values(self) -> dict[int, tuple[list[float], list[float]]]:
         """{index of the quantity: values of all samples at both settings} of the quantities with a rule."""
@@ -170,8 +167,7 @@ def add_summary(record: dict[str, Any], levels: dict[str, Any]) -> None:
         grains, difference, words = _compared(found, verdict, [part for part in parts if math.isfinite(part[0])])
         record["summary"].append({"key": found["key"], "quantity": found["quantity"] + IN_THE_LIMIT,
                                   "unit": found["unit"], "grains": grains, "continuum": rows[found["key"]]["continuum"],
-                                  "difference": difference,
-                                  "verdict": words_of({**verdict, "verdict": words})})
+                                  "difference": difference, "verdict": words_of({**verdict, "verdict": words})})
 
 
 def _compared(found: dict[str, Any], verdict: dict[str, Any],

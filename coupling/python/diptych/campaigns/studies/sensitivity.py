@@ -154,19 +154,14 @@ def _indices_of(ranges: Sequence[Parameter], points: Array, values: Array, is_li
     return {"q2": found.q2, "degree": found.degree, "mean": values.mean() if len(values) else math.nan,
             "deviation": values.std(ddof=1) if len(values) > 1 else math.nan,
             "parameters": [{"parameter": p.key, "first": first, "total": total,
-                            "correlation": _rank_correlation(x, values)}
+                            "correlation": float(pd.Series(x).corr(pd.Series(values), method="spearman"))}
                            for p, first, total, x in zip(ranges, found.first, found.total, points.T)]}
-
-
-def _rank_correlation(x: Array, y: Array) -> float:
-    return float(pd.Series(x).corr(pd.Series(y), method="spearman"))
 
 
 def sensitivity_table(record: dict[str, Any]) -> pd.DataFrame:
     """sensitivity.csv: a row per quantity, panel and parameter."""
     return pd.DataFrame([[one["quantity"], one["panel"], p["parameter"], *p["first"], *p["total"], p["correlation"],
-                          one["q2"], one["used"]]
-                         for one in record["indices"] for p in one["parameters"]],
+                          one["q2"], one["used"]] for one in record["indices"] for p in one["parameters"]],
                         columns=["quantity", "panel", "parameter", *_FIELDS, "correlation", "q2", "used"])
 
 
@@ -176,8 +171,8 @@ def text_of_indices(study: Study, record: dict[str, Any]) -> list[str]:
              "others"]
     for quantity, one in zip(study.quantities, record["indices"]):
         ranked = sorted(((p["total"], p["parameter"].partition("/")[2]) for p in one["parameters"]), reverse=True)
-        found = ", ".join(f"{name} {value:.2f}{ends_text(low, high, '{:.2f}'.format)}" for (value, low, high),
-                          name in ranked if value >= 0.01)
+        found = ", ".join(f"{name} {value:.2f}{ends_text(low, high, '{:.2f}'.format)}"
+                          for (value, low, high), name in ranked if value >= 0.01)
         lines.append(f"{text_of_quantity(quantity)} ({one['used']} of {record['points']} points, Q2 {one['q2']:.3f}): "
                      + (found or f"none, since fewer than {FEWEST_SAMPLES} points have a value or all are equal"))
     return lines

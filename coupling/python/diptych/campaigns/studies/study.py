@@ -220,10 +220,10 @@ def study_csv(study: Study, points: Sequence[Point], results: Results, records: 
                 row |= {p.key: setting.partition(" = ")[2] for p, setting in zip(study.ranges, point.settings)}
                 row |= dict(zip(map(text_of_quantity, study.quantities), run.values))
             else:
-                for quantity, value, reference in zip(study.quantities, run.values,
-                                                      results[point.reference][sample].values):
-                    row |= {quantity["name"]: value, "error of "
-                            + quantity["name"]: _difference(quantity, value, reference)}
+                references = results[point.reference][sample].values
+                for quantity, value, reference in zip(study.quantities, run.values, references):
+                    name = quantity["name"]
+                    row |= {name: value, "error of " + name: _difference(quantity, value, reference)}
             cpu_s = {phase["name"]: phase["cpu_s"] for phase in run.phases}
             rows.append({**row, **{f"cpu_s of {name}": cpu_s.get(name) for name in phases}})
     return pd.DataFrame(rows).to_csv(index=False, lineterminator="\n")
@@ -280,9 +280,8 @@ def _conclude(study: Study, points: Sequence[Point], record: dict[str, Any], opt
     counts = Counter(one["class"] for point, one in zip(points, records) if point.family >= 0)
     if all(q["limit"] is None for q in study.quantities):  # nothing was asked to be right
         counts["unjudged"] = 0
-    return ": ".join([f"{n} points", *filter(None,
-                                             [", ".join(f"{counts[name]} {name}" for name in CLASSES
-                                                        if counts[name])])])
+    found = ", ".join(f"{counts[name]} {name}" for name in CLASSES if counts[name])
+    return f"{n} points: {found}" if found else f"{n} points"
 
 
 def run_study(line: argparse.Namespace, options: Options) -> None:

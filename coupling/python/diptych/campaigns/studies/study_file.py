@@ -153,8 +153,8 @@ def _sample_ranges(root: Part, study: Study) -> list[Family]:
     study.ranges = [_range(part) for part in root.list("ranges")]
     root.demand_distinct("ranges", [p.key for p in study.ranges])
     read = _diptych.read_changed_scene(study.scene, study.settings, study.command == "run").dict()
-    others = {f"{section}/{key}": value for section, keys in read.items() for key,
-              value in keys.items() if is_number(value)}
+    others = {f"{section}/{key}": value for section, keys in read.items() for key, value in keys.items()
+              if is_number(value)}
     try:
         coordinates = Coordinates(study.ranges, others)
     except ValueError as error:
@@ -231,13 +231,6 @@ def _quantity(part: Part, command: str) -> dict[str, Any]:
     return q
 
 
-def _key_quantities(command: str) -> list[dict[str, Any]]:
-    """The key numbers of each panel that runs, and of their difference."""
-    panels = (*COMMANDS[command], "difference") if command == "run" else COMMANDS[command]
-    return [key_quantity(key, panel) for key, one in QUANTITIES.items() for panel in panels
-            if not (one["is_of_band"] and command == "discrete")]  # grains alone have no bands here
-
-
 def key_quantity(key: str, panel: str) -> dict[str, Any]:
     """A key number of a panel, or of the difference, as a quantity."""
     one = QUANTITIES[key]
@@ -255,7 +248,9 @@ def _quantities(root: Part, study: Study) -> list[dict[str, Any]]:
         if any(axis.own_reference for family in study.families for axis in family.axes):
             root.refuse("own_reference needs a reference, and 'reference' is missing")
         if not root.has("quantities") and study.command != "material-point":
-            quantities = _key_quantities(study.command)
+            panels = (*COMMANDS[study.command], *(["difference"] if study.command == "run" else []))
+            quantities = [key_quantity(key, panel) for key, one in QUANTITIES.items() for panel in panels
+                          if not (one["is_of_band"] and study.command == "discrete")]  # grains alone have none here
     if not quantities:
         root.refuse(" is missing or empty; name at least one quantity", "quantities")
     root.demand_distinct("quantities", [q["name"] + q["source"] * (q["reduction"] == "key number") for q in quantities])
