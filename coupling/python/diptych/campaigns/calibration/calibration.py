@@ -153,11 +153,10 @@ grains_cpu_s [s]: CPU time of all runs of the grains
 
 def empty_record(title: str, model: str = "continuum") -> dict[str, Any]:
     """calibration.json before the search. model: "grains" if their keys are fitted."""
-    return {"format": 1, "title": title, "model": model, "status": "started", "settings": [], "own": [],
-            "chi2_before": np.nan,
-            "chi2_coarse": np.nan, "chi2": np.nan, "n_observables": 0, "coarse_runs": 0, "fine_runs": 0,
-            "failed_runs": 0, "other_runs": 0, "noise": {}, "words": [], "parameters": [], "correlation": [],
-            "emulator": {}, "discrepancy": {}, "minima": [], "paths": []}
+    return {"format": 1, "title": title, "model": model, "status": "started",
+            "settings": [], "own": [], "chi2_before": np.nan, "chi2_coarse": np.nan, "chi2": np.nan, "n_observables": 0,
+            "coarse_runs": 0, "fine_runs": 0, "failed_runs": 0, "other_runs": 0, "noise": {}, "words": [],
+            "parameters": [], "correlation": [], "emulator": {}, "discrepancy": {}, "minima": [], "paths": []}
 
 
 def calibrate(trials: Trials) -> pd.DataFrame:

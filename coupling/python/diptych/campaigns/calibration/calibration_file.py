@@ -160,7 +160,7 @@ def _results(part: Part) -> tuple[list[str], list[int]]:
         for key in identity:
             if identity[key] != first.get(key):
                 part.refuse(f": '{folder}' and '{folders[0]}' come from different scenes: {key} = '{identity[key]}' "
-                            "and " f"'{first.get(key)}'", "results")
+                            f"and '{first.get(key)}'", "results")
     if not folders:
         part.refuse(" is empty; name at least one result folder", "results")
     part.demand_distinct("results", samples)
@@ -305,9 +305,8 @@ def read_calibration(file: str, contents: Mapping[str, Any] | None = None) -> Ca
             setattr(c.noise, name, part.number(name, 1e-9 if name in ("correlation_strain", "early_strain") else 0,
                                                FAR))
     for key, low, high in (("starts", 1, 20), ("jacobians", 1, 100), ("fine_jacobians", 1, 100),
-                           ("start_jacobians", 1, 20),
-                           ("check_samples", 0, 1000), ("more_runs", 0, 1000), ("seed", 0, 1_000_000),
-                           ("load_step", 1e-9, 1), ("coarse_element_size", 0.01, 1e3)):
+                           ("start_jacobians", 1, 20), ("check_samples", 0, 1000), ("more_runs", 0, 1000),
+                           ("seed", 0, 1_000_000), ("load_step", 1e-9, 1), ("coarse_element_size", 0.01, 1e3)):
         if root.has(key):
             setattr(c, key, root.number(key, low, high, isinstance(getattr(c, key), int)))
     return c

@@ -136,9 +136,8 @@ class CalibrationRuns:
         moved = np.mean([a - b.values for a, b in zip(finer, path.samples)], axis=0)
         scatter = np.sqrt(np.diag(covariance(noise, path.data)))
         allowed = max(1.0, NORMAL * np.sqrt(2 / len(seeds)))
-        return [f"half the step of the grains moves it by {a:.3g}, samples scatter by {b:.3g}" if abs(a) > allowed * b
-                else ""
-                for a, b in zip(moved, scatter)]
+        return [f"half the step of the grains moves it by {a:.3g}, samples scatter by {b:.3g}"
+                if abs(a) > allowed * b else "" for a, b in zip(moved, scatter)]
 
     def _settings(self, path: Path, point: Sequence[Setting], fine: bool, load_step: float) -> list[Setting]:
         outline, here = self.outlines[path.target.name], list(path.target.settings)

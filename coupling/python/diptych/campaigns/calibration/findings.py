@@ -32,15 +32,13 @@ COLUMNS = ("kind", "from", "to", "count", "mean", "deviation", "deviation_of_mea
 def parameter_records(coordinates: Coordinates, draws: Array, best: Array) -> list[dict[str, Any]]:
     """Values of the best point, medians and 95 % intervals of the draws; numbers are those of the coordinates."""
     inner = np.quantile(draws, [0.025, 0.5, 0.975], axis=0)
-    ends, numbers = [coordinates.numbers(one) for one in (*inner,
-                                                          best)], np.transpose([coordinates.numbers(one)
-                                                                                for one in draws])
+    low, median, high, at_best = (coordinates.numbers(one) for one in (*inner, best))
+    numbers = np.transpose([coordinates.numbers(one) for one in draws])
     prior = scipy.stats.truncnorm(-coordinates.start / PRIOR, (1 - coordinates.start) / PRIOR, scale=PRIOR).std()
     share = draws.std(0, ddof=1) / prior
     return [{"key": p.key, "targets": list(p.targets), "coordinate": p.coordinate, "of": p.other, "low": p.low,
-             "high": p.high,
-             "start": p.start, "number": ends[3][k], "number_low": ends[0][k], "number_median": ends[1][k],
-             "number_high": ends[2][k], "value": value, "is_outside": bool(not inner[0, k] <= best[k] <= inner[2, k]),
+             "high": p.high, "start": p.start, "number": at_best[k], "number_low": low[k], "number_median": median[k],
+             "number_high": high[k], "value": value, "is_outside": bool(not inner[0, k] <= best[k] <= inner[2, k]),
              "share_known": share[k], "is_identified": bool(share[k] < LARGEST_SHARE),
              "is_cut": bool(inner[0, k] < CUT or inner[2, k] > 1 - CUT), "draws": numbers[k]}
             for k, (p, value) in enumerate(zip(coordinates.parameters, coordinates.values(best)))]
@@ -56,7 +54,7 @@ def parameter_words(parameters: Sequence[dict[str, Any]]) -> list[str]:
                          "one")
         if p["is_outside"]:
             words.append(f"{name}: the best point of the search lies outside the interval of the posterior, whose "
-                         "median is " f"{p['number_median']:.4g}")
+                         f"median is {p['number_median']:.4g}")
         if p["is_cut"]:
             words.append(f"the interval of {name} ends at its bound, so this end comes from the bound and not from the "
                          "data")
@@ -65,11 +63,11 @@ def parameter_words(parameters: Sequence[dict[str, Any]]) -> list[str]:
 
 def discrepancy_record(noise: Noise, draws: Draws, paths: int) -> dict[str, Any]:
     """Sizes of the discrepancy after the first strains and its correlation strain, before and after the data."""
-    before = [noise.stress_discrepancy, noise.volume_discrepancy, draws.strain]
-    found = np.quantile(draws.sizes, [0.5, 0.025, 0.975], axis=0) * [noise.stress_discrepancy, noise.volume_discrepancy,
-                                                                     1]
-    return {"paths": paths, **{key: {"before": value, "found": Interval(*three)} for key, value, three in
-                               zip(("stress_ratio", "volumetric_strain", "correlation_strain"), before, found.T)}}
+    units = [noise.stress_discrepancy, noise.volume_discrepancy, 1]
+    found = np.quantile(draws.sizes, [0.5, 0.025, 0.975], axis=0) * units
+    names, before = ("stress_ratio", "volumetric_strain", "correlation_strain"), [*units[:2], draws.strain]
+    return {"paths": paths, **{key: {"before": value, "found": Interval(*three)}
+                               for key, value, three in zip(names, before, found.T)}}
 
 
 def discrepancy_words(record: dict[str, Any]) -> list[str]:
@@ -108,8 +106,8 @@ def predictions(path: Path, runs: Sequence[Observation], deviations: Array) -> l
     """Single numbers of a path with verdicts: two one-sided tests against the margins of the scene.
 
     deviations: (observables), of `after`: from the parameters if the path was not fitted, and from runs of grains; they
-    widen the intervals. That of the angle is unknown, because the
-    fit has no derivative of it. Near a flat peak the largest running mean moves as the largest mean over a bin does.
+    widen the intervals. That of the angle is unknown, because the fit has no derivative of it. Near a flat peak the
+    largest running mean moves as the largest mean over a bin does.
     The deviation given with a curve replaces the scatter of samples; that of its peak is the one of its largest bin.
     """
     margins, (before, after) = path.scene.dict()["comparison"], runs
@@ -126,10 +124,9 @@ def predictions(path: Path, runs: Sequence[Observation], deviations: Array) -> l
         if k is not None and deviations[k] > 0:
             deviation = deviations[k] * {"peak_stress_ratio": 1 / mean, "width_10_90": now / mean}.get(quantity, 1)
             test = widened(test, deviation)
-        found.append({"quantity": quantity, "data": mean, "before": earlier, "after": now,
-                      "difference": test.difference,
-                      "margin": margins[margin], "verdict": test.verdict(margins[margin]),
-                      "parameter_deviation": deviation})
+        found.append({"quantity": quantity, "data": mean,
+                      "before": earlier, "after": now, "difference": test.difference, "margin": margins[margin],
+                      "verdict": test.verdict(margins[margin]), "parameter_deviation": deviation})
 
     everything = [before, after, *path.samples]
     if np.isfinite([s.peak_stress_ratio for s in path.samples]).any():
@@ -158,21 +155,20 @@ def path_record(path: Path, noise: Noise, runs: Sequence[Observation], deviation
     deviation, of_mean = (np.sqrt(np.diag(of(noise, data))) for of in (covariance, covariance_of_mean))
     own = np.hypot(np.zeros_like(deviations) if path.target.is_fitted else deviations,  # of `after`
                    np.sqrt(np.diag(covariance(noise, path.of_noise)) / data.runs) if data.runs else 0)
-    observables = [
-        {"kind": one.kind, "from": one.low, "to": one.high, "count": int(data.count[k]), "mean": data.mean[k],
-         "deviation": deviation[k], "deviation_of_mean": of_mean[k],
-         "before": before.values[k], "after": after.values[k], "parameter_deviation": deviations[k],
-         "half_step": halved.values[k] - after.values[k], "counts": False, "discrepancy": np.nan,
-         "discrepancy_deviation": np.nan, "left_out": path.left_out[k]}
-        for k, one in enumerate(data.observables)]
+    observables = [{"kind": one.kind, "from": one.low,
+                    "to": one.high, "count": int(data.count[k]), "mean": data.mean[k], "deviation": deviation[k],
+                    "deviation_of_mean": of_mean[k], "before": before.values[k], "after": after.values[k],
+                    "parameter_deviation": deviations[k], "half_step": halved.values[k] - after.values[k],
+                    "counts": False, "discrepancy": np.nan, "discrepancy_deviation": np.nan,
+                    "left_out": path.left_out[k]} for k, one in enumerate(data.observables)]
     record = {"name": path.target.name, "use": "fit" if path.target.is_fitted else "predict",
               "seeds": path.target.seeds, "curve": os.path.basename(path.target.curve),
               "failed": after.failure, "observables": observables, "progress": path.samples[0].progress,
               "predictions": predictions(path, (before, after), own)}
     for name, key in (("stress_ratio", "stress_ratio"), ("volumetric_strain", "volume")):
         record |= with_scatter(key, np.array([getattr(s, name) for s in path.samples]))
-        record |= {key + end: [] if o.failure else getattr(o, name) for end,
-                   o in (("_before", before), ("_after", after))}
+        for end, o in (("_before", before), ("_after", after)):
+            record[key + end] = [] if o.failure else getattr(o, name)
         if after.samples:
             record |= with_scatter(key + "_after", np.array([getattr(s, name) for s in after.samples]))
     return record
@@ -200,13 +196,13 @@ def report(trials: Trials, fine: Fit, coarse: Fit, draws: Draws) -> None:
 def predict(trials: Trials, best: Array, jacobian: Array, draws: Draws) -> None:
     """All paths on their own meshes: before, calibrated, and calibrated with half the load step."""
     trials.keep(best)
-    jacobian = trials.data.unweighted(jacobian[:len(trials.data.mean)])
+    jacobian = np.linalg.solve(trials.data.root, jacobian[:len(trials.data.mean)])  # of the observables
     spread, curve = np.atleast_2d(np.cov(draws.points, rowvar=False)), iter(draws.curve.T)
     trials.record["other_runs"] += 3 * len(trials.paths)
     calibrated = [trials.settings(best, path.target.name) for path in trials.paths]
-    before, after = trials.run(trials.paths, [[path.target.before for path in trials.paths], calibrated], True,
-                             trials.calibration.load_step)
-    halved = trials.run(trials.paths, [calibrated], True, 0.5 * trials.calibration.load_step)[0]
+    step, uncalibrated = trials.calibration.load_step, [path.target.before for path in trials.paths]
+    before, after = trials.run(trials.paths, [uncalibrated, calibrated], True, step)
+    [halved] = trials.run(trials.paths, [calibrated], True, 0.5 * step)
     used = iter(trials.data.used)
     for path, *runs in zip(trials.paths, before, after, halved):
         here = _jacobian_on(trials, path, best, jacobian)
@@ -262,8 +258,7 @@ def _origin(record: dict[str, Any]) -> str:
     """Paths, curves and seeds of the fit, in one line without the sign of a comment: a value in a scene file."""
     fitted = [path for path in record["paths"] if path["use"] == "fit"]
     paths = [", ".join(filter(None, [path["name"], path["curve"],
-                                     path["seeds"] and f"seeds {seeds_text(path['seeds'])}"]))
-             for path in fitted]
+                                     path["seeds"] and f"seeds {seeds_text(path['seeds'])}"])) for path in fitted]
     status = "" if record["status"] == "finished" else f" ({record['status']})"
     return " ".join(f"calibrated on {'; '.join(paths) or record['title']}{status}".replace("#", "").split())
 
@@ -274,7 +269,7 @@ def _fragment(record: dict[str, Any]) -> str:
     lines = [f"# {origin}, by diptych {_diptych.git_revision}"]
     if record["status"] == "finished":
         lines += [f"# chi^2 of {record['n_observables']} observables: {record['chi2_before']:.4g} before, "
-                  f"{record['chi2']:.4g} " "now; calibration.json holds intervals"]
+                  f"{record['chi2']:.4g} now; calibration.json holds intervals"]
     lines += [f"subsection {section}", *("  set " + one.removeprefix(section + "/") for one in record["settings"])]
     lines += [f"  # {own['target']}: set {own['key'].removeprefix(section + '/')} = "
               f"{_diptych.text_of_number(own['value'])}"

@@ -53,9 +53,8 @@ class GrainRuns(CalibrationRuns):
             return scene_run(path.target.scene, "discrete", on_sample(here, seed, self.calibration.file))
 
         n = self.calibration.check_samples if is_halved else None
-        runs = [[[sample(path, settings, seed) for seed in path.target.seeds[:n]] for path,
-                 settings in zip(paths, point)]
-                for point in points]
+        runs = [[[sample(path, settings, seed) for seed in path.target.seeds[:n]]
+                 for path, settings in zip(paths, point)] for point in points]
         failures = iter(self._do([run for of_point in runs for of_path in of_point for run in of_path]))
 
         def observed(path: Path, run: SceneRun, failure: str) -> Observation:

@@ -221,8 +221,7 @@ def discrepancy(noise: Noise, data: Data) -> Array:
         profile[at] += FLOOR * profile[at].max()
     return np.select([data.of("stress_ratio"), data.of("volumetric_strain"), data.distances > 0],
                      [noise.stress_discrepancy + early, np.full_like(early, noise.volume_discrepancy),
-                      noise.width_discrepancy * profile],
-                     noise.width_discrepancy) ** 2
+                      noise.width_discrepancy * profile], noise.width_discrepancy) ** 2
 
 
 def working_covariance(noise: Noise, data: Data) -> Array:
@@ -248,8 +247,8 @@ class FittedData:
     def __init__(self, noise: Noise, paths: Sequence[Data], left_out: Sequence[Sequence[str]]) -> None:
         self.noise, self.paths, self.mean = noise, paths, np.concatenate([path.mean for path in paths])
         working = scipy.linalg.block_diag(*[working_covariance(noise, path) for path in paths])
-        self.used = np.isfinite(self.mean) & (np.diag(working)
-                                              > 0) & ~np.concatenate([np.array(why, bool) for why in left_out])
+        has_reason = np.concatenate([np.array(why, bool) for why in left_out])
+        self.used = np.isfinite(self.mean) & (np.diag(working) > 0) & ~has_reason
         self.root = np.eye(len(self.mean))  # root^T root = inverse of the working covariance
         square = np.ix_(self.used, self.used)
         self.root[square] = np.linalg.inv(np.linalg.cholesky(working[square]))
@@ -258,18 +257,14 @@ class FittedData:
         """root (values - mean), 0 for unused observables; all NaN if a used value is missing."""
         return self.root @ np.where(self.used, values - np.nan_to_num(self.mean), 0.0)
 
-    def unweighted(self, jacobian: Array) -> Array:
-        """Turns the Jacobian of the residuals into that of the observables."""
-        return np.linalg.solve(self.root, jacobian)
-
     def of_means(self) -> Array:
         """(n, n): covariance of the means."""
         return scipy.linalg.block_diag(*[covariance_of_mean(self.noise, path) for path in self.paths])
 
     def of_scatter(self, keys: Sequence[str]) -> Array:
         """(n, n): the part of it due to these deviations of one sample."""
-        noise = replace(self.noise, **{key: 0.0 for of_kind in ESTIMATED.values() for key in of_kind if key
-                                       not in keys})
+        others = {key: 0.0 for of_kind in ESTIMATED.values() for key in of_kind if key not in keys}
+        noise = replace(self.noise, **others)
         known = [replace(path, given=np.where(np.isfinite(path.given), 0.0, np.nan), own=path.own and NO_SCATTER)
                  for path in self.paths]  # not this scatter
         return scipy.linalg.block_diag(*[covariance_of_mean(noise, path) for path in known])

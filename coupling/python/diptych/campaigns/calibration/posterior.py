@@ -64,8 +64,8 @@ class Posterior:
         def of_all(values: Callable[[Data], Array]) -> Array:
             return np.concatenate([values(path) for path in data.paths])[self.used]
 
-        x, variance, noise = of_all(lambda path: path.middles), of_all(lambda path: discrepancy(data.noise,
-                                                                                                path)), data.noise
+        noise, x = data.noise, of_all(lambda path: path.middles)
+        variance = of_all(lambda path: discrepancy(noise, path))
         self.mean, self.strain = data.mean[self.used], SHARE_OF_STRAIN * x.max()
         self._far = np.abs(x[:, None] - x) / self.strain
         stress, volume = (of_all(lambda path, kind=kind: path.of(kind)) for kind in KINDS[:2])
@@ -74,22 +74,18 @@ class Posterior:
         self._scatter = [data.of_scatter([key for key in keys if key in noise.estimated])[square] for keys in SCALED]
         self.freedom = np.array([noise.degrees_of_freedom if part.any() else 0 for part in self._scatter])
         everything = data.of_means()[square]
-        tolerance = scipy.linalg.block_diag(*[tolerance_covariance(path, discrepancy(data.noise, path))
-                                              for path in data.paths])
-        tolerance = tolerance[square] * np.outer(~(stress | volume), ~(stress | volume))
+        of_paths = [tolerance_covariance(path, discrepancy(noise, path)) for path in data.paths]
+        tolerance = scipy.linalg.block_diag(*of_paths)[square] * np.outer(~(stress | volume), ~(stress | volume))
         self._fixed = everything - sum(self._scatter) + tolerance + np.diag(1e-9 * np.diag(everything))
         self.left_out = emulator.left_out / np.sqrt(np.diag(everything) + variance)  # in deviations of the data
-
-    def _discrepancy(self, logs: Array) -> Array:
-        """(n, observables, observables); logs: (n, 3)."""
-        stress, volume, strain = np.exp(logs.T)[..., None, None]
-        return (stress**2 * self._sizes[0] + volume**2 * self._sizes[1]) * np.exp(-self._far / strain)
 
     def _parts(self, z: Array) -> tuple[Array, Array, Array]:
         """Residual emulator - data (n, observables), its covariance, and the discrepancy's part of that."""
         n = len(self.start)
         values, factor = self.emulator.predict(z[:, :n])
-        of_law, q = self._discrepancy(z[:, n:n + 3]), np.exp(z[:, n + 3:, None, None])
+        stress, volume, strain = np.exp(z[:, n:n + 3].T)[..., None, None]
+        of_law = (stress**2 * self._sizes[0] + volume**2 * self._sizes[1]) * np.exp(-self._far / strain)
+        q = np.exp(z[:, n + 3:, None, None])
         everything = self._fixed + of_law + sum(q[:, k] * part for k, part in enumerate(self._scatter))
         return values - self.mean, everything + factor[:, None, None] * self.emulator.covariance, of_law
 
@@ -110,8 +106,8 @@ class Posterior:
         residual, covariance, _ = self._parts(z[inside])
         n, m = residual.shape
         bordered = np.empty((n, m + 1, m + 1))  # the last row of its root is (root of covariance)^-1 residual
-        bordered[:, :m, :m], bordered[:, m, :m], bordered[:, :m,
-                                                          m], bordered[:, m, m] = covariance, residual, residual, LARGE
+        bordered[:, :m, :m], bordered[:, m, m] = covariance, LARGE
+        bordered[:, m, :m] = bordered[:, :m, m] = residual
         root = np.linalg.cholesky(bordered)
         found[inside] -= 0.5 * (root[:, m, :m] ** 2).sum(1) + np.log(np.diagonal(root, axis1=1, axis2=2)[:, :m]).sum(1)
         return found

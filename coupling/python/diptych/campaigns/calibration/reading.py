@@ -44,9 +44,8 @@ def _check_target(calibration: Calibration, coordinates: Coordinates, target: Ta
         observables = calibration.observables_of(scene, bool(target.curve))
     except ValueError as error:
         raise SceneError(place + str(error)) from error
-    for kind in calibration.kinds:
-        if target.is_fitted and not (target.curve or is_element(scene)) and kind not in [one.kind
-                                                                                         for one in observables]:
+    if target.is_fitted and not (target.curve or is_element(scene)):
+        for kind in [kind for kind in calibration.kinds if kind not in [one.kind for one in observables]]:
             raise SceneError(f"{place}no bin or window of {kind} lies within its loading")
     for p in coordinates.parameters:
         if p.is_of(target.name) and p.key in (unused := scene.unused_keys()):
@@ -64,9 +63,9 @@ def checked(calibration: Calibration) -> Coordinates:
     first fitted scene. Whether the scatter can be estimated follows from the number of samples alone."""
     first = next(target for target in calibration.targets if target.is_fitted)
     values = {**read_target(first).dict()["continuum"], **{one.key: one.value for one in calibration.fixed}}
+    numbers = pd.to_numeric(pd.Series(values), errors="coerce").dropna().to_dict()
     try:
-        coordinates = Coordinates(calibration.parameters, pd.to_numeric(pd.Series(values),
-                                                                        errors="coerce").dropna().to_dict())
+        coordinates = Coordinates(calibration.parameters, numbers)
         noise_of([_check_target(calibration, coordinates, target) for target in calibration.targets], calibration.noise)
     except SceneError:
         raise

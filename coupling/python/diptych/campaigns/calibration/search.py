@@ -28,8 +28,8 @@ NORMAL = float(scipy.stats.norm.ppf(0.975))
 def difference_jacobian(residuals: Residuals, point: Array, residual: Array, difference: float = DIFFERENCE) -> Array:
     """(residuals, parameters): differences around a point, from the other side if a run fails, zero if both fail."""
     def columns(numbers: Sequence[int], steps: Array) -> Array:
-        return np.array([(value - residual) / steps[k] for k, value in
-                         zip(numbers, residuals([point + steps[k] * np.eye(len(point))[k] for k in numbers]))])
+        values = residuals([point + steps[k] * np.eye(len(point))[k] for k in numbers])
+        return np.array([(value - residual) / steps[k] for k, value in zip(numbers, values)])
 
     steps = np.where(point + difference <= 1, difference, -difference)
     jacobian = columns(range(len(point)), steps)
@@ -70,9 +70,8 @@ class _Search:
     scatter of the runs and not their slope."""
 
     def __init__(self, residuals: Residuals, fit: Fit, shortest: float) -> None:
-        self.residuals, self.fit, self.trial, self.failed, self.fresh = residuals, fit, (fit.point,
-                                                                                         fit.residual), False, False
-        self.shortest = shortest
+        self.residuals, self.fit, self.shortest = residuals, fit, shortest
+        self.trial, self.failed, self.fresh = (fit.point, fit.residual), False, False
 
     def value(self, x: Array) -> Array:
         if np.array_equal(x, self.fit.point):

@@ -14,14 +14,13 @@ from ..runs.input_file import Setting, read_seeds
 
 # Those of benchmarks/calibration/reference.
 SET = {"hardening": "mobilisation", "softening_strain": 0.3, "cohesion": 0.01}
-PARAMETERS = (
-    {"key": "friction_angle_peak", "start": 25, "low": 12, "high": 40},
-    {"key": "friction_angle_residual", "start": 0.5, "low": 0.05, "high": 0.9},
-    {"key": "friction_angle_start", "start": 0.7, "low": 0.2, "high": 1},
-    {"key": "mobilisation_strain", "start": 0.005, "low": 0.0005, "high": 0.2},
-    {"key": "dilatancy_angle_peak", "of": "friction_angle_start", "start": 0.5, "low": 0.05, "high": 1},
-    {"key": "internal_length", "start": 3, "low": 0.8, "high": 8},
-    {"key": "youngs_modulus", "start": 2000, "low": 200, "high": 20000})
+PARAMETERS = ({"key": "friction_angle_peak", "start": 25, "low": 12, "high": 40},
+              {"key": "friction_angle_residual", "start": 0.5, "low": 0.05, "high": 0.9},
+              {"key": "friction_angle_start", "start": 0.7, "low": 0.2, "high": 1},
+              {"key": "mobilisation_strain", "start": 0.005, "low": 0.0005, "high": 0.2},
+              {"key": "dilatancy_angle_peak", "of": "friction_angle_start", "start": 0.5, "low": 0.05, "high": 1},
+              {"key": "internal_length", "start": 3, "low": 0.8, "high": 8},
+              {"key": "youngs_modulus", "start": 2000, "low": 200, "high": 20000})
 # of the bins / end of the loading
 EDGES = (0.025, 0.05, 0.075, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1)
 LOAD_STEPS = 40
@@ -35,7 +34,12 @@ def standard_calibration(scene: str, seeds: str, settings: Sequence[Setting]) ->
     fixed = [Setting("continuum", key, str(value), "the standard calibration") for key, value in SET.items()]
     read = _diptych.read_changed_scene(scene, [*settings, *fixed], True)
     keys, unused = read.dict(), read.unused_keys()
-    _check_seeds(seeds, keys["discrete"])
+    file, n = keys["discrete"]["file"], len(read_seeds(seeds))
+    is_one = keys["discrete"]["method"] == "imported" and "{seed}" not in file
+    if is_one and n > 1:
+        raise SceneError(f"--seeds {seeds}: discrete/file = '{file}' is one sample; give --seeds 1")
+    if not is_one and n < 2:
+        raise SceneError(f"--seeds {seeds}: the scatter of samples needs at least two seeds, for example --seeds 1-4")
     end, law = keys["loading"]["axial_strain"], {key: keys["continuum"][key] for key in ("law", "geometry")}
     return {
         "title": f"{read.name}, seeds {seeds}",
@@ -49,10 +53,3 @@ def standard_calibration(scene: str, seeds: str, settings: Sequence[Setting]) ->
         "coarse_element_size": float(np.round(max(SMALLEST_COARSE, COARSE * keys["continuum"]["element_size"]), 2))}
 
 
-def _check_seeds(seeds: str, discrete: dict[str, Any]) -> None:
-    """Generated samples show their scatter; an imported one is a single sample."""
-    is_one = discrete["method"] == "imported" and "{seed}" not in discrete["file"]
-    if is_one and len(read_seeds(seeds)) > 1:
-        raise SceneError(f"--seeds {seeds}: discrete/file = '{discrete['file']}' is one sample; give --seeds 1")
-    if not is_one and len(read_seeds(seeds)) < 2:
-        raise SceneError(f"--seeds {seeds}: the scatter of samples needs at least two seeds, for example --seeds 1-4")

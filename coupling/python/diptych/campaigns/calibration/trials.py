@@ -57,8 +57,8 @@ class Trials:
         settings = [[self.settings(point, path.target.name) for path in paths] for point in points]
         found = self.run(paths, settings, fine, self.calibration.load_step)
         if count != "other_runs":
-            self.tried += [(point, fine, np.concatenate([one.values for one in runs])) for point,
-                           runs in zip(points, found)]
+            self.tried += [(point, fine, np.concatenate([one.values for one in runs]))
+                           for point, runs in zip(points, found)]
             self.failures += [one.failure for runs in found for one in runs if one.failure]
             self.record["failed_runs"] = len(self.failures)
         return found
@@ -83,9 +83,8 @@ class Trials:
 
     def residuals(self, fine: bool) -> Callable[[Sequence[Array]], list[Array]]:
         def found_at(points: Sequence[Array]) -> list[Array]:
-            found = []
-            for point, runs in zip(points, self.runs(points, self.fitted, fine,
-                                                     "fine_runs" if fine else "coarse_runs")):
+            found, count = [], "fine_runs" if fine else "coarse_runs"
+            for point, runs in zip(points, self.runs(points, self.fitted, fine, count)):
                 data = self.data.residual(np.concatenate([one.values for one in runs]))
                 found.append(np.concatenate([data, (point - self.coordinates.start) / PRIOR]))
                 total = found[-1] @ found[-1]
