@@ -5,16 +5,17 @@
 import shlex
 import sys
 from collections.abc import Sequence
+from typing import Any
 
 from . import _diptych
 from .campaigns.commands import do
 from .campaigns.runs.engine import DONE, SYSTEM_FAILURE, code_and_text, complain, on_first_process
 
 
-def main(words: Sequence[str]) -> int:
-    """Does a command and returns its exit code; an error is a message."""
+def main(words: Sequence[str], pool: Any = None) -> int:
+    """Does a command and returns its exit code; an error is a message. pool: of the other processes of mpirun."""
     try:
-        do(words)
+        do(words, pool)
         return DONE
     except MemoryError:
         code = SYSTEM_FAILURE
@@ -27,4 +28,4 @@ def main(words: Sequence[str]) -> int:
 
 if __name__ == "__main__":
     _diptych.install_signals()
-    sys.exit(on_first_process(lambda: main(sys.argv[1:])))
+    sys.exit(on_first_process(lambda pool: main(sys.argv[1:], pool)))

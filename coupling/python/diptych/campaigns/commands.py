@@ -4,6 +4,7 @@
 
 import importlib
 from collections.abc import Sequence
+from typing import Any
 
 from ..entries import described
 from ..words import Parser
@@ -31,14 +32,16 @@ def with_joined_per_cent(words: Sequence[str]) -> list[str]:
     return joined
 
 
-def do(words: Sequence[str]) -> None:
-    """Does a command in this process. Raises SceneError for wrong words, and what went wrong."""
+def do(words: Sequence[str], pool: Any = None) -> None:
+    """Does a command in this process, and runs also in `pool`. Raises SceneError for wrong words, and what went
+    wrong."""
     add_arguments, module, function = COMMANDS[words[0]]
     parser = Parser(words[0])
     add_arguments(parser)
     line = parser.parse(with_joined_per_cent(words[1:]))
     loaded = importlib.import_module("." + module, __package__)
-    getattr(loaded, function)(line, Options.of(line, words))
+    shared = {name: value for name, value in vars(line).items() if name in Options.__dataclass_fields__}
+    getattr(loaded, function)(line, Options(**shared, words=words, pool=pool))
 
 
 def result_entries() -> list[dict[str, str]]:

@@ -68,9 +68,8 @@ def observed(tables: Sequence[pd.DataFrame], law: pd.DataFrame | None, end: floa
 def _mean_and_error(values: np.ndarray, name: str) -> tuple[np.ndarray, np.ndarray]:
     """Mean over the samples and its standard error; NaN where a sample has no value, or for the error of one sample."""
     if QUANTITIES[name] != "degrees":
-        n = len(values)
-        return values.mean(axis=0), values.std(axis=0, ddof=1) / np.sqrt(n) if n > 1 else np.full(values.shape[1],
-                                                                                                  np.nan)
+        n, unknown = len(values), np.full(values.shape[1], np.nan)
+        return values.mean(axis=0), values.std(axis=0, ddof=1) / np.sqrt(n) if n > 1 else unknown
     found = [line_statistics(column) for column in values.T]
     return (np.array([one.mean for one in found]), np.array([one.deviation for one in found]) / np.sqrt(len(values)))
 

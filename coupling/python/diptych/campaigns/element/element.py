@@ -13,7 +13,7 @@ import pandas as pd
 from ... import _diptych
 from ...entries import describe
 from ...errors import NotConverged, SceneError, Stopped
-from .curves import BINS, Curves, key_numbers, observed, rms_differences, table_of
+from .curves import BINS, key_numbers, observed, rms_differences, table_of
 from ..runs.engine import DONE, WRONG_INPUT, Options, say
 from ..runs.folders import Folder, Runs, SceneRun, draw, write_json, write_text
 from ..runs.histories import panel_table
@@ -61,8 +61,8 @@ law_NAME [as grains_NAME]: of the law's point, which has no fabric and no contac
 """)
 
 
-def _read(run: SceneRun) -> SceneRun:
-    """The run, if the scene allows it. Raises SceneError."""
+def _run(scene: str, command: str, settings: Sequence[Setting]) -> SceneRun:
+    run = scene_run(scene, command, settings)
     if run.refusal:
         raise SceneError(run.refusal)
     return run
@@ -70,9 +70,9 @@ def _read(run: SceneRun) -> SceneRun:
 
 def _done(runs: Runs, wanted: Sequence[SceneRun], options: Options) -> list[str]:
     """Does the runs and returns for each why it ended before its end; empty: it did not. Raises SceneError for wrong
-    input and NotConverged after a stop request."""
+    input and Stopped after a stop request."""
     if any(outcome.interrupted for outcome in runs.do(wanted, options).values()):
-        return ["stopped on request"] * len(wanted)
+        raise Stopped(f"stopped on request; to go on: {options.again}")
     ends = [(run, runs.found_end(run)) for run in wanted]
     for run, end in ends:
         if end and end["exit_code"] == WRONG_INPUT:
@@ -91,22 +91,15 @@ def _law_settings(settings: Sequence[Setting], scene: Any, tables: Sequence[pd.D
 
 def _text(numbers: Sequence[Mapping[str, Any]]) -> str:
     """The table of a terminal."""
-    rows = [[one["quantity"], one["grains"], one["law"], one["difference"]] for one in numbers]
-
     def shown(value: Any) -> str:
         number, *ends = value if isinstance(value, tuple) else (value,)
         known = f" [{ends[0]:.4g}, {ends[1]:.4g}]" if ends and ends[0] == ends[0] else ""
         return f"{number:.4g}{known}" if number == number else "-"
 
-    table = [["", "grains [95 %]", "law", "law - grains [95 %]"], *([row[0], *map(shown, row[1:])] for row in rows)]
+    table = [["", "grains [95 %]", "law", "law - grains [95 %]"],
+             *([one["quantity"], *(shown(one[name]) for name in ("grains", "law", "difference"))] for one in numbers)]
     widths = [max(map(len, column)) for column in zip(*table)]
     return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in table)
-
-
-def _write(directory: str, record: dict[str, Any], curves: Curves) -> None:
-    write_text(os.path.join(directory, "element.csv"),
-               table_of(curves).to_csv(index=False, float_format="%.10g", lineterminator="\n"))
-    write_json(os.path.join(directory, "element.json"), record)
 
 
 def run_element(line: argparse.Namespace, options: Options) -> None:
@@ -118,8 +111,8 @@ def run_element(line: argparse.Namespace, options: Options) -> None:
         raise SceneError(f"{line.target}: discrete/lateral = {scene.dict()['discrete']['lateral']}; an element test "
                          "needs discrete/lateral = cell and loading/mode = path")
     seeds = read_seeds(line.seeds) if line.seeds else [scene.dict()["sample"]["seed"]]
-    grains = [_read(scene_run(line.target, "discrete", on_sample(settings, seed, line.target))) for seed in seeds]
-    _read(scene_run(line.target, "material-point", settings))  # a wrong law is refused before the grains run
+    grains = [_run(line.target, "discrete", on_sample(settings, seed, line.target)) for seed in seeds]
+    _run(line.target, "material-point", settings)  # a wrong law is refused before the grains run
     directory = line.output or f"results/{scene.name}_element"
     with Folder(directory) as folder:
         folder.open_runs("element", line.target, options, lambda: [("the scene", line.target), *scene.input_files()])
@@ -127,14 +120,10 @@ def run_element(line: argparse.Namespace, options: Options) -> None:
         failures = _done(runs, grains, options)
         found = {seed: panel_table(runs.path(run), "discrete") for seed, run in zip(seeds, grains)}
         tables = {seed: table for seed, table in found.items() if table is not None}
-        law, failure = None, ""
-        if tables and "stopped on request" not in failures:
-            law = _read(scene_run(line.target, "material-point", _law_settings(settings, scene, list(tables.values()))))
-            [failure] = _done(runs, [law], options)
-        stopped = "stopped on request" in (failure, *failures)
-        if stopped or not tables:
-            why = "stopped on request" if stopped else failures[0]
-            raise (Stopped if stopped else NotConverged)(f"{why}; to go on: {options.again}")
+        if not tables:
+            raise NotConverged(f"{failures[0]}; to go on: {options.again}")
+        law = _run(line.target, "material-point", _law_settings(settings, scene, list(tables.values())))
+        [failure] = _done(runs, [law], options)
         point = panel_table(runs.path(law), "material_point")
         end = max(float(table["progress"].iloc[-1]) for table in (*tables.values(), point) if table is not None)
         curves = observed(list(tables.values()), point, end, scene.dict()["loading"]["pressure"])
@@ -143,7 +132,9 @@ def run_element(line: argparse.Namespace, options: Options) -> None:
                   "failed": [{"seed": seed, "message": text} for seed, text in zip(seeds, failures) if text],
                   "quantities": key_numbers(curves), "rms": rms_differences(curves),
                   "command": shlex.join(["diptych", *options.words])}
-        _write(directory, record, curves)
+        write_text(os.path.join(directory, "element.csv"),
+                   table_of(curves).to_csv(index=False, float_format="%.10g", lineterminator="\n"))
+        write_json(os.path.join(directory, "element.json"), record)
         draw(options, directory, "element")
         say(options, _text(record["quantities"]))
     ends = [f"{name} ended before the end of the path: {text}" for name, text in

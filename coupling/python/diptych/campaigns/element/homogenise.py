@@ -6,13 +6,12 @@ import argparse
 import os
 import shlex
 import time
-from typing import Any
-
 import numpy as np
 
 from ... import _diptych
 from ...entries import describe
 from ...errors import SceneError
+from ...files import part_of
 from ...homogenisation import Homogenised, homogenise
 from ..exchange.imports import import_files, import_options
 from ..runs.engine import Options, say, tell
@@ -151,22 +150,14 @@ def _write_fields(folder: str, found: Homogenised) -> None:
     entries = ""
     for k, (mesh, maps) in enumerate(zip(found.meshes, found.maps)):
         name = f"fields_{k:04d}.vtu"
-        cells = {key: [np.pad(value, ((0, 0), (0, 1), (0, 1))).reshape(-1, 9) if value.ndim == 3
-                       else value.astype(float)]
-                 for key, value in maps.items()}
+        cells = {key: [np.pad(value, ((0, 0), (0, 1), (0, 1))).reshape(-1, 9)
+                       if value.ndim == 3 else value.astype(float)] for key, value in maps.items()}
         points = np.column_stack([mesh.nodes, np.zeros(len(mesh.nodes))])
-        path = os.path.join(folder, name)
-        meshio.vtu.write(path + ".part", meshio.Mesh(points, [("quad", mesh.cells)], cell_data=cells))
-        os.replace(path + ".part", path)
+        with part_of(os.path.join(folder, name)) as part:
+            meshio.vtu.write(part, meshio.Mesh(points, [("quad", mesh.cells)], cell_data=cells))
         entries += f'<DataSet timestep="{found.frames[k]["progress"]!r}" part="0" file="{name}"/>\n'
     write_text(os.path.join(folder, "fields.pvd"), '<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1" '
                f'byte_order="LittleEndian">\n<Collection>\n{entries}</Collection>\n</VTKFile>\n')
-
-
-def _record(found: Homogenised, source: str) -> dict[str, Any]:
-    return {"format": 1, "source": os.path.abspath(source), "walk": found.walk, "mean_diameter": found.mean_diameter,
-            "grid_d": found.grid, "cells": len(found.meshes[0].cells), "frames": found.frames,
-            "increments": found.increments, "resolution_study": found.resolution_study, "missing": found.missing}
 
 
 def _print(found: Homogenised, options: Options) -> None:
@@ -188,17 +179,19 @@ def run_homogenise(line: argparse.Namespace, options: Options) -> None:
         if not _diptych.is_empty_folder(folder):
             if not options.overwrite:
                 raise SceneError(f"the folder '{folder}' is not empty. Add --overwrite to rename it to "
-                                 f"{os.path.basename(folder)}.1, or " "--output with another folder.")
+                                 f"{os.path.basename(folder)}.1, or --output with another folder.")
             _diptych.require_usable(folder, False, True)
             locked.set_aside([("the folder with the grains", line.target),
                               *(("the file", file) for file in line.files)])
         if line.files:
             import_files(line.target, import_options(line), grains, options)
         found = homogenise(grains, line.grid)
-        found.table().to_csv(os.path.join(folder, "homogenised.csv.part"), index_label="frame")
-        os.replace(os.path.join(folder, "homogenised.csv.part"), os.path.join(folder, "homogenised.csv"))
+        write_text(os.path.join(folder, "homogenised.csv"), found.table().to_csv(index_label="frame"))
         _write_fields(folder, found)
-        write_json(os.path.join(folder, "homogenised.json"), _record(found, grains))
+        record = {"format": 1, "source": os.path.abspath(grains), "walk": found.walk, "grid_d": found.grid,
+                  "mean_diameter": found.mean_diameter, "cells": len(found.meshes[0].cells), "frames": found.frames,
+                  "increments": found.increments, "resolution_study": found.resolution_study, "missing": found.missing}
+        write_json(os.path.join(folder, "homogenised.json"), record)
         cost = ("homogenise", time.perf_counter() - began[0], time.process_time() - began[1], 0.0)
         _diptych.record_phase(folder, ("", [], shlex.join(["diptych", *options.words])), cost)
         _print(found, options)

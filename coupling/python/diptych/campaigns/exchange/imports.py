@@ -9,19 +9,18 @@ import os
 import resource
 import runpy
 import shlex
-import signal
 import time
 import traceback
 from typing import Any
 
 from ... import _diptych
 from ...arrays import plain
-from ...errors import SceneError, Stopped
+from ...errors import SceneError
 from ...importers.arrival import Arrival, arrive
 from ...importers.frames import Options as ImportOptions
 from ...importers.grain_results import facts_of, results_of, scene_of
 from ...importers.readers import read_frames, registered
-from ..runs.engine import Options, complain, say
+from ..runs.engine import Options, complain, say, stops_raised
 from ..runs.folders import Folder, write_json, write_text
 
 LAYOUT = "%-18.18s %8s %7s %9s %9s %10s %10s %10s %10s %14s %12s %13s"
@@ -108,12 +107,7 @@ def import_files(word: str, given: ImportOptions, folder: str, options: Options)
         f"written to {folder}; one frame is no loading, so there is no scene")
 
 
-def _stop(*_: Any) -> None:
-    raise Stopped("import: stopped on request")
-
-
 def run_import(line: argparse.Namespace, options: Options) -> None:
     """The command `diptych import`."""
-    for each in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        signal.signal(each, _stop)
-    import_files(line.format, import_options(line), line.output, options)
+    with stops_raised("import: stopped on request"):
+        import_files(line.format, import_options(line), line.output, options)

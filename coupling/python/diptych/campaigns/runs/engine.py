@@ -5,7 +5,7 @@ exit code on a line. Threads hand the runs to workers; under mpirun each other p
 neither on the number of workers nor on the order of the runs.
 """
 
-import argparse
+import functools
 import json
 import os
 import queue
@@ -19,7 +19,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from datetime import timedelta
 from typing import TYPE_CHECKING, Any
 
@@ -51,12 +51,7 @@ class Options:
     resume: bool = False
     overwrite: bool = False
     words: Sequence[str] = ()  # the command line
-
-    @staticmethod
-    def of(line: argparse.Namespace, words: Sequence[str]) -> "Options":
-        """Those of a parsed command line; a command may lack some."""
-        names = [one.name for one in fields(Options) if one.name in line]
-        return Options(**{name: getattr(line, name) for name in names}, words=words)
+    pool: Any = None  # mpi4py's executor on the other processes of mpirun
 
     @property
     def again(self) -> str:
@@ -128,19 +123,13 @@ def last_words(log: str) -> str:
         return ([""] + [line.rstrip("\r\n") for line in file if line.strip()])[-1]
 
 
-def first_file(places: Sequence[str], otherwise: str) -> str:
-    """The first of these paths that is a file. Raises FileNotFoundError with the text if there is none."""
-    for place in filter(os.path.isfile, places):
-        return place
-    raise FileNotFoundError(otherwise)
-
-
 def program() -> str:
     """Path of the program `diptych`: that which started this process, or the one of the package."""
     package = os.path.abspath(os.path.join(os.path.dirname(__file__), *[".."] * 3))  # the folder that holds it
     built, installed = os.path.join(package, "..", "diptych"), os.path.join(package, *[".."] * 3, "bin", "diptych")
-    otherwise = f"the program diptych is neither {built} nor {installed}; set DIPTYCH_PROGRAM to its path"
-    return os.path.realpath(first_file([os.environ.get("DIPTYCH_PROGRAM", ""), built, installed], otherwise))
+    for place in filter(os.path.isfile, [os.environ.get("DIPTYCH_PROGRAM", ""), built, installed]):
+        return os.path.realpath(place)
+    raise FileNotFoundError(f"the program diptych is neither {built} nor {installed}; set DIPTYCH_PROGRAM to its path")
 
 
 def environment() -> dict[str, str]:
@@ -162,7 +151,8 @@ def stops_raised(text: str) -> Iterator[None]:
     if _diptych.stop_requested():
         stop()
     here = threading.current_thread() is threading.main_thread()
-    before = {one: signal.signal(one, stop) for one in (signal.SIGINT, signal.SIGTERM) if here}
+    before = {one: signal.signal(one, stop) for one in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+              if here and signal.getsignal(one) is not signal.SIG_IGN}
     try:
         yield
     finally:
@@ -211,12 +201,14 @@ class Worker:
         return code if code >= 0 else 128 - code
 
 
-_pool: Any = None  # mpi4py's executor on the other processes of mpirun
-_remote_worker = Worker()
+@functools.cache
+def _remote_worker() -> Worker:
+    """The one worker of another process of mpirun."""
+    return Worker()
 
 
 def _remote(line: str) -> tuple[int, bool]:
-    return _remote_worker.run(line)
+    return _remote_worker().run(line)
 
 
 @contextmanager
@@ -229,17 +221,16 @@ def stop_signals() -> Iterator[None]:
         del taken
 
 
-def on_first_process(work: Callable[[], int]) -> int:
+def on_first_process(work: Callable[[Any], int]) -> int:
     """Does the work on the first process of mpirun; returns its exit code. The others do runs for it and return 0."""
-    global _pool
     if n_processes() == 1:
-        return work()
+        return work(None)
     from mpi4py import MPI  # needs an MPI job
     from mpi4py.futures import MPICommExecutor
 
     _diptych.install_signals()  # once more: MPI changes some
-    with MPICommExecutor(MPI.COMM_WORLD, root=0, main=False) as _pool:
-        return work() if _pool is not None else DONE
+    with MPICommExecutor(MPI.COMM_WORLD, root=0, main=False) as pool:
+        return work(pool) if pool is not None else DONE
 
 
 def n_processes() -> int:
@@ -298,7 +289,8 @@ def execute(runs: Sequence[Run], options: Options, *, finished: int = 0,
     seats, others = n_seats(options), n_processes() - 1
     workers = [Worker() for _ in range(min(len(runs), seats - others))]
     free: queue.SimpleQueue[Callable[[str], tuple[int, bool]]] = queue.SimpleQueue()
-    for serve in [*(worker.run for worker in workers), *[lambda line: _pool.submit(_remote, line).result()] * others]:
+    of_others = [lambda line: options.pool.submit(_remote, line).result()] * others
+    for serve in [*(worker.run for worker in workers), *of_others]:
         free.put(serve)
     ended: queue.SimpleQueue[tuple[int, Future[Outcome]]] = queue.SimpleQueue()
     started: dict[int, float] = {}
