@@ -36,17 +36,15 @@ def _verdict(rows: Sequence[dict[str, Any]], plateau: list[float] | None) -> str
     first, last = rows[0], rows[-1]
     scatter = [f"{100 * row['scatter_s']:.0f}" for row in (first, last)]
     text = (f"From w = {first['width_d']:g} to {last['width_d']:g} d the scatter of s over the sample goes from "
-            f"{scatter[0]} to "
-            f"{scatter[1]} % of its mean: narrow kernels show single force chains, wide ones only the mean of the "
-            "sample.")
+            f"{scatter[0]} to {scatter[1]} % of its mean: narrow kernels show single force chains, wide ones only the "
+            "mean of the sample.")
     if plateau:
         return text + (f" From w = {plateau[0]:g} to {plateau[1]:g} d, s and t/s at {len(PLACES)} places stay within "
                        f"{100 * PLATEAU:g} % of their means (plateau): a local stress hardly depends on a width in "
                        "this range.")
     return text + (f" There is no plateau: no range of w of a factor of {LEAST_RATIO:g} keeps s and t/s at "
-                   f"{len(PLACES)} places "
-                   f"within {100 * PLATEAU:g} %. A local stress depends on w; state w with it. Means over the sample "
-                   "do not depend on w.")
+                   f"{len(PLACES)} places within {100 * PLATEAU:g} %. A local stress depends on w; state w with it. "
+                   "Means over the sample do not depend on w.")
 
 
 def width_scan(snapshot: Any) -> dict[str, Any]:

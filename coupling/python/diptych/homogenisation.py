@@ -153,22 +153,6 @@ def _between(start: Any, end: Any, maps: tuple[Array, Array], missing: list[dict
     return row | {"band_verdict": report.verdict, "bands": [_band(band, end.mean_diameter) for band in report.bands]}
 
 
-def _sheets(frames: list[Any], grid: float) -> list[Sheet]:
-    """The outline of every frame, with as many cells as suit the first one."""
-    left, right, size = frames[0].outline_left, frames[0].outline_right, grid * frames[0].mean_diameter
-    n_x = max(1, round((right[:, 0].mean() - left[:, 0].mean()) / size))
-    n_y = max(1, round((left[-1, 1] - left[0, 1]) / size))
-    return [outline_of(snapshot, n_x, n_y) for snapshot in frames]
-
-
-def _missing(frames: list[Any]) -> list[dict[str, str]]:
-    reason = "no contact of this frame carries force, or the files hold none"
-    missing = [{"quantity": f"stress, fabric and contacts at {frame.progress:g}", "reason": reason}
-               for frame in frames if not has_forces(frame)]
-    one = [{"quantity": "strain and bands", "reason": "there is only one frame"}]
-    return missing + (one if len(frames) == 1 else [])
-
-
 def homogenise(grains: Any, grid: float = 3.0) -> Homogenised:
     """Homogenises grains without a continuum.
 
@@ -186,7 +170,16 @@ def homogenise(grains: Any, grid: float = 3.0) -> Homogenised:
     frames = list(grains)
     if not frames:
         raise ValueError("homogenise: at least one snapshot is needed")
-    first, last, missing, sheets = frames[0], frames[-1], _missing(frames), _sheets(frames, grid)
+    first, last, scanned = frames[0], frames[-1], [k for k, frame in enumerate(frames) if has_forces(frame)]
+    missing = [{"quantity": f"stress, fabric and contacts at {frame.progress:g}",
+                "reason": "no contact of this frame carries force, or the files hold none"}
+               for k, frame in enumerate(frames) if k not in scanned]
+    if len(frames) == 1:
+        missing.append({"quantity": "strain and bands", "reason": "there is only one frame"})
+    left, right, size = first.outline_left, first.outline_right, grid * first.mean_diameter
+    n_x = max(1, round((right[:, 0].mean() - left[:, 0].mean()) / size))
+    n_y = max(1, round((left[-1, 1] - left[0, 1]) / size))
+    sheets = [outline_of(snapshot, n_x, n_y) for snapshot in frames]
     maps, increments = [_stress_maps(frame, sheet) for frame, sheet in zip(frames, sheets)], []
     for before, end, sheet, fields in zip(frames, frames[1:], sheets[1:], maps[1:]):
         strain, total = (_strain(start, end, sheet.mesh.centres) for start in (before, first))
@@ -195,7 +188,6 @@ def homogenise(grains: Any, grid: float = 3.0) -> Homogenised:
         increments.append(_between(before, end, (strain, fields["area"]), missing))
     if len(frames) > 2:
         increments.append(_between(first, last, (maps[-1]["strain_since_start"], maps[-1]["area"]), missing))
-    scanned = [k for k, frame in enumerate(frames) if has_forces(frame)]
     scan = width_scan(frames[scanned[-1]]) if scanned else {}
     if scan:
         scan["frame"] = scanned[-1]

@@ -80,8 +80,8 @@ class Campaign(CampaignResult):
         """An ensemble: rows and columns of Results.summary(), with means over the samples and 95 % intervals."""
         if "summary" not in self.numbers:
             raise AttributeError("a study has no summary; use .points or .table")
-        table = pd.json_normalize(self.numbers["summary"],
-                                  sep="_").rename(columns=lambda name: name.removesuffix("_value"))
+        table = pd.json_normalize(self.numbers["summary"], sep="_")
+        table = table.rename(columns=lambda name: name.removesuffix("_value"))
         numbers = [of + end for of in ("grains", "continuum", "difference") for end in ("", "_low", "_high")]
         return table.set_index("quantity")[["unit", *numbers, "verdict"]].astype(dict.fromkeys(numbers, float))
 
@@ -89,10 +89,9 @@ class Campaign(CampaignResult):
     def effects(self) -> pd.DataFrame:
         """A study without a reference, effects.csv: a row per point, quantity and panel. The values of the parameters
         come first, then quantity, panel, unit, n, mean, low and high (95 % interval), deviation (of one sample)."""
-        path = os.path.join(self.folder, "effects.csv")
         if not self.numbers.get("changes"):
             raise AttributeError("no effects of parameters here; a study has them if it has no reference")
-        return pd.read_csv(path, float_precision="round_trip")
+        return pd.read_csv(os.path.join(self.folder, "effects.csv"), float_precision="round_trip")
 
     @property
     def sensitivity(self) -> pd.DataFrame:
@@ -194,7 +193,7 @@ def _seeds(seeds: Any) -> str:
     """Seeds as on the command line. Refuses a number, which could be one seed or a number of samples."""
     if isinstance(seeds, Integral):
         raise SceneError(f"seeds = {seeds} is not allowed; give range(1, {seeds + 1}) for {seeds} samples, [{seeds}] "
-                         "for the " f"sample with seed {seeds}", "seeds")
+                         f"for the sample with seed {seeds}", "seeds")
     return text_of(seeds).replace(" ", "")
 
 

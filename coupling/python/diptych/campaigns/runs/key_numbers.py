@@ -63,9 +63,8 @@ def bands_between(scene: Any, pair: Sequence[Any], frame: Mapping[str, Any]) -> 
     the snapshots."""
     keys = scene.dict()
     options = {name: keys["comparison"][name] for name in BAND_OPTIONS}
-    return operators.find_bands(**{"mean_diameter": keys["sample"]["mean_diameter"], **operators.increment(*pair),
-                                   **frame},
-                                band_resamples=0, **options).bands
+    return operators.find_bands(**{"mean_diameter": keys["sample"]["mean_diameter"],
+                                   **operators.increment(*pair), **frame}, band_resamples=0, **options).bands
 
 
 def _band_of_nodes(folder: str, scene: Any) -> dict[tuple[str, str], float]:
