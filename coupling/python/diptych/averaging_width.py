@@ -76,8 +76,8 @@ def width_scan(snapshot: Any) -> dict[str, Any]:
                       for a, b in ((0, 0), (1, 1), (0, 1)))
         s, t = 0.5 * (xx + yy), np.hypot(0.5 * (xx - yy), xy)
         points = [{"name": name, "s": s.flat[k], "t_over_s": t.flat[k] / s.flat[k]} for name, k in places.items()]
-        scatter = {"scatter_" + name: field[inside].std() / field[inside].mean() for name,
-                   field in (("s", s), ("t", t))}
+        scatter = {"scatter_" + name: field[inside].std() / field[inside].mean()
+                   for name, field in (("s", s), ("t", t))}
         rows.append({"width_d": width, **scatter, "points": points})
     if len(rows) < 2:
         return {}

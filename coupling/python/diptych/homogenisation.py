@@ -107,8 +107,8 @@ def _means(snapshot: Any, first: Any) -> dict[str, Any]:
     row |= {"contacts": int(acts.sum()), "coordination_number": (acts.sum() + np.sum(contacts.j[acts] < n)) / n,
             "rattlers": int(np.sum(snapshot.rattler)), "sxx": stress[0, 0], "syy": stress[1, 1],
             "sxy": 0.5 * (stress[0, 1] + stress[1, 0]), "s": 0.5 * (s1 + s2), "t": 0.5 * (s1 - s2)}
-    return row | {name: whole.interval[name] for name in ("t_over_s", "direction_deg", "anisotropy",
-                                                          "fabric_direction_deg")}
+    names = "t_over_s", "direction_deg", "anisotropy", "fabric_direction_deg"
+    return row | {name: whole.interval[name] for name in names}
 
 
 def _stress_maps(snapshot: Any, sheet: Sheet) -> dict[str, Array]:

@@ -27,9 +27,8 @@ def sorted_files(options: Options, **kinds: Callable[[str], bool]) -> dict[str, 
         if kind:
             found[kind].append(path)
         else:
-            others = " or ".join(kinds).replace("_", " ")
-            options.wall_tables.append(table_of_kind(path, options, {"walls": is_wall_columns},
-                                                     f"is no {others} and ")[1])
+            why = f"is no {' or '.join(kinds).replace('_', ' ')} and "
+            options.wall_tables.append(table_of_kind(path, options, {"walls": is_wall_columns}, why)[1])
     return found
 
 

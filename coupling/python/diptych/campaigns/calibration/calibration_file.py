@@ -87,7 +87,6 @@ class Calibration:
             if kind in OF_BANDS and (is_curve or is_element(scene)):
                 continue
             edges = keys["comparison"]["window_edges"] if kind in OF_BANDS else self.bins
-            edges = [float(edge) for edge in (edges.split(",") if isinstance(edges, str) else edges)]
             found += [Observable(kind=kind, low=low, high=high, near=near, far=far)
                       for low, high in zip(edges, edges[1:])
                       if not is_beyond(high, keys["loading"]["axial_strain"])

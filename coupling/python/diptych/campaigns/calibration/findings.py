@@ -293,11 +293,9 @@ def write_calibration(directory: str, record: dict[str, Any], cpu_s: dict[str, f
             for one in path["observables"]]
     table = pd.DataFrame(rows, columns=["path", "use", *COLUMNS]).astype({"counts": int})
     write_json(directory + "/calibration.json", record)
-    write_json(directory + "/calibration_cost.json", {"continuum_cpu_s": cpu_s["continuum"],
-                                                      "grains_cpu_s": cpu_s["discrete"]})
-    write_text(directory + "/calibration.csv",
-               table.to_csv(index=False, float_format="%.10g", na_rep="nan", lineterminator="\n"))
+    cost, form = {"continuum_cpu_s": cpu_s["continuum"], "grains_cpu_s": cpu_s["discrete"]}, "%.10g"
+    write_json(directory + "/calibration_cost.json", cost)
+    write_text(directory + "/calibration.csv", table.to_csv(index=False, float_format=form, na_rep="nan"))
     if posterior is not None:
-        write_text(directory + "/posterior.csv", posterior.to_csv(index=False, float_format="%.10g",
-                                                                  lineterminator="\n"))
+        write_text(directory + "/posterior.csv", posterior.to_csv(index=False, float_format=form))
     write_text(directory + "/calibrated.prm", _fragment(record))

@@ -132,8 +132,7 @@ def run_element(line: argparse.Namespace, options: Options) -> None:
                   "failed": [{"seed": seed, "message": text} for seed, text in zip(seeds, failures) if text],
                   "quantities": key_numbers(curves), "rms": rms_differences(curves),
                   "command": shlex.join(["diptych", *options.words])}
-        write_text(os.path.join(directory, "element.csv"),
-                   table_of(curves).to_csv(index=False, float_format="%.10g", lineterminator="\n"))
+        write_text(os.path.join(directory, "element.csv"), table_of(curves).to_csv(index=False, float_format="%.10g"))
         write_json(os.path.join(directory, "element.json"), record)
         draw(options, directory, "element")
         say(options, _text(record["quantities"]))

@@ -162,9 +162,8 @@ def _write_fields(folder: str, found: Homogenised) -> None:
 
 def _print(found: Homogenised, options: Options) -> None:
     table = found.table()
-    shown = [name for name in SHOWN if name in table]
-    say(options, table[shown].rename(columns=SHOWN).to_string(float_format=lambda x: f"{x:.4g}", na_rep="",
-                                                              index=False))
+    shown = table[[name for name in SHOWN if name in table]].rename(columns=SHOWN)
+    say(options, shown.to_string(float_format=lambda x: f"{x:.4g}", na_rep="", index=False))
     if found.resolution_study:
         say(options, "averaging width: " + found.resolution_study["verdict"])
     for entry in found.missing:

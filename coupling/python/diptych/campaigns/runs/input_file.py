@@ -154,8 +154,8 @@ class Part:
             return []
         if not isinstance(self.value[key], list):
             self.refuse(" must be a list", key)
-        return [Part(self.file, self.lines, entry, f"{self.pointer}/{key}/{k}") for k,
-                entry in enumerate(self.value[key])]
+        return [Part(self.file, self.lines, entry, f"{self.pointer}/{key}/{k}")
+                for k, entry in enumerate(self.value[key])]
 
     def word(self, key: str, otherwise: str = "") -> str:
         if not self.has(key):

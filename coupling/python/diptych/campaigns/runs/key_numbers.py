@@ -70,8 +70,7 @@ def bands_between(scene: Any, pair: Sequence[Any], frame: Mapping[str, Any]) -> 
 def _band_of_nodes(folder: str, scene: Any) -> dict[tuple[str, str], float]:
     """Inclination and width of the continuum's strongest band in the last window; nothing without a band."""
     edges = scene.dict()["comparison"]["window_edges"]
-    last = [float(edge) for edge in (edges.split(",") if isinstance(edges, str) else edges)][-2:]
-    pair = snapshots_at(_diptych.read_nodes(folder).snapshots, *last)
+    pair = snapshots_at(_diptych.read_nodes(folder).snapshots, *edges[-2:])
     found = bands_between(scene, pair, {}) if pair else []
     if not found:
         return {}

@@ -197,8 +197,9 @@ def cost_of(study: Study, points: Sequence[Point], results: Results, records: Se
     cheapest = []
     for reference in range(len(points)):
         # A point that is its own reference has no error and must not compete.
-        rivals = [one for one in costs if points[one["point"]].family >= 0 and points[one["point"]].reference
-                  == reference and records[one["point"]]["folders"] != records[reference]["folders"]]
+        own = records[reference]["folders"]
+        rivals = [one for one in costs if points[one["point"]].family >= 0
+                  and points[one["point"]].reference == reference and records[one["point"]]["folders"] != own]
         if rivals:
             _mark_fronts(study, records, rivals)
             cheapest += _cheapest(study, records, rivals, reference)

@@ -176,8 +176,8 @@ def _compared(found: dict[str, Any], verdict: dict[str, Any],
 
     Both panels share the samples, so continuum - factor x grains has a limit of its own. With the factor q = continuum
     / limit it is 0. Its interval / limit is that of the relative difference q - 1, with the scatter of the grains."""
-    continuum, cheap, fine = (np.array(values, float) for values in (verdict["continuum"], verdict["discrete"],
-                                                                     found["fine"]))
+    values = verdict["continuum"], verdict["discrete"], found["fine"]
+    continuum, cheap, fine = (np.array(one, float) for one in values)
 
     def difference(factor: float) -> Difference:
         both = [limit_of(continuum - factor * cheap, continuum - factor * fine, found["ratio"], confidence).limit

@@ -160,8 +160,8 @@ def result_of(runs: Runs, run: SceneRun, quantities: Sequence[dict[str, Any]]) -
         numbers: dict[str, tuple[Any, ...]] = {}
         if any(q["source"] == "comparison" for q in quantities):
             numbers = member_of(os.path.join(folder, "comparison.json"), run.scene.is_mirror_symmetric()).numbers
-        keys = key_values(folder, run.scene, result.tables) if any(q["reduction"] == "key number"
-                                                                   for q in quantities) else {}
+        has_keys = any(q["reduction"] == "key number" for q in quantities)
+        keys = key_values(folder, run.scene, result.tables) if has_keys else {}
         result.values = [numbers.get(q["column"], (math.nan,))[0] if q["source"] == "comparison"
                          else keys.get((q["source"], q["key"]), math.nan) if q["reduction"] == "key number"
                          else reduced(result.tables.get(q["source"]), q) for q in quantities]

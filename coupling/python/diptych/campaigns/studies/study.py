@@ -226,7 +226,7 @@ def study_csv(study: Study, points: Sequence[Point], results: Results, records: 
                     row |= {name: value, "error of " + name: _difference(quantity, value, reference)}
             cpu_s = {phase["name"]: phase["cpu_s"] for phase in run.phases}
             rows.append({**row, **{f"cpu_s of {name}": cpu_s.get(name) for name in phases}})
-    return pd.DataFrame(rows).to_csv(index=False, lineterminator="\n")
+    return pd.DataFrame(rows).to_csv(index=False)
 
 
 def write_curves(directory: str, study: Study, points: Sequence[Point], results: Results) -> None:
@@ -256,7 +256,7 @@ def _write(directory: str, study: Study, points: Sequence[Point], results: Resul
     if study.reference is None:
         name, table = (("sensitivity", sensitivity_table(record["sensitivity"])) if study.ranges
                        else ("effects", effects_table(study, points, records)))
-        write_text(os.path.join(directory, name + ".csv"), table.to_csv(index=False, lineterminator="\n"))
+        write_text(os.path.join(directory, name + ".csv"), table.to_csv(index=False))
     write_curves(directory, study, points, results)
 
 
