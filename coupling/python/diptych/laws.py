@@ -97,8 +97,7 @@ def biaxial(law: Any, axial_strain: float = 0.1, pressure: float = 1.0, step: fl
 
 
 def principal(stress: Any) -> tuple[Array, Array, Array]:
-    """Principal stresses s1 >= s2 of the symmetric part of (..., 2, 2), and the direction of s1 from the horizontal
-    [degrees]."""
+    """Principal stresses s1 >= s2 of the symmetric part of (..., 2, 2), and degrees of s1 from the horizontal."""
     stress = np.asarray(stress, dtype=float)
     half = 0.5 * (stress[..., 0, 0] - stress[..., 1, 1])
     shear = 0.5 * (stress[..., 0, 1] + stress[..., 1, 0])

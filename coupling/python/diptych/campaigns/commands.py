@@ -33,8 +33,7 @@ def with_joined_per_cent(words: Sequence[str]) -> list[str]:
 
 
 def do(words: Sequence[str], pool: Any = None) -> None:
-    """Does a command in this process, and runs also in `pool`. Raises SceneError for wrong words, and what went
-    wrong."""
+    """Does a command in this process, with runs also in `pool`. Raises SceneError for wrong words, or what failed."""
     add_arguments, module, function = COMMANDS[words[0]]
     parser = Parser(words[0])
     add_arguments(parser)

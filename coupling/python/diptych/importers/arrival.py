@@ -96,8 +96,7 @@ def _require_effect(format: str, frames: Sequence[Frame], options: Options) -> N
 
 
 def _thickness(format: str, is_spheres: bool, grains: dict[str, np.ndarray], options: Options) -> float:
-    """Spheres lie in one layer, and forces are those of its whole thickness. Masses that grow as r^3 belong to spheres,
-    even if the run was in the plane."""
+    """Spheres lie in one layer; forces are those of its thickness. Masses that grow as r^3 belong to spheres."""
     radius, mass = grains["radius"], grains["mass"]
     by_area, by_volume = mass / (radius * radius), mass / (radius * radius * radius)
     is_spheres = is_spheres or bool(np.nanmax(by_volume, initial=0) < 1.001 * np.nanmin(by_volume, initial=np.inf)

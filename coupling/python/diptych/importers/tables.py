@@ -101,8 +101,7 @@ def rows_below(path: str, lines: Sequence[str], start: int, count: int, columns:
 
 
 def grains_of(table: Table, options: Options, position: np.ndarray | None = None) -> dict[str, np.ndarray]:
-    """The grains of a frame from columns id, x, y, radius or diameter; if present mass, vx, vy, omega, rotation, fx,
-    fy.
+    """The grains of a frame: id, x, y, radius or diameter; mass, vx, vy, omega, rotation, fx, fy if present.
 
     `position` (n, 2) replaces x and y. Without ids, rows count from 0.
     """

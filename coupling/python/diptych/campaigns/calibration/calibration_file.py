@@ -265,8 +265,7 @@ def _check_curves(root: Part, targets: Sequence[Target], parameters: Sequence[Pa
 
 
 def read_calibration(file: str, contents: Mapping[str, Any] | None = None) -> Calibration:
-    """Reads a .json file, or its contents, whose paths begin at the folder of `file`. Raises SceneError naming file,
-    line, key, value and the allowed values."""
+    """Reads a .json file, or its contents, whose paths begin at the folder of `file`. Raises SceneError."""
     root = Part(file, {}, contents) if contents else Part.read(file, "targets, quantities, bins and parameters")
     root.allow("title", "targets", "quantities", "bins", "set", "parameters", "noise", "starts", "jacobians",
                "fine_jacobians",

@@ -14,8 +14,7 @@ LENGTHS, MESHES, NUGGET = (0.1, 20.0), (1e-6, 1.0), (1e-8, 1.0)  # ranges; the l
 
 
 class Emulator:
-    """points: (runs, parameters) in the unit cube; is_fine: (runs), on the samples' own mesh; values: (runs,
-    observables)."""
+    """points: (runs, parameters) in the unit cube; is_fine: (runs), own mesh; values: (runs, observables)."""
 
     def __init__(self, points: Array, is_fine: Array, values: Array) -> None:
         self.points, self.is_fine, n = points, np.asarray(is_fine, dtype=float), points.shape[1]

@@ -19,7 +19,7 @@ from ..studies.points import on_sample, scene_run
 
 
 def mean_of(samples: Sequence[Observation], averaging_width: float) -> Observation:
-    """Means over the samples, or a failure of one. Single curves fluctuate above the peak, that of the mean curve."""
+    """Means over the samples, or one's failure. The peak is the mean curve's: single curves fluctuate above it."""
     for sample in samples:
         if sample.failure:
             return sample

@@ -169,8 +169,7 @@ def _profile_squares(paths: Iterable[Data]) -> tuple[float, float]:
 
 
 def noise_of(paths: Sequence[Data], given: Noise) -> Noise:
-    """Fills in the deviations that are not given: the scatter within every path, pooled. Raises ValueError if some are
-    needed and cannot be estimated."""
+    """Fills in deviations that are not given: the scatter within paths, pooled. ValueError if samples are too few."""
     paths = [path for path in paths if path.own is None]
     squares = dict(zip(("stress_level", "stress_shape"), _stress_squares(paths)))
     squares.update(zip(("volume_start", "volume_growth"), _volume_squares(paths)), ln_width=_width_square(paths))

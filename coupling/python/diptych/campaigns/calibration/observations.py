@@ -92,8 +92,7 @@ def add_bands(o: Observation, scene: _diptych.Scene, observables: Sequence[Obser
               outline: Outline, *, of_grains: bool) -> Observation:
     """Adds ln(width / d) of the first band of every window, and the profiles across it. The continuum's bands are
     searched in the grains' frames, so that both panels are measured alike. A continuum without a band counts as half
-    the sample's height wide, which cannot be told from a homogeneous deformation; its profile is taken across the band
-    of the first sample."""
+    the sample's height wide, like a homogeneous deformation; its profile is taken across the first sample's band."""
     d, windows = scene.dict()["sample"]["mean_diameter"], windows_of(observables)
     for n, (window, frame) in enumerate(zip(windows, outline.frames)):
         pair = snapshots_at(snapshots, *window)

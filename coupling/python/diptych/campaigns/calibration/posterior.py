@@ -50,7 +50,7 @@ class Draws:
 
 class Posterior:
     """Log-probability of points (n, parameters + 3 + 3): logarithms of the factors of t/s and volume, of the
-    correlation strain / its value before, and of three variances follow the parameters. Zero beside a failed run."""
+    correlation strain / its value before, and of three variances follow. It is zero where the nearest run failed."""
 
     def __init__(self, data: FittedData, coordinates: Coordinates, points: Array, is_fine: Array,
                  values: Array) -> None:

@@ -69,8 +69,7 @@ def _run(scene: str, command: str, settings: Sequence[Setting]) -> SceneRun:
 
 
 def _done(runs: Runs, wanted: Sequence[SceneRun], options: Options) -> list[str]:
-    """Does the runs and returns for each why it ended before its end; empty: it did not. Raises SceneError for wrong
-    input and Stopped after a stop request."""
+    """Does the runs and returns why each ended early; empty: it did not. Raises SceneError (wrong input) or Stopped."""
     if any(outcome.interrupted for outcome in runs.do(wanted, options).values()):
         raise Stopped(f"stopped on request; to go on: {options.again}")
     ends = [(run, runs.found_end(run)) for run in wanted]

@@ -143,8 +143,7 @@ def _source(line: argparse.Namespace) -> tuple[str, str]:
 
 
 def _write_fields(folder: str, found: Homogenised) -> None:
-    """fields_0000.vtu and so on, and fields.pvd with their progress; tensors have the components xx, xy, 0, yx, yy, 0,
-    0, 0, 0."""
+    """fields_0000.vtu ..., and fields.pvd with their progress; a tensor has xx, xy, 0, yx, yy, 0, 0, 0, 0."""
     import meshio  # type: ignore
 
     entries = ""

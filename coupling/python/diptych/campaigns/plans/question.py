@@ -22,8 +22,7 @@ PANELS = {"discrete": ("sample", "discrete"), "continuum": ("continuum",)}  # an
 
 @dataclass(kw_only=True)
 class Question:
-    """quantities: by panel; those of the grains have step_error: the rule for their error, strength, dilation or ""
-    (measured only)."""
+    """quantities: by panel; those of grains have step_error, the rule of their error: strength, dilation, "": none."""
 
     scene: str
     changes: list[Setting]  # --set-file, --set

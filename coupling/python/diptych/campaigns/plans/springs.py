@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """discrete/method = auto expects which method is cheaper at a size, speed and accuracy (coupling/scene/derived_keys.h).
 That estimate is right within a factor of two. Where springs may be cheaper, a plan runs one sample with them, and takes
-them if they save time. Implicit springs (compliant) keep step and errors; explicit ones (penalty) have a step."""
+them if they save time. Implicit springs (compliant) keep step and errors; explicit ones (penalty) have their own."""
 
 from collections.abc import Sequence
 from typing import Any

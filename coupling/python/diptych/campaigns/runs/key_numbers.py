@@ -59,8 +59,7 @@ def snapshots_at(snapshots: Sequence[Any], *progress: float) -> list[Any] | None
 
 
 def bands_between(scene: Any, pair: Sequence[Any], frame: Mapping[str, Any]) -> list[Band]:
-    """The bands of the increment between two snapshots, the strongest first, without intervals. frame: replaces that of
-    the snapshots."""
+    """The bands between two snapshots, the strongest first, without intervals. frame: replaces the snapshots'."""
     keys = scene.dict()
     options = {name: keys["comparison"][name] for name in BAND_OPTIONS}
     return operators.find_bands(**{"mean_diameter": keys["sample"]["mean_diameter"],

@@ -93,8 +93,7 @@ def _complete(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def changes_of(study: Study, points: Sequence[Point], records: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Changes along every parameter as study.json has them; other parameters are averaged over. Quantities with values
-    at less than two points are left out."""
+    """Changes along every parameter as in study.json, averaged over the others. Two points with values are needed."""
     changes = []
     for f, family in enumerate(study.families):
         mine = [record for point, record in zip(points, records) if point.family == f]
@@ -174,7 +173,7 @@ def text_of_quantity(quantity: dict[str, Any]) -> str:
 
 
 def text_of_changes(study: Study, changes: Sequence[dict[str, Any]]) -> list[str]:
-    """ "discrete/friction, not resolved: peak t/s (grains needs about 14 samples)"; a line per verdict, parameter."""
+    """ "discrete/friction, not resolved: peak t/s (grains needs about 14 samples)", per verdict and parameter."""
     if len(study.seeds) < 2:
         return ["one sample has no scatter to compare a change with" +
                 ("" if study.command == "continuum" else "; at least two are needed, such as --seeds 1-4")]

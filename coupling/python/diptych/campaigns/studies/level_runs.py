@@ -94,8 +94,7 @@ class PairedPoint:
 
     def pairs_wanted(self) -> int:
         """Pairs that give the smallest error for the cost, for the quantity that needs most of them. The cost of grains
-        is about inverse to their expected error (benchmarks/rigid_limit); measured times would make results depend on
-        the machine."""
+        is about inverse to their expected error (benchmarks/rigid_limit); measured times depend on the machine."""
         shares = [0.0]
         for x, y in self._values().values():
             if len(known(np.subtract(x, y))) > 1 and not math.isnan(self.ratio):

@@ -69,7 +69,7 @@ def _point(study: Study, settings: list[Setting], **place: Any) -> Point:
 
 def points_of(study: Study) -> list[Point]:
     """References first: that of the study, then one for every point of axes with their own references. Then all
-    families, the last axis fastest. Raises SceneError for a refused reference, if all are refused, or for MOST_RUNS."""
+    families, the last axis fastest. Raises SceneError for a refused reference, no point left, or too many runs."""
     n = 1 + sum(math.prod(len(axis.points) for axis in family.axes) if family.grid else len(family.axes[0].points)
                 for family in study.families)
     n_samples = len(study.seeds) or 1
