@@ -139,13 +139,6 @@ def _add_stresses(now: Instant, check: dict[str, Any]) -> None:
         check["stress_difference"] = abs(contacts - walls).max() / abs(walls).max()
 
 
-def _wall_force_difference(now: Instant) -> float:
-    known = np.isfinite(now.told_force).all(axis=1) & np.isfinite(now.force).all(axis=1)
-    told = now.told_force[known]
-    scale = length(told).max(initial=0)
-    return length(told - now.force[known]).max() / scale if scale > 0 else np.nan
-
-
 def _doubts(now: Instant, check: dict[str, Any], gravity: np.ndarray | None, arrival: Any) -> list[str]:
     contacts = len(now.contacts["i"]) / len(now.grains["id"])
     miss = {name: value / arrival.mean_diameter for name, value in now.miss.items()}
@@ -195,7 +188,10 @@ def _check(now: Instant, first_height: float, arrival: Any) -> dict[str, Any]:
     if len(now.contacts["i"]):
         gravity = _check_balance(now, arrival.id, check)
         _add_stresses(now, check)
-        check["wall_force_difference"] = _wall_force_difference(now)
+        known = np.isfinite(now.told_force).all(axis=1) & np.isfinite(now.force).all(axis=1)
+        told, here = now.told_force[known], now.force[known]
+        if told.any():
+            check["wall_force_difference"] = length(told - here).max() / length(told).max()
     arrival.doubtful += _doubts(now, check, gravity, arrival)
     if np.trace(check["contact_stress"]) <= 0:  # false without contacts
         raise now.refused("the mean stress of the contacts is tensile; do the forces act on the other body?")

@@ -28,10 +28,6 @@ class Section:
         """The line that names the columns; for messages."""
         return self.table.lines[0] - 1 if len(self.table.lines) else 0
 
-    def has_places(self) -> bool:
-        """True if it holds positions, of whatever kind."""
-        return all(self.table.find(*names) is not None for names in PLACES.values())
-
     def positions(self) -> np.ndarray:
         """(n, 2) positions, also from columns scaled by the box."""
         axes = []

@@ -6,7 +6,7 @@ import re
 
 import numpy as np
 
-from .dumps import Section, add_section, is_dump, read_dump, require_same_steps
+from .dumps import PLACES, Section, add_section, is_dump, read_dump, require_same_steps
 from .frames import Frame, Options, Wall, acting, contacts_of, joined, refused, rows_of
 from .lammps_data import is_data_file, read_data
 from .tables import DIAMETER, RADIUS, Table
@@ -34,7 +34,7 @@ def _kinds_of(section: Section, options: Options) -> list[str]:
     names = None if _walls_in(table) else options.columns_of("particles", len(table.columns))
     if names:
         table.columns = names
-    is_grains = section.has_places() and table.find(*RADIUS, *DIAMETER) is not None
+    is_grains = all(table.find(*names) is not None for names in (*PLACES.values(), (*RADIUS, *DIAMETER)))
     if not is_grains and not _walls_in(table):
         columns = ", ".join(table.columns)
         raise refused(table.path, f"step {section.step}: grains need the columns id, x y (or xs ys, xu yu) and radius "

@@ -38,20 +38,18 @@ class CalibrationRuns:
         """Does the runs, adds their CPU time once, and returns for each why it has no result."""
         if any(outcome.interrupted for outcome in self.runs.do(runs, self.options).values()):
             raise Stopped("stopped on request")
+        failures = []
         for run in runs:
             record = self.runs.path(run, "/provenance.json")
             if run.name not in self._counted and os.path.exists(record):
                 self._counted.add(run.name)
                 panel = "discrete" if run.command == "discrete" else "continuum"
                 self.cpu_s[panel] += sum(phase["cpu_s"] for phase in read_json(record)["phases"])
-        return [self._failure_of(run) for run in runs]
-
-    def _failure_of(self, run: SceneRun) -> str:
-        """Why a run has no result; empty: it has one."""
-        end = self.runs.found_end(run) if run.scene else None
-        if run.refusal or (end and end["exit_code"] == 0):
-            return run.refusal
-        return (self.runs.last_words(run) if end else "") or "the run was lost"
+            end = self.runs.found_end(run) if run.scene else None
+            words = "" if end is None else self.runs.last_words(run)
+            has_result = end and end["exit_code"] == 0
+            failures.append(run.refusal or ("" if has_result else words or "the run was lost"))
+        return failures
 
     def _grains(self, target: Target, seeds: Sequence[int], more: Sequence[Setting] = (), note: str = "") -> list[str]:
         """Runs samples of a target and returns their folders."""

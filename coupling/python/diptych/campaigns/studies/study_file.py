@@ -270,16 +270,6 @@ def _border(part: Part, families: Sequence[Family]) -> dict[str, Any]:
     return border
 
 
-def _demand_one_seed(root: Part, study: Study) -> None:
-    """Every point is run with every seed, which would replace a fixed one."""
-    points = [point for family in study.families for axis in family.axes for point in axis.points]
-    everything = [study.settings, study.reference or [], *(one.settings for one in (*study.families, *points))]
-    for setting in sum(everything, []):
-        if study.seeds and (setting.section, setting.key) == ("sample", "seed"):
-            place = f"{setting.file}, line {setting.line}" if setting.line else setting.file
-            root.refuse(f" cannot be used together with sample/seed = {setting.value}, set at {place}", "seeds")
-
-
 def read_study(file: str, overrides: Sequence[Setting] = ()) -> Study:
     """Reads a study file. `overrides` are settings of all points.
 
@@ -310,5 +300,10 @@ def study_of(root: Part, name: str, overrides: Sequence[Setting]) -> Study:
     for name in set(study.cost) - set(PHASES):  # a wrong name would count as a cost of zero
         root.refuse(f": '{name}' is not a phase; the nearest is '{_diptych.nearest_name(name, list(PHASES))}'", "cost")
     study.borders = [_border(part, study.families) for part in root.list("borders")]
-    _demand_one_seed(root, study)
+    points = [point for family in study.families for axis in family.axes for point in axis.points]
+    everything = [study.settings, study.reference or [], *(one.settings for one in (*study.families, *points))]
+    for setting in sum(everything, []) if study.seeds else ():  # a seed of the study would replace a fixed one
+        if (setting.section, setting.key) == ("sample", "seed"):
+            place = f"{setting.file}, line {setting.line}" if setting.line else setting.file
+            root.refuse(f" cannot be used together with sample/seed = {setting.value}, set at {place}", "seeds")
     return study
