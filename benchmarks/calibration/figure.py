@@ -10,10 +10,8 @@ import sys
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from diptych.report.charts import calibration as charts
+from diptych.report import calibration as page
 from diptych.report.charts import style
-from diptych.report.data.calibration import load
-from diptych.report.tables.calibration import misfits, parameters, predictions
 
 
 def draw(calibration, to):
@@ -21,8 +19,8 @@ def draw(calibration, to):
     figure = Figure(figsize=(3.3 * len(calibration.paths), 5.2), layout="constrained")
     axes = figure.subplots(2, len(calibration.paths), squeeze=False)
     for k, path in enumerate(calibration.paths):
-        for row, kind in enumerate(charts.CURVES):
-            charts.draw_curve(style.ruled(axes[row][k]), path, kind, calibration.model)
+        for row, kind in enumerate(page.CURVES):
+            page.draw_curve(style.ruled(axes[row][k]), path, kind, calibration.model)
         axes[0][k].set_title(f"{path['name']}, {'fitted' if path['use'] == 'fit' else 'predicted'}")
     axes[0][0].legend(loc="lower right", fontsize=7)
     FigureCanvasAgg(figure).print_figure(to, dpi=110)
@@ -34,14 +32,14 @@ def printed(table):
 
 
 def main():
-    calibration = load(sys.argv[1])
+    calibration = page.load(sys.argv[1])
     draw(calibration, sys.argv[2])
     record = calibration.record
     print(f"chi^2 of {record['n_observables']} observables {record['chi2_before']:.3g} -> {record['chi2']:.3g}; "
           f"{record['coarse_runs']} coarse, "
           f"{record['fine_runs']} fine, {record['other_runs']} runs of predictions; CPU s: "
           f"{json.dumps(calibration.cost)}\n")
-    for table in (parameters(calibration), predictions(calibration), misfits(calibration)):
+    for table in (page.parameters(calibration), page.predictions(calibration), page.misfits(calibration)):
         print(printed(table) + "\n")
     print("\n".join(f"- {words}" for words in record["words"]))
 

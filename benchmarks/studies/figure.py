@@ -10,10 +10,9 @@ import argparse
 import math
 import textwrap
 
-from diptych.report.charts import sensitivity
-from diptych.report.charts import study as charts
+from diptych.report import sensitivity
+from diptych.report import study as charts
 from diptych.report.charts import style
-from diptych.report.data.sensitivity import by_total, labels
 from diptych.report.data.study import CLASSES, load
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -25,7 +24,8 @@ def panels(study, names, with_maps):
     if "sensitivity" in study.record:
         record = study.record["sensitivity"]
         return [(f"{one['quantity']} (Q² {one['q2']:.3f})",
-                 lambda axes, one=one: sensitivity.draw_indices(axes, by_total(one), labels(record)))
+                 lambda axes, one=one: sensitivity.draw_indices(axes, sensitivity.by_total(one),
+                                                             sensitivity.labels(record)))
                 for one in record["indices"] if one["quantity"] in names]
     found = []
     for reference in study.references:

@@ -18,6 +18,7 @@ import numpy as np
 
 import diptych.report
 import report_folder
+from diptych.report import calibration
 from diptych.report.charts import ensemble, style, trends
 from diptych.report.charts.strips import _turn
 from diptych.report.data import study
@@ -26,7 +27,7 @@ from diptych.report.data.increments import Increment
 from diptych.report.data.numbers import Descriptions, Units
 from diptych.report.data.loading_variable import LOADING_VARIABLES
 from diptych.report.page.result_page import end_of, opens_at
-from diptych.report.tables import calibration, stage as tables
+from diptych.report.tables import stage as tables
 from report_folder import read, run, write_folder, write_json
 
 

@@ -22,7 +22,7 @@ for folder in ("..", "../../rigid_limit"):
     sys.path.insert(0, os.path.join(HERE, folder))
 import lammps  # noqa: E402
 import rigid_limit  # noqa: E402
-from diptych.report.charts import study as charts  # noqa: E402
+from diptych.report import study as charts  # noqa: E402
 from diptych.report.charts import style  # noqa: E402
 from diptych.report.data.study import load  # noqa: E402
 

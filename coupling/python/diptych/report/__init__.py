@@ -12,10 +12,10 @@ DRAWINGS = {
     "page": ("page.result_page", "comparison.json, comparison.h5, discrete.csv, continuum.csv, provenance.json"),
     "movie": ("page.movie", "comparison.json, comparison.h5, discrete.csv, continuum.csv, provenance.json"),
     "ensemble": ("page.ensemble_page", "ensemble.json, ensemble.h5"),
-    "study": ("page.study_page", "study.json, study_cost.json, study.h5"),
-    "calibration": ("page.calibration_page", "calibration.json, calibration_cost.json"),
-    "element": ("page.element_page", "element.json, element.csv"),
-    "homogenised": ("page.homogenised_page", "homogenised.json, fields_*.vtu, provenance.json"),
+    "study": ("study", "study.json, study_cost.json, study.h5"),
+    "calibration": ("calibration", "calibration.json, calibration_cost.json"),
+    "element": ("element", "element.json, element.csv"),
+    "homogenised": ("homogenised", "homogenised.json, fields_*.vtu, provenance.json"),
 }
 
 

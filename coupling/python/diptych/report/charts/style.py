@@ -16,6 +16,7 @@ from ...plotting import CONTINUUM, DASHES, GRAINS, INK, NO_VALUE
 from ..data.numbers import interval, plain
 
 THIRD = "#007A5E"   # for a third line
+LINE_COLOURS = (GRAINS, CONTINUUM, THIRD, "#CC79A7", "#E69F00", "#56B4E9")  # of many lines
 FAINT = "#9a9a9a"
 GRID = "#e4e4e4"
 PANEL_COLOURS = {"discrete": GRAINS, "continuum": CONTINUUM}

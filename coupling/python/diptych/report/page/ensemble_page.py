@@ -4,16 +4,13 @@
 from ..charts import ensemble as figures
 from ..charts import profiles
 from ..data.ensemble import load
-from .writing import template, write
+from .writing import write
 from ..tables import ensemble as tables
 from ..tables import summary
 
 
 def draw(folder):
-    write(folder, page(load(folder)))
-
-
-def page(results):
+    results = load(folder)
     rows = tables.verdict_rows(results)
     labelled = [(row["text"], verdict) for row, verdict in zip(rows, results.record["verdicts"])]
     dots = [(figures.dots(verdict, tables.panel_quantities(results, verdict), label, scale), caption)
@@ -25,9 +22,8 @@ def page(results):
                "Volumetric strain 1 − V/V₀; dilation is negative." + lines)]
     last = max(results.profiles, default=None)
     across = None if last is None else profiles.of_means(results.profiles[last], "means over the samples")
-    return template("ensemble.html").render(
-        record=results.record, first=summary.first(results.record), verdicts=rows,
-        validation=tables.validation_table(results),
-        differences=figures.differences(labelled), dots=dots, curves=curves, across=across,
-        bands=tables.band_table(results), members=tables.members(results), quantities=tables.quantity_table(results),
-        provenance=tables.provenance(results), fitted=results.parameters_from)
+    write(folder, "ensemble.html", record=results.record, first=summary.first(results.record), verdicts=rows,
+          validation=tables.validation_table(results), differences=figures.differences(labelled), dots=dots,
+          curves=curves, across=across, bands=tables.band_table(results), members=tables.members(results),
+          quantities=tables.quantity_table(results), provenance=tables.provenance(results),
+          fitted=results.parameters_from)

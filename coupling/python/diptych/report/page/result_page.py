@@ -5,7 +5,7 @@ from ..charts import chains, circular, histories, ledgers, probes, profiles, res
 from ..charts.style import Pair
 from ..data.result import load
 from . import viewer
-from .writing import template, write
+from .writing import write
 from ..tables import accounts, accuracy, bands, stage, summary, wording
 
 
@@ -66,23 +66,19 @@ def paragraph(sentence):
 
 def draw(folder, next_folder=None):
     """Writes the page to next_folder, whose files take the place of older ones in folder; default: folder."""
-    write(next_folder or folder, page(load(folder, next_folder or folder)))
-
-
-def page(result):
+    result = load(folder, next_folder or folder)
     study = result.part("resolution_study")
-    return template("result.html").render(
-        comparison=result.comparison, imported=result.imported, parts=parts(result), maps=viewer.data(result),
-        curves=histories.figures(result) + ledgers.figures(result),
-        solver=ledgers.solver(result), trends=trends.figures(result),
-        resolution=resolution.figures(study), resolution_verdict=paragraph(study.get("verdict") or ""),
-        stages=bands.stages(result), mapping=stage.mapping(result), accuracy=accuracy.table(result),
-        first=summary.first(result.comparison), discrete_summary=summary.table(result, "discrete_summary"),
-        continuum_summary=summary.table(result, "continuum_summary"),
-        coarse=result.part("continuum_coarse"), cost=accounts.cost(result), provenance=accounts.provenance(result),
-        law=accounts.law_parameters(result), law_name=result.part("continuum_summary").get("law") or "",
-        scene_text=result.scene_text, number=wording.number,
-        fitted=result.part("continuum_summary").get("parameters_from"), absent=wording.ABSENT,
-        thickness_note=bands.thickness_note(result),
-        thickness_reason=wording.MESH_SET_REASON if bands.internal_length(result) is None
-        else wording.LENGTH_SET_REASON, loading_variable=result.loading_variable, averaging=result.averaging)
+    write(next_folder or folder, "result.html",
+          comparison=result.comparison, imported=result.imported, parts=parts(result), maps=viewer.data(result),
+          curves=histories.figures(result) + ledgers.figures(result), solver=ledgers.solver(result),
+          trends=trends.figures(result), resolution=resolution.figures(study),
+          resolution_verdict=paragraph(study.get("verdict")), stages=bands.stages(result),
+          mapping=stage.mapping(result), accuracy=accuracy.table(result), first=summary.first(result.comparison),
+          discrete_summary=summary.table(result, "discrete_summary"),
+          continuum_summary=summary.table(result, "continuum_summary"),
+          coarse=result.part("continuum_coarse"), cost=accounts.cost(result), provenance=accounts.provenance(result),
+          law=accounts.law_parameters(result), law_name=result.part("continuum_summary").get("law") or "",
+          scene_text=result.scene_text, number=wording.number, absent=wording.ABSENT,
+          fitted=result.part("continuum_summary").get("parameters_from"), thickness_note=bands.thickness_note(result),
+          thickness_reason=wording.MESH_SET_REASON if bands.internal_length(result) is None
+          else wording.LENGTH_SET_REASON, loading_variable=result.loading_variable, averaging=result.averaging)

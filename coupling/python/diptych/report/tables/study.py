@@ -5,7 +5,7 @@ import os
 
 from ...arrays import ends_text
 from ..data.study import CLASSES
-from .wording import number
+from .wording import number, suffix
 
 
 def share(value, relative):
@@ -19,6 +19,12 @@ def with_ends(error, relative):
         return "–"
     ends = ends_text(error["low"], error["high"], lambda end: share(end, relative))
     return share(error["value"], relative) + ends + ("\u00a0%" if relative else "")
+
+
+def unit_of(quantity):
+    """" (d)" behind the label of an axis, or ""."""
+    unit = suffix(quantity["unit"]).strip()
+    return f" ({unit})" if unit else ""
 
 
 def seconds(value):

@@ -1,12 +1,22 @@
-# diptych: maps and curves of homogenised grains
+# diptych: report.html of homogenised grains
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
+import os
+from types import SimpleNamespace
+
+import meshio
 import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
-from .style import GRAINS, INK, NO_VALUE, chart, limit_below, signed, svg, with_intervals
-from ..data.numbers import plain, scaled
+from ..files import read_json
+from .charts import resolution
+from .charts.style import GRAINS, INK, NO_VALUE, chart, limit_below, signed, svg, with_intervals
+from .data.files import read_provenance, require
+from .data.loading_variable import loading_variable_of
+from .data.numbers import plain, scaled
+from .page.writing import write
+from .tables.wording import number, rounded
 
 WIDTH, TALLEST = 3.6, 4.6  # of a map, inches
 CURVES = (("t_over_s", 1.0, "stress ratio t/s", "Stress ratio of the sample."),
@@ -16,9 +26,57 @@ CURVES = (("t_over_s", 1.0, "stress ratio t/s", "Stress ratio of the sample."),
            "Mean number of force-carrying contacts per grain, rattlers included."),
           ("anisotropy", 1.0, "anisotropy a of the fabric",
            "Anisotropy a of the contact normals, in the density 1 + a cos 2(θ − θ₀)."))
+# key -> (head, unit of the form of numbers)
+FRAME = {"s": ("s", "pressure of the files"), "t_over_s": ("t/s", "[95 %]"),
+         "direction_deg": ("direction of σ₁", "degrees [95 %]"), "solid_fraction": ("solid fraction", ""),
+         "coordination_number": ("contacts per grain", ""), "rattlers": ("rattlers", "grains"),
+         "anisotropy": ("anisotropy", "[95 %]"), "fabric_direction_deg": ("direction of the fabric", "degrees [95 %]"),
+         "volumetric_strain": ("volumetric strain", "%")}
+FORMS = {"direction_deg": ("", 1), "fabric_direction_deg": ("", 1), "volumetric_strain": ("%", 2),
+         "coordination_number": ("", 2)}
+BAND = {"angle_deg": ("inclination", "degrees [95 %]"), "width_10_90_d": ("width 10–90", "d [95 %]"),
+        "offset_d": ("offset", "d [95 %]"), "jump": ("jump", "of the platens’ travel [95 %]"),
+        "dilation_deg": ("dilation", "degrees [95 %]")}
+STRAIN = {"strain_xx": "ε xx", "strain_yy": "ε yy", "strain_xy": "ε xy"}
 
 
-def maps(result):
+def draw(folder):
+    result = _load(folder)
+    write(folder, "homogenised.html", record=result.record, name=os.path.basename(os.path.abspath(folder)),
+          command=read_provenance(os.path.join(folder, "provenance.json"))["command"], walk=result.loading_variable,
+          frames=_frames(result), increments=_increments(result), maps=_maps(result), curves=_curves(result),
+          scan=resolution.figures(_relative(result), "s / mean of the sample"))
+
+
+def _load(folder):
+    """record: homogenised.json, with its frames, the increments between successive frames, and `whole`, the one from
+    the first to the last frame, if there are more than two. polygons (k, 4, 2) [d] and maps of the last frame; polygons
+    have the origin of the files.
+    """
+    record = read_json(os.path.join(folder, "homogenised.json"), 1)
+    frames, increments = record["frames"], record["increments"]
+    fields = os.path.join(folder, f"fields_{len(frames) - 1:04d}.vtu")
+    require([fields])
+    mesh = meshio.vtu.read(fields)
+    return SimpleNamespace(record=record, frames=frames, increments=increments[:len(frames) - 1],
+                           whole=increments[-1] if len(frames) > 2 else None,
+                           loading_variable=loading_variable_of(record["walk"]),
+                           polygons=mesh.points[mesh.cells_dict["quad"], :2] / record["mean_diameter"],
+                           maps={name: values[0] for name, values in mesh.cell_data.items()})
+
+
+def _relative(result):
+    """The study of the averaging width with s relative to the mean of the sample; {} without forces."""
+    study = result.record["resolution_study"]
+    if not study:
+        return {}
+    mean = result.frames[study["frame"]]["s"]
+    kernel = [{**row, "points": [{**point, "s": point["s"] / mean} for point in row["points"]]}
+              for row in study["kernel"]]
+    return {**study, "kernel": kernel}
+
+
+def _maps(result):
     """List of (Picture, caption) of the last frame; maps without values are left out."""
     shown, last, across = [], result.frames[-1], result.loading_variable
     at = f" at {across.word} {across.text(last['progress'])}" if len(result.frames) > 1 else ""
@@ -90,7 +148,7 @@ def _scale_bar(figure, scale, width, height):
     axes.axis("off")
 
 
-def curves(result):
+def _curves(result):
     """List of (Picture, caption) over the frames."""
     found, across = [], result.loading_variable.factor
     for key, factor, label, caption in CURVES:
@@ -104,12 +162,12 @@ def curves(result):
         with_intervals(axes, at, numbers, fmt="o", markersize=4, color=GRAINS)
         limit_below(axes, key == "volumetric_strain")
         found.append((svg(figure, f"{label} over {result.loading_variable.word}."), caption))
-    return found + [_bands(result, *look) for look in (("angle_deg", "inclination of the bands (degrees)"),
+    return found + [_band_curve(result, *look) for look in (("angle_deg", "inclination of the bands (degrees)"),
                                                        ("width_10_90_d", "10–90 % width of the bands (d)"))
                     if sum(len(one["bands"]) > 0 for one in result.increments) > 1]
 
 
-def _bands(result, key, label):
+def _band_curve(result, key, label):
     figure, axes = chart(result, label)
     across = result.loading_variable.factor
     for rank, fill in ((0, GRAINS), (1, "white")):
@@ -124,3 +182,35 @@ def _bands(result, key, label):
     return (svg(figure, f"{label} over {result.loading_variable.word}."),
             f"{label[0].upper() + label[1:]}, at the end of each increment. Filled: the stronger band; "
             "open: the other one.")
+
+
+def _frames(result):
+    """One row per frame; "missing" where the files hold no forces."""
+    across = result.loading_variable
+    rows = [[across.number(frame["progress"])] + [_cell(frame, key) for key in FRAME] for frame in result.frames]
+    return {"head": [(across.word, across.unit.strip()), *FRAME.values()], "rows": rows}
+
+
+def _cell(frame, key):
+    if frame.get(key) is None:
+        return "missing"
+    if key == "s":
+        return number(frame[key])
+    text = rounded(frame[key], *FORMS.get(key, ("", None)))
+    return text.removesuffix(" %").removesuffix("\u00a0%")
+
+
+def _increments(result):
+    """One row per increment and band."""
+    across, rows = result.loading_variable, []
+    for one in result.record["increments"]:
+        place = f"{across.number(one['from'])}–{across.number(one['to'])}"
+        strain = [rounded(one[key], "%", 3).removesuffix("\u00a0%") if one[key] is not None else "missing"
+                  for key in STRAIN]
+        for band in one["bands"] or [None]:
+            values = [rounded(band[key], "", 2 if key == "jump" else 1) for key in BAND if band]
+            values = values or [one["band_verdict"]]
+            rows.append([place, *strain, *values, *[""] * (len(BAND) - len(values))])
+            place, strain = "", [""] * len(strain)
+    strains = [(name, "%") for name in STRAIN.values()]
+    return {"head": [(across.word, across.unit.strip()), *strains, *BAND.values()], "rows": rows}

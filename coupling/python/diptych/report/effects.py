@@ -1,4 +1,4 @@
-# diptych: charts of a study without a reference: quantities over parameters
+# diptych: the page of a study without a reference: quantities over parameters, means and changes
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 import textwrap
@@ -8,17 +8,51 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator
 from matplotlib.transforms import ScaledTranslation
 
-from .style import CONTINUUM, DASHES, FAINT, GRAINS, INK, THIRD, place_labels, ruled, svg
+from .charts.style import CONTINUUM, DASHES, FAINT, GRAINS, INK, LINE_COLOURS, place_labels, ruled, svg
+from .page.writing import write
+from .tables import study as tables
+from .tables.study import unit_of
+from .tables.wording import number, suffix, typeset
 
+MOST_CURVES = 6  # ticked when the page opens
+PANEL_WORDS = {"discrete": "grains", "continuum": "continuum", "difference": "continuum − grains",
+               "material_point": "material point", "comparison": ""}
 PANELS = {"discrete": ("grains", GRAINS, "o", "-"), "continuum": ("continuum", CONTINUUM, "s", DASHES)}
-LINE_COLOURS = (GRAINS, CONTINUUM, THIRD, "#CC79A7", "#E69F00", "#56B4E9")  # of the values of a second parameter
 WIDE = 20   # a numeric axis that spans more than this factor is logarithmic
 MOST_TICKS = 8
 STEP = 9    # points (1/72 inch) between the lines at one value, so that their intervals do not cover each other
 BESIDE = 4  # points between the samples and their mean
 
 
-def over_parameter(study, family, places, label):
+def draw(study, curves):
+    parts = [(family["name"], [_part(study, family, name, places) for name, places in _by_name(study).items()])
+             for family in study.record["families"] if family["axes"]]
+    write(study.folder, "effects.html", record=study.record, n_samples=len(study.record["seeds"]) or 1,
+          changes=_changes(study), families=parts, disturbed=tables.disturbed(study), points=tables.points(study),
+          n_ticked=MOST_CURVES, curves=curves, provenance=tables.provenance(study))
+
+
+def _by_name(study):
+    """{name: {panel: index of the quantity}}"""
+    found = {}
+    for k, quantity in enumerate(study.quantities):
+        found.setdefault(quantity["name"], {})[quantity["source"]] = k
+    return found
+
+
+def _part(study, family, name, places):
+    """Title, charts (panels, difference) and table of one quantity; charts without values are left out."""
+    unit = unit_of(study.quantities[next(iter(places.values()))])
+    panels = {panel: k for panel, k in places.items() if panel != "difference"}
+    charts = [_over_parameter(study, family, panels, typeset(name) + unit)]
+    if "difference" in places:
+        charts.append(_over_parameter(study, family, {"difference": places["difference"]},
+                                      "continuum − grains" + unit))
+    return {"title": typeset(name), "charts": [chart for chart in charts if chart],
+            "means": _means(study, family, places)}
+
+
+def _over_parameter(study, family, places, label):
     """Means with 95 % intervals of one quantity over the first parameter of a family, samples as dots. One line per
     panel and per value of the other parameters. places: {panel: index of the quantity}. None without values."""
     across, lines = family["axes"][0], _lines(study, family)
@@ -118,3 +152,52 @@ def _positions(axes, across):
         axes.xaxis.set_minor_locator(NullLocator())
         axes.xaxis.set_major_formatter("{x:g}")
     return np.array(values, float)
+
+
+def _changes(study):
+    """One row per quantity, panel and parameter: verdict, change, smallest and largest mean."""
+    several = len({(row["family"], row["parameter"]) for row in study.record["changes"]}) > 1
+    head = ["quantity", "panel", *(["parameter"] if several else []), "verdict", "change [95 %]", "smallest mean",
+            "largest mean", "samples"]
+    rows = []
+    for row in study.record["changes"]:
+        where = [": ".join(filter(None, (row["family"], row["parameter"])))] if several else []
+        panel = "continuum − grains" if row["panel"] == "difference" else row["panel"]
+        rows.append([typeset(row["quantity"]), panel, *where, _verdict(row), *_ends(study, row), row["samples"]])
+    return {"head": head, "rows": rows}
+
+
+def _verdict(row):
+    if row["verdict"] != "not resolved":
+        return row["verdict"]
+    needed = f"about {row['samples_needed']}" if row["samples_needed"] else "more than 1000"
+    return f"not resolved: needs {needed} samples"
+
+
+def _ends(study, row):
+    """Change, smallest and largest mean. The means of a few complete samples would not be those of the charts."""
+    unit = suffix(row["unit"])
+    if row["verdict"] == "no change":
+        return "0", number(row["smallest"], unit), number(row["smallest"], unit)
+    if row["samples"] < min(2, len(study.record["seeds"]) or 1):
+        return "–", "–", "–"
+    means = (f"{number(row[end], unit)} at {row[end + '_at']}" for end in ("smallest", "largest"))
+    return number(row["change"], unit, 3), *means
+
+
+def _means(study, family, places):
+    """One row per point: mean of each panel with its interval. places: {panel: index of the quantity}."""
+    rows = []
+    for k, point in study.of_family(family["name"]):
+        rows.append([", ".join(point["labels"]) or study.name(k),
+                     *(_mean(point["quantities"][q], study.quantities[q]) for q in places.values())])
+    return {"head": [", ".join(axis["name"] for axis in family["axes"]),
+                     *(PANEL_WORDS[panel] or "mean" for panel in places)], "rows": rows}
+
+
+def _mean(found, quantity):
+    if found["mean"] is None:
+        return "none"
+    text = number({"value": found["mean"], "low": found["low"], "high": found["high"]}, suffix(quantity["unit"]))
+    n_missing = len(found["values"]) - found["n"]
+    return text + (f" ({found['n']} of {len(found['values'])} samples)" if n_missing else "")

@@ -1,4 +1,4 @@
-# diptych: charts of a study: error over cost, maps of classes
+# diptych: report.html of a study: error over cost, maps of classes
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 import itertools
@@ -8,21 +8,56 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import LogLocator
 
-from .style import CONTINUUM, FAINT, GRAINS, INK, THIRD, place_labels, ruled, svg
-from ..data.study import CLASSES
+from . import effects, sensitivity
+from .charts.style import FAINT, INK, LINE_COLOURS, place_labels, ruled, signed, svg
+from .data.study import CLASSES, load
+from .page.writing import write
+from .tables import study as tables
 
-FAMILY_COLOURS = (GRAINS, CONTINUUM, THIRD, "#CC79A7", "#E69F00", "#56B4E9")
+CURVE_NAMES = {"stress_ratio": "stress ratio t/s", "volumetric_strain": "volumetric strain"}
+PANEL_WORDS = {"discrete": "grains", "continuum": "continuum", "material_point": "material point"}
 FAMILY_MARKS = "osD^vP"
 FEW = 50  # ranges below this ratio have ticks between the decades
 LEAST_ERROR = 1e-6  # smaller differences count as zero
 
 
+def draw(folder):
+    study = load(folder)
+    curves = [{"title": f"{PANEL_WORDS[panel]}, {words}", "progress": _numbers(progress),
+               "rows": [_numbers(row) for row in rows[name]]}
+              for panel, (progress, rows) in study.curves.items() for name, words in CURVE_NAMES.items()]
+    if "sensitivity" in study.record:
+        sensitivity.draw(study)
+    elif study.has_reference:
+        _draw_errors(study, curves)
+    else:
+        effects.draw(study, curves)
+
+
+def _numbers(values):
+    """With five digits for the script of the page; None: no value."""
+    return [None if not np.isfinite(v) else float(f"{v:.5g}") for v in values]
+
+
+def _draw_errors(study, curves):
+    charts = [(_error_against_cost(study, k, reference), ", ".join([q["name"], *study.points[reference]["labels"]]))
+              for reference in study.references for k, q in enumerate(study.quantities)]
+    judged = any(q["limit"] for q in study.quantities)  # else no point is right or wrong
+    maps = [(family["name"], _class_maps(study, family)) for family in study.record["families"]] if judged else []
+    write(study.folder, "study.html", record=study.record, judged=judged, counts=tables.counts(study),
+          n_points=len(study.points) - len(study.references), cheapest=tables.cheapest(study),
+          disturbed=tables.disturbed(study), charts=[chart for chart in charts if chart[0]],
+          missing=[name for picture, name in charts if not picture], maps=[one for one in maps if one[1]],
+          classes=CLASSES, orders=tables.orders(study), points=tables.points(study),
+          curves=curves, provenance=tables.provenance(study))
+
+
 def _mark(study, family):
     k = [f["name"] for f in study.record["families"]].index(family)
-    return FAMILY_COLOURS[k % len(FAMILY_COLOURS)], FAMILY_MARKS[k % len(FAMILY_MARKS)]
+    return LINE_COLOURS[k % len(LINE_COLOURS)], FAMILY_MARKS[k % len(FAMILY_MARKS)]
 
 
-def error_against_cost(study, place, reference):
+def _error_against_cost(study, place, reference):
     """|error| of a quantity over CPU seconds for all points of a reference, with front, limit and scatter of the
     samples. None without points."""
     figure = Figure(figsize=(4.7, 3.5))
@@ -118,7 +153,7 @@ def parts_of(study, family):
     return parts
 
 
-def class_maps(study, family):
+def _class_maps(study, family):
     """[(title, picture)] of a family."""
     return [(title, _class_map(study, family, pair, points)) for title, pair, points in parts_of(study, family)]
 
@@ -173,8 +208,7 @@ def worst_error(study, point):
     if not found or point["class"] in ("refused", "stopped", "not run"):
         return ""
     _, error, of = max(found, key=lambda entry: entry[0])
-    text = f"{100 * error:+.1f} %" if of["relative"] else f"{error:+.2g}"
-    return text.replace("-", "−")
+    return signed(f"{100 * error:+.1f} %" if of["relative"] else f"{error:+.2g}")
 
 
 def _draw_border(axes, border, across, down):

@@ -1,9 +1,17 @@
-# diptych: charts of grains and of the law's point along one path
+# diptych: report.html of grains and of the law's point along one path
 # SPDX-License-Identifier: LGPL-2.1-or-later
+
+import os
+from types import SimpleNamespace
 
 import numpy as np
 
-from .style import CONTINUUM, GRAINS, PANEL_LINES, THIRD, chart, limit_below, svg
+from ..files import read_json
+from .charts.style import CONTINUUM, GRAINS, PANEL_LINES, THIRD, chart, limit_below, svg
+from .data.files import read_csv
+from .data.loading_variable import loading_variable_of
+from .page.writing import write
+from .tables.wording import ABSENT, rounded, suffix
 
 # quantity -> factor, label, caption
 CHARTS = {
@@ -18,15 +26,23 @@ CHARTS = {
 DIRECTIONS = (("grains_stress_direction", GRAINS, "o", "grains, σ₁"),
               ("grains_fabric_direction", THIRD, "^", "grains, contact normals"),
               ("law_stress_direction", CONTINUUM, "s", "law, σ₁"))
+NAMES = {"stress_ratio": "t/s", "mean_stress": "mean stress s", "volumetric_strain": "volumetric strain",
+         "stress_direction": "direction of σ₁", "fabric_anisotropy": "anisotropy of the fabric",
+         "fabric_direction": "direction of the fabric",
+         "coordination": "contacts per grain", "solid_fraction": "solid fraction",
+         **{"s" + c: "σ " + c for c in ("xx", "yy", "xy")}, **{"e" + c: "ε " + c for c in ("xx", "yy", "xy")}}
 
 
-def figures(element):
-    """List of (Picture, caption): mean of the samples, its standard error (dark), one standard
-    deviation of a sample (light), and the law."""
-    return [_chart(element, name, *look) for name, look in CHARTS.items()] + [_directions(element)]
+def draw(folder):
+    record = read_json(os.path.join(folder, "element.json"), 1)
+    element = SimpleNamespace(record=record, curves=read_csv(os.path.join(folder, "element.csv")),
+                              loading_variable=loading_variable_of(record["walk"]))
+    charts = [*(_chart(element, name, *look) for name, look in CHARTS.items()), _directions(element)]
+    write(folder, "element.html", record=record, charts=charts, numbers=_numbers(record), rms=_rms(record))
 
 
 def _chart(element, name, factor, label, caption):
+    """Mean of the samples, its standard error (dark), one standard deviation of a sample (light), and the law."""
     figure, axes = chart(element, label)
     across, n = element.loading_variable.factor * element.curves["progress"], len(element.record["done"])
     mean, error = (factor * element.curves[f"grains_{name}{end}"] for end in ("", "_error"))
@@ -55,3 +71,28 @@ def _directions(element):
     return (svg(figure, "Directions along the path, grains and law."),
             "Directions from the horizontal: of the larger principal stress, and of most contact normals. They mean "
             "nothing where t/s or the anisotropy vanish.")
+
+
+def _name(quantity):
+    when, _, name = quantity.rpartition(" ")
+    return " ".join(filter(None, [when, NAMES[name]]))
+
+
+def _rows(entries, keys):
+    """One row per quantity. A dash stands for a number that the law does not have."""
+    units = ["%" if one["quantity"].endswith("volumetric_strain") else suffix(one["unit"]) for one in entries]
+    return [[_name(one["quantity"]), *(rounded(one[key], unit).replace(ABSENT, "–") for key in keys)]
+            for one, unit in zip(entries, units)]
+
+
+def _numbers(record):
+    """Grains and difference with their 95 % intervals."""
+    return {"head": ["quantity", ("grains", "[95 %]"), "law", ("law − grains", "[95 %]")],
+            "rows": _rows(record["quantities"], ("grains", "law", "difference"))}
+
+
+def _rms(record):
+    """Rms of law − grains, its standard error, and the standard error of the grains."""
+    return {"head": ["quantity", ("law − grains", "rms"), ("its standard error", "jackknife"),
+                     ("standard error of the grains", "rms")],
+            "rows": _rows(record["rms"], ("value", "error", "noise"))}
