@@ -13,7 +13,7 @@ import textwrap
 from diptych.report import sensitivity
 from diptych.report import study as charts
 from diptych.report.charts import style
-from diptych.report.data.study import CLASSES, load
+from diptych.report.studies import CLASSES, load
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure

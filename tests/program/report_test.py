@@ -18,14 +18,12 @@ import numpy as np
 
 import diptych.report
 import report_folder
-from diptych.report import calibration
-from diptych.report.charts import ensemble, style, trends
+from diptych.report import calibration, ensemble, studies
+from diptych.report.charts import style, trends
 from diptych.report.charts.strips import _turn
-from diptych.report.data import study
-from diptych.report.data.ensemble import Ensemble
-from diptych.report.data.increments import Increment
-from diptych.report.data.numbers import Descriptions, Units
 from diptych.report.data.loading_variable import LOADING_VARIABLES
+from diptych.report.data.numbers import Descriptions, Units
+from diptych.report.data.result import Increment
 from diptych.report.page.result_page import end_of, opens_at
 from diptych.report.tables import stage as tables
 from report_folder import read, run, write_folder, write_json
@@ -269,9 +267,8 @@ class Formulas(unittest.TestCase):
         self.assertAlmostEqual(_turn({"angle_deg": -89.0}, 89.0), 2.0)  # not 178
 
     def test_an_ensembles_places_keep_their_ends_apart(self):
-        others = ("folder", "record", "quantities", "numbers", "progress", "curves", "averaging", "profiles",
-                  "scene_text", "provenance")
-        results = Ensemble(**dict.fromkeys(others), loading_variable=LOADING_VARIABLES["axial_strain"])
+        others = ("folder", "record", "quantities", "numbers", "provenance")
+        results = ensemble.Ensemble(**dict.fromkeys(others), loading_variable=LOADING_VARIABLES["axial_strain"])
         self.assertEqual(results.place("window 1e-05-0.02"), ("window", "0.001–2\u00a0%"))
 
     def test_a_calibration_writes_numbers_without_exponents(self):
@@ -282,15 +279,15 @@ class Formulas(unittest.TestCase):
             path = os.path.join(folder, "study.h5")
             with h5py.File(path, "w") as file:
                 for panel in ("continuum", "discrete"):
-                    for name in ("progress", *study.CURVES):
+                    for name in ("progress", *studies.CURVES):
                         file[f"{panel}/{name}"] = [0.0, 1.0]
-            self.assertEqual(list(study._curves(path)), ["discrete", "continuum"])
+            self.assertEqual(list(studies._curves(path)), ["discrete", "continuum"])
 
     def test_no_label_and_no_legend_leaves_its_place(self):
         verdict = {"quantity": "peak", "margin": 0.03, "verdict": "equivalent", "discrete": [0.3], "continuum": [0.4],
                    **dict.fromkeys(("difference", "difference_90"), {"value": 0.1, "low": None, "high": None})}
         long = "strength T/S from 0.3 % strain to the end of the loading"
-        stage = types.SimpleNamespace(end=0.01, bands=lambda panel: [{"to_minor_stress_deg": 40.0}])
+        stage = types.SimpleNamespace(end=0.01, shown_end=1.0, bands=lambda panel: [{"to_minor_stress_deg": 40.0}])
         result = types.SimpleNamespace(stages=[stage], loading_variable=LOADING_VARIABLES["axial_strain"],
                                        part=lambda name: dict(coulomb_deg=58.8, arthur_deg=55.1, roscoe_deg=51.5))
         style.set_up()

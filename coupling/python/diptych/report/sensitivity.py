@@ -3,9 +3,9 @@
 
 from matplotlib.figure import Figure
 
+from . import studies as tables
 from .charts.style import CONTINUUM, GRAINS, ruled, svg
 from .page.writing import write
-from .tables import study as tables
 from .tables.wording import number, rounded, suffix, typeset
 
 ENOUGH = 0.9  # Q² below this: the indices say little

@@ -9,10 +9,10 @@ from matplotlib.patches import Rectangle
 from matplotlib.ticker import LogLocator
 
 from . import effects, sensitivity
+from . import studies as tables
 from .charts.style import FAINT, INK, LINE_COLOURS, place_labels, ruled, signed, svg
-from .data.study import CLASSES, load
 from .page.writing import write
-from .tables import study as tables
+from .studies import CLASSES, load
 
 CURVE_NAMES = {"stress_ratio": "stress ratio t/s", "volumetric_strain": "volumetric strain"}
 PANEL_WORDS = {"discrete": "grains", "continuum": "continuum", "material_point": "material point"}

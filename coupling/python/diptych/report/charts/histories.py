@@ -1,16 +1,22 @@
-# diptych: charts of histories over the loading, both panels
+# diptych: charts of histories over the loading, both panels: stress, volume, platens, energies, contact solver
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Every step from discrete.csv and continuum.csv, running means from comparison.h5, stages from comparison.json. Forces
 in P d (unit thickness)."""
 
 import numpy as np
+from matplotlib.figure import Figure
 
-from .style import (INK, PANEL_COLOURS, PANEL_LINES, PANEL_MARKS, ROUND_OFF, chart, decades, svg,
-                                         thin, with_intervals)
-from ..data.numbers import scaled
+from .style import (CONTINUUM, FAINT, GRAINS, INK, PANEL_COLOURS, PANEL_LINES, PANEL_MARKS, ROUND_OFF, THIRD, chart,
+                    decades, logarithmic, ruled, svg, thin, with_intervals)
+from ..data.numbers import plain, scaled
 from ..data.panels import PANEL_NAMES
 
 RAW_WIDTH = {"discrete": 0.5, "continuum": 0.9}
+ENERGIES = {"discrete": (("external_work", "work of platens and pressure, grains", GRAINS, "-"),
+                         ("friction_dissipation", "dissipated by friction, grains", THIRD, (0, (6, 1.5))),
+                         ("rolling_dissipation", "dissipated by rolling resistance, grains", THIRD, (0, (1, 1))),
+                         ("impact_dissipation", "dissipated by impacts, grains", INK, (0, (2, 1.2)))),
+            "continuum": (("dissipation", "plastic work, continuum", CONTINUUM, (0, (5, 1.5))),)}
 
 
 def figures(result):
@@ -23,23 +29,25 @@ def figures(result):
               "Volumetric strain 1 − V/V₀, every step; dilation is negative. Open marks: stages."),
         _platens(result),
         _platen_difference(result),
+        _energies(result),
+        _kinetic_energy(result),
     ]
 
 
 def _both(result, columns, scale, label, caption):
     """columns: (name for every step, name for the thick line)."""
     figure, axes = chart(result, label)
-    across, drawn, (every, thick) = result.loading_variable.factor, [], columns
+    drawn, (every, thick) = [], columns
     for panel, colour in PANEL_COLOURS.items():
         raw, mean = result.history(panel, every), result.history(panel, thick)
         if raw is not None and thick != every:
-            axes.plot(*thin(across * raw[0], scale * raw[1]), color=colour, alpha=0.5, linewidth=RAW_WIDTH[panel])
+            axes.plot(*thin(raw[0], scale * raw[1]), color=colour, alpha=0.5, linewidth=RAW_WIDTH[panel])
         if mean is not None:
-            axes.plot(*thin(across * mean[0], scale * mean[1]), color=colour, linewidth=1.8,
-                      linestyle=PANEL_LINES[panel], label=PANEL_NAMES[panel])
+            axes.plot(*thin(mean[0], scale * mean[1]), color=colour, linewidth=1.8, linestyle=PANEL_LINES[panel],
+                      label=PANEL_NAMES[panel])
         if raw is None and mean is None:
             continue
-        with_intervals(axes, [across * s.end for s in result.stages],
+        with_intervals(axes, [s.shown_end for s in result.stages],
                        [scaled(s.panel(panel).get(every), scale) for s in result.stages], fmt=PANEL_MARKS[panel],
                        markersize=4.5, markerfacecolor="white", color=colour, markeredgewidth=1.2)
         drawn.append(PANEL_NAMES[panel])
@@ -58,14 +66,14 @@ def _platens(result):
     caption = ("Vertical force of each platen on the sample. Thin: every step of the grains; thick: mean over "
                f"{result.averaging}.")
     figure, axes = chart(result, "vertical platen force (P d)")
-    across, unit, drawn = result.loading_variable.factor, result.units.size("pressure length"), 0
+    unit, drawn = result.units.size("pressure length"), 0
     for panel, colour in PANEL_COLOURS.items():
         for side, line in (("lower", "-"), ("upper", (0, (4, 2)))):
             raw, mean = result.history(panel, side + "_fy"), result.history(panel, side + "_fy_mean")
             if raw is not None and panel == "discrete":
-                axes.plot(*thin(across * raw[0], np.abs(raw[1]) / unit), color=colour, linewidth=0.35, alpha=0.3)
+                axes.plot(*thin(raw[0], np.abs(raw[1]) / unit), color=colour, linewidth=0.35, alpha=0.3)
             if mean is not None:
-                axes.plot(*thin(across * mean[0], np.abs(mean[1])), color=colour, linestyle=line,
+                axes.plot(*thin(mean[0], np.abs(mean[1])), color=colour, linestyle=line,
                           label=f"{PANEL_NAMES[panel]}, {side}")
                 drawn += 1
     if not drawn:
@@ -75,18 +83,84 @@ def _platens(result):
     return svg(figure, "Vertical platen forces against the loading, both panels, lower and upper platen."), caption
 
 
+def _positive(result, name):
+    """(progress, values) of the grains where the values are positive; without any, both are empty."""
+    progress, values = result.history("discrete", name) or (np.empty(0), np.empty(0))
+    return progress[values > 0], values[values > 0]
+
+
+def _over_decades(result, label, progress, values, shown):
+    """(figure, axes) with a thin line of the grains over a logarithmic axis; shown: values within the limits."""
+    figure, axes = chart(result, label)
+    logarithmic(axes)
+    axes.plot(*thin(progress, values), color=PANEL_COLOURS["discrete"], linewidth=0.6)
+    axes.set_xlim(left=0)
+    axes.set_ylim(decades(shown))
+    return figure, axes
+
+
 def _platen_difference(result):
     caption = ("Relative difference of the vertical forces of both platens on the grains, |F_lower + F_upper| "
                "over their mean magnitude. Moreau (1997) reports less than 1 %.")
-    found = result.history("discrete", "platen_difference")
-    if found is None or not (found[1] > 0).any():
+    progress, difference = _positive(result, "platen_difference")
+    if not len(progress):
         return None, caption
-    good = found[1] > 0
-    progress, difference = result.loading_variable.factor * found[0][good], 100 * found[1][good]
-    figure, axes = chart(result, "difference of platen forces (%)", log=True)
-    axes.plot(*thin(progress, difference), color=PANEL_COLOURS["discrete"], linewidth=0.6)
+    figure, axes = _over_decades(result, "difference of platen forces (%)", progress, 100 * difference,
+                                 np.append(100 * difference, 1.0))
     axes.axhline(1, color=INK, linewidth=1, linestyle="--")
     axes.annotate("1 %", (0.99, 1), xycoords=("axes fraction", "data"), ha="right", va="bottom")
-    axes.set_xlim(left=0)
-    axes.set_ylim(decades(np.append(difference, 1.0)))
     return svg(figure, "Relative difference of the vertical platen forces against the loading, log scale."), caption
+
+
+def _energies(result):
+    caption = ("Energies since the start. Grains: work = friction + rolling resistance + impacts + change of kinetic "
+               "energy; the accuracy table gives the residual. Continuum: plastic work.")
+    figure, axes = chart(result, "energy (P d²)")
+    unit = result.units.size("pressure length^2")
+    for panel, lines in ENERGIES.items():
+        for name, label, colour, dashes in lines:
+            found = result.history(panel, name)
+            if found is not None and (found[1] != 0).any():
+                axes.plot(*thin(found[0], found[1] / unit), color=colour, linestyle=dashes, label=label)
+    if not axes.lines:
+        return None, caption
+    axes.set_xlim(left=0)
+    axes.set_ylim(bottom=0)
+    axes.legend(loc="upper left", handlelength=3)
+    return svg(figure, "Work and dissipation of grains and continuum against the loading."), caption
+
+
+def _kinetic_energy(result):
+    caption = ("Kinetic energy of the grains over M|V|²/4 (half of the mass moving with the platen). A median above 2 "
+               "indicates solver noise. Single peaks are rearrangements of the packing. The continuum is quasi-static "
+               "and has no kinetic energy.")
+    progress, ratio = _positive(result, "kinetic_energy_ratio")
+    if not len(progress):
+        return None, caption
+    figure, axes = _over_decades(result, "kinetic energy / (M|V|²/4)", progress, ratio, ratio)
+    median = plain(result.part("discrete_summary").get("kinetic_energy_ratio_median"))
+    if median is not None:
+        axes.axhline(median, color=INK, linewidth=1, label=f"median {median:.3g}")
+    axes.axhline(2, color=FAINT, linewidth=1, linestyle="--", label="2: warning")
+    axes.legend(loc="upper right")
+    words = "" if median is None else f"; median {median:.3g}"
+    return svg(figure, f"Kinetic energy ratio against the loading, logarithmic{words}."), caption
+
+
+def solver(result):
+    """(Picture or None, caption): sweeps and residual of every step."""
+    caption = ("Contact solver, every step: number of sweeps over the contacts, and the residual (natural map, "
+               "relative), computed outside the solver.")
+    if any(result.history("discrete", name) is None for name in ("sweeps", "residual")):
+        return None, caption
+    figure = Figure(figsize=(4.5, 3.1))
+    for k, name in enumerate(("sweeps", "residual")):
+        axes = ruled(figure.add_axes([0.15, 0.6 - 0.43 * k, 0.825, 0.36]))
+        progress, values = _positive(result, name)
+        axes.plot(*thin(progress, values), color=PANEL_COLOURS["discrete"], linewidth=0.6)
+        axes.set(ylabel=name, ylim=decades(values))
+        logarithmic(axes)
+        axes.set_xlim(left=0)
+        axes.tick_params(labelbottom=k == 1)
+    axes.set_xlabel(result.loading_variable.label)
+    return svg(figure, "Sweeps and residual of the contact solver against the loading, logarithmic."), caption

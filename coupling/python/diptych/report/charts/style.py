@@ -59,14 +59,12 @@ def set_up():
     })
 
 
-def chart(result, label, height=3.1, log=False):
+def chart(result, label):
     """(figure, axes) for a curve over the progress `result.loading_variable`, always with the same frame."""
-    figure = Figure(figsize=(4.5, height))
-    axes = ruled(figure.add_axes([0.15, 0.5 / height, 0.825, 1 - 0.6 / height]))
+    figure = Figure(figsize=(4.5, 3.1))
+    axes = ruled(figure.add_axes([0.15, 0.5 / 3.1, 0.825, 1 - 0.6 / 3.1]))
     axes.set(xlabel=result.loading_variable.label, ylabel=label)
-    place_labels(axes, 0.035, 0.2 / height)
-    if log:
-        logarithmic(axes)
+    place_labels(axes, 0.035, 0.2 / 3.1)
     return figure, axes
 
 

@@ -24,7 +24,7 @@ def _points(axes, result, numbers):
     drawn = False
     for k, panel in enumerate(PANEL_NAMES):
         # The panels are half a line width apart, so that equal values stay visible.
-        x = [result.loading_variable.factor * s.end * (1 + 0.004 * (2 * k - 1)) for s in result.stages]
+        x = [s.shown_end * (1 + 0.004 * (2 * k - 1)) for s in result.stages]
         drawn |= with_intervals(axes, x, [numbers(s, panel) for s in result.stages], fmt=PANEL_MARKS[panel],
                                 markersize=4.5, color=PANEL_COLOURS[panel], label=PANEL_NAMES[panel])
     axes.set_xlim(0, 1.04 * result.loading_variable.factor * max((s.end for s in result.stages), default=1.0))
@@ -58,16 +58,18 @@ def _width(result):
     return svg(figure, "10–90 % width of the first band against the loading, both panels."), caption
 
 
+def _dissipated(stage, panel):
+    return stage.panel(panel).get("dissipation") or {}
+
+
 def _dissipation(result):
     caption = ("Share of the dissipation of a stage inside the 10–90 % width of the band of the grains. Dashed: "
                "share of the area of this band. Grains: friction and impacts; continuum: plastic work.")
     figure, axes = chart(result, "dissipated inside the band (%)")
-    # noqa: E731
-    of = lambda stage, panel: scaled((stage.panel(panel).get("dissipation") or {}).get("share_inside"), 100)
-    if not _points(axes, result, of):
+    if not _points(axes, result, lambda stage, panel: scaled(_dissipated(stage, panel).get("share_inside"), 100)):
         return None, caption
-    shares = [(s.end, plain((s.panel("discrete").get("dissipation") or {}).get("area_share"))) for s in result.stages]
-    area = [(result.loading_variable.factor * end, 100 * share) for end, share in shares if share is not None]
+    shares = [(s.shown_end, plain(_dissipated(s, "discrete").get("area_share"))) for s in result.stages]
+    area = [(at, 100 * share) for at, share in shares if share is not None]
     if area:
         axes.plot(*zip(*area), color=FAINT, linestyle="--", linewidth=1.2, label="share of the area")
     axes.set_ylim(0, 100)
@@ -81,8 +83,8 @@ def _stress_difference(result):
                "sampling only, because it includes narrow bands.")
     rows = {}
     for stage in result.stages:
-        for row in (stage.record.get("difference") or {}).get("stress") or []:
-            rows.setdefault(row.get("label", ""), []).append((result.loading_variable.factor * stage.end, row))
+        for row in stage.panel("difference").get("stress") or []:
+            rows.setdefault(row.get("label", ""), []).append((stage.shown_end, row))
     figure, axes = chart(result, "difference of the stress (%)")
     for (label, found), colour in zip(rows.items(), (INK, PANEL_COLOURS["discrete"], THIRD)):
         for key, dashes, words in (("relative_l2", "-", label), ("sampling_alone", "--", None)):

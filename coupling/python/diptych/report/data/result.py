@@ -1,19 +1,74 @@
 # diptych: reads a result folder, with lengths in d and stresses in P
 # SPDX-License-Identifier: LGPL-2.1-or-later
-import os
-from dataclasses import dataclass
+"""comparison.json lists the increments (stages and windows); comparison.h5 has a group of arrays for each."""
 
+import os
+from dataclasses import dataclass, field
+
+import h5py
 import numpy as np
 
+from ...errors import InputError
 from ...files import read_json
 from .files import open_arrays, read_csv, read_provenance, read_text, require
-from .increments import read, read_arrays
-from .numbers import Descriptions, Units
-from .panels import PANEL_NAMES
 from .loading_variable import LoadingVariable, loading_variable_of
+from .numbers import Description, Descriptions, Units
+from .panels import PANEL_NAMES
 
 REQUIRED = ("comparison.json", "comparison.h5", "discrete.csv", "continuum.csv", "provenance.json")
-FORMAT = 2
+SAME = 1e-6  # tolerance of progress
+
+
+@dataclass(kw_only=True)
+class Increment:
+    """Change between two instants of the loading, in both panels.
+
+    arrays: datasets by path in the group, as "cells/discrete_stress" (C, 2, 2) [P]; "cells/corners" (C, 4, 2) [d] is
+    the mesh. state: arrays of the stage that ends at the same progress (a stage's own): stresses and forces at that
+    instant. record: {"discrete": PANEL, "continuum": PANEL, ...} of comparison.json. end_record: of the stage that ends
+    at the same progress, {} without one. centre: of the sample (2) [d], from which the bands' offsets count.
+    displacement_unit, velocity_unit: the upper platen's [d], [d/time]; None if unknown or zero.
+    """
+
+    key: str
+    kind: str
+    start: float
+    end: float
+    record: dict
+    loading_variable: LoadingVariable
+    arrays: dict = field(default_factory=dict)
+    state: dict = field(default_factory=dict)
+    end_record: dict = field(default_factory=dict)
+    centre: np.ndarray = None
+    displacement_unit: float = None
+    velocity_unit: float = None
+
+    def panel(self, name):
+        """A group of the record, also "difference", or {}."""
+        return self.record.get(name) or {}
+
+    def bands(self, name):
+        return self.panel(name).get("bands") or []
+
+    def place(self, path):
+        """Place of a number in the list of numbers: "discrete/bands/jump" -> "stages/discrete/bands/jump"."""
+        return f"{self.kind}s/{path}"
+
+    @property
+    def shown_end(self):
+        """The end in the unit of the axes."""
+        return self.loading_variable.factor * self.end
+
+    @property
+    def label(self):
+        start = self.loading_variable.number(self.start) + "–" if self.kind == "window" else ""
+        return start + self.loading_variable.text(self.end)
+
+    @property
+    def title(self):
+        if self.kind == "window":
+            return f"window {self.label}"
+        return f"stage {self.label} (since {self.loading_variable.text(self.start)})"
 
 
 @dataclass(kw_only=True)
@@ -49,12 +104,12 @@ class Result:
         return self.comparison.get(key) or {}
 
     def history(self, panel, name):
-        """(progress, values) of the rows with finite numbers; None: no such column, or fewer than two rows."""
+        """(progress as shown, values) of the rows with finite numbers; None: no such column, or fewer than two rows."""
         progress, values = self.histories[panel]["progress"], self.histories[panel].get(name)
         if values is None:
             return None
         good = np.isfinite(progress) & np.isfinite(values)
-        return (progress[good], values[good]) if good.sum() > 1 else None
+        return (self.loading_variable.factor * progress[good], values[good]) if good.sum() > 1 else None
 
     @property
     def windows(self):
@@ -73,17 +128,67 @@ def load(folder, next_folder):
         return newer if os.path.isfile(newer) else os.path.join(folder, name)
 
     require([path_of(name) for name in REQUIRED])
-    comparison = read_json(path_of("comparison.json"), FORMAT)
+    comparison = read_json(path_of("comparison.json"), 2)
     units = Units(comparison["mean_diameter"], comparison["pressure"])
     numbers = Descriptions(comparison.pop("numbers"))
-    comparison = numbers.shown_in(comparison, units)
+    comparison, described = numbers.shown_in(comparison, units), {}
     histories = {panel: read_csv(path_of(panel + ".csv")) for panel in PANEL_NAMES}
     with open_arrays(path_of("comparison.h5")) as file:
-        increments, arrays = read(comparison, file, units)
+        increments = _increments(comparison, file, units, described)
         for panel, columns in histories.items():
-            columns.update(read_arrays(file[f"histories/{panel}"], units, arrays))
+            columns.update(_arrays(file[f"histories/{panel}"], units, described))
     imported = os.path.join(folder, "import.json")
     return Result(comparison=comparison, provenance=read_provenance(path_of("provenance.json")), histories=histories,
-                  increments=increments, units=units, numbers=numbers, arrays=arrays,
+                  increments=increments, units=units, numbers=numbers, arrays=described,
                   scene_text=read_text(path_of("scene.prm")),
                   imported=read_json(imported) if os.path.exists(imported) else {})
+
+
+def _increments(comparison, file, units, described):
+    """Windows first, then stages, in the order of comparison.json. Raises InputError if comparison.h5 lacks one."""
+    listed = [(f"window-{k}", f"window_{k}", one["to"], one) for k, one in enumerate(comparison["windows"])]
+    listed += [(f"stage-{k}", f"stage_{k + 1:04d}", one["progress"], one) for k, one in enumerate(comparison["stages"])]
+    increments = []
+    for key, name, end, record in listed:
+        group = _group(file, name, end)
+        arrays = _arrays(group, units, described)
+        for mesh in [mesh for mesh in ("cells", "grid") if mesh in group]:
+            arrays[mesh + "/corners"] = arrays.pop(mesh + "/node_position")[arrays.pop(mesh + "/nodes").astype(int)]
+        of_platen = {unit: group.attrs[unit] / units.diameter for unit in ("displacement_unit", "velocity_unit")}
+        increments.append(Increment(
+            key=key, kind=key.partition("-")[0], start=float(group.attrs["from"]), end=end, record=record,
+            loading_variable=loading_variable_of(comparison.get("walk")), arrays=arrays,
+            centre=group.attrs["centre"] / units.diameter,
+            **{unit: value for unit, value in of_platen.items() if np.isfinite(value) and value > 0}))
+    for increment in increments:
+        same = [i for i in increments if i.kind == "stage" and abs(i.end - increment.end) < SAME]
+        if same:
+            increment.state, increment.end_record = same[0].arrays, same[0].record
+    return increments
+
+
+def _group(file, name, end):
+    group = file.get(name)
+    if not isinstance(group, h5py.Group):
+        raise InputError(f"{file.filename}: has no group {name}, but comparison.json lists it")
+    stored = group.attrs.get("to")
+    if not (np.isscalar(stored) and abs(float(stored) - end) < SAME):
+        raise InputError(f"{file.filename}: {name} does not end at {end!r}, as comparison.json states")
+    return group
+
+
+def _arrays(group, units, described):
+    """{path: array} of a group, converted to d and P by the attribute `unit`. Adds the descriptions of the datasets to
+    `described`."""
+    arrays = {}
+
+    def take(path, item):
+        if isinstance(item, h5py.Dataset):
+            texts = [item.attrs.get(name, "") for name in ("unit", "meaning", "title")]
+            found = Description(*(text.decode() if isinstance(text, bytes) else str(text) for text in texts))
+            described.setdefault(path, found)
+            size = units.size(found.unit)
+            arrays[path] = item[()] if size == 1.0 else np.asarray(item[()], dtype=float) / size
+
+    group.visititems(take)
+    return arrays

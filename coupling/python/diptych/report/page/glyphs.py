@@ -106,7 +106,7 @@ def probes(increment):
     """Rectangles with their principal stresses, and the circle, of the stage that ends here."""
     found = {}
     for panel in PANEL_NAMES:
-        record = increment.end_panel(panel)
+        record = increment.end_record.get(panel) or {}
         rectangles = [{"name": p["name"], "polygon": short(p["polygon"]),
                        **{key: short(plain(p[key])) for key in ("s1", "s2", "direction_deg", "t_over_s")}}
                       for p in record.get("probes") or [] if p["polygon"]]

@@ -1,7 +1,7 @@
 # diptych: report.html of a result folder
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
-from ..charts import chains, circular, histories, ledgers, probes, profiles, resolution, strips, trends
+from ..charts import chains, circular, histories, probes, profiles, resolution, strips, trends
 from ..charts.style import Pair
 from ..data.result import load
 from . import viewer
@@ -42,7 +42,7 @@ def parts(result):
             "tables": [bands.bands(result, i)], "notes": bands.notes(result, i)}, maps="quantity"),
         Part("difference", "Difference on the same cells", every, end, lambda i: {
             "tables": [stage.stress_difference(result, i), stage.dissipation(result, i)],
-            "notes": paragraph((i.record.get("difference") or {}).get("stress_verdict"))}, maps="difference"),
+            "notes": paragraph(i.panel("difference").get("stress_verdict"))}, maps="difference"),
         Part("arrows", "Displacements and velocities", every, end, lambda i: {}, maps="arrows"),
         Part("strips", "Sixteen strips parallel to the band", every, end, lambda i: {"pair": strips.pair(i)}),
         Part("profiles", "Profiles across the band", [i for i in every if i.kind == "window"] or stages, end,
@@ -70,7 +70,7 @@ def draw(folder, next_folder=None):
     study = result.part("resolution_study")
     write(next_folder or folder, "result.html",
           comparison=result.comparison, imported=result.imported, parts=parts(result), maps=viewer.data(result),
-          curves=histories.figures(result) + ledgers.figures(result), solver=ledgers.solver(result),
+          curves=histories.figures(result), solver=histories.solver(result),
           trends=trends.figures(result), resolution=resolution.figures(study),
           resolution_verdict=paragraph(study.get("verdict")), stages=bands.stages(result),
           mapping=stage.mapping(result), accuracy=accuracy.table(result), first=summary.first(result.comparison),

@@ -1,7 +1,7 @@
 # diptych: tables of cost, provenance, and parameters of the continuum law
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
-from ..data.scene import scene_section
+from ..data.files import scene_section
 from . import summary
 from .wording import number
 

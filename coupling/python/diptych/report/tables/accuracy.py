@@ -1,9 +1,8 @@
 # diptych: table of the accuracy of a result: solver, balances, mapping, mesh and step
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
-from ..data.files import number as parsed
+from ..data.files import number as parsed, scene_value
 from ..data.numbers import plain
-from ..data.scene import scene_value
 from .wording import ABSENT, EXPECTED, number, rounded, shown_unit
 
 MAPPING = {"total_relative_error": "conservative: round-off", "nodal_residual": "identity of virtual power: round-off",

@@ -23,7 +23,7 @@ def bands(result, increment):
             + [_band_cell(result, band, f"{place}/{key}") for _, band in columns]
             for key in BAND_KEYS]
     head = [("", "")] + [(heading, "") for heading, _ in columns]
-    difference = {k: v for k, v in (increment.record.get("difference") or {}).items() if plain(v) is not None}
+    difference = {k: v for k, v in increment.panel("difference").items() if plain(v) is not None}
     if any(key in difference for key in BAND_KEYS):
         head.append(("Difference", ""))
         for row, key in zip(rows, BAND_KEYS):
@@ -111,11 +111,11 @@ def stages(result):
                          "R², grains", "R², continuum"],
                 "rows": []}
     for stage in result.stages:
-        panels, difference = (stage.panel("discrete"), stage.panel("continuum")), stage.record.get("difference") or {}
+        difference = stage.panel("difference")
         row = [result.loading_variable.text(stage.end)]
         for key in ("stress_ratio", "volumetric_strain"):
-            row += [shown(result.numbers, f"stages/discrete/{key}", source.get(key))
-                    for source in (*panels, difference)]
+            row += [shown(result.numbers, f"stages/discrete/{key}", stage.panel(source).get(key))
+                    for source in (*PANEL_NAMES, "difference")]
         stress["rows"].append(row)
         row = [result.loading_variable.text(stage.end)]
         for key in ("angle_deg", "width_10_90_d"):

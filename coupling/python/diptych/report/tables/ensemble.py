@@ -4,10 +4,10 @@
 import os
 
 from ...arrays import ends_text
-from ..data.ensemble import MOST_CURVES
 from ..data.panels import PANEL_NAMES
 from .wording import DECIMALS, UNBROKEN, ending, fixed, number, rounded, shown_unit
 
+MOST_CURVES = 200  # members with a drawn curve
 NUMERICAL = ("grains_step", "mesh", "load_step")  # parts of u_num
 AXIS_UNITS = {"": "", "%": " (%)", "°": " (°)", " d": " (d)"}
 

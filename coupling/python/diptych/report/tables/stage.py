@@ -63,7 +63,7 @@ def stress_difference(result, increment):
     place = increment.place("difference/stress")
     keys = ("resolution_d", "relative_l2", "sampling_alone", "direction_deg")
     rows = [[row.get("label", ""), *[_cell(result, place, row, key) for key in keys]]
-            for row in (increment.record.get("difference") or {}).get("stress") or []]
+            for row in increment.panel("difference").get("stress") or []]
     return {"head": ["averaged over"] + [result.numbers.meaning(f"{place}/{key}") for key in keys],
             "rows": rows} if rows else None
 
