@@ -21,6 +21,7 @@ import headers
 import module_docs
 import readmes
 import reference
+from readmes import text_of, write
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 UNUSED = ("404.html", "sitemap.xml", "sitemap.xml.gz", "assets/javascripts/lunr", "assets/javascripts/workers")
@@ -30,17 +31,6 @@ PAGES = [("index", "Start"), ("install", "Install"), ("first_comparison", "First
          ("calibration", "Calibration"), ("python", "Python"), ("cost", "What it costs"),
          ("conventions", "Conventions"),
          ("equations", "Equations"), ("limits", "Limits"), ("faq", "Questions"), ("glossary", "Glossary")]
-
-
-def text_of(path):
-    with open(path, encoding="utf-8") as file:
-        return file.read()
-
-
-def write(path, text):
-    os.makedirs(os.path.dirname(path), exist_ok=True)
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(text)
 
 
 class Directives:
@@ -80,9 +70,7 @@ class Directives:
     def do_figure(self, argument):
         """A figure of the source tree with its caption: FILE, CAPTION."""
         name, caption = argument.split(", ", 1)
-        target = os.path.join(self.docs, "source", name)
-        os.makedirs(os.path.dirname(target), exist_ok=True)
-        shutil.copyfile(self.path(name), target)
+        readmes.copy(self.path(name), os.path.join(self.docs, "source", name))
         return f"![{caption}](source/{name})\n\n*{caption}*"
 
     def do_docstrings(self, package):
@@ -99,9 +87,9 @@ def find_page(entries):
     rows = [[name, kind, link, meaning[:160]] for name, kind, link, meaning in entries]
     data = json.dumps(rows, ensure_ascii=False).replace("</", "<\\/")
     return ("# Find\n\nSearches keys, columns, datasets, commands and headers. All words must occur.\n\n"
-            '<input id="words" type="search" placeholder="internal length" aria-label="words to find">\n<p '
-            'id="found-count"></p>\n'
-            f'<div id="found"></div>\n<script id="find-data" type="application/json">{data}</script>\n')
+            '<input id="words" type="search" placeholder="internal length" aria-label="words to find">\n'
+            '<p id="found-count"></p>\n<div id="found"></div>\n'
+            f'<script id="find-data" type="application/json">{data}</script>\n')
 
 
 def navigation(keys, results, rooms, tree):
@@ -135,8 +123,8 @@ def assemble(source, program, docs):
     schema = json.loads(reference.output_of(program, "explain", "--json"))
     keys, results, commands = reference.Keys(schema), reference.Results(schema), reference.Commands(program)
     tree = readmes.Tree(source, headers.links(source), keys)
-    key_pages, result_pages, rooms = list(keys.pages()), list(results.pages()), list(headers.pages(source,
-                                                                                                   tree.page_of))
+    key_pages, result_pages = list(keys.pages()), list(results.pages())
+    rooms = list(headers.pages(source, tree.page_of))
     for path, _, text in key_pages + result_pages + rooms:
         write(os.path.join(docs, path), text)
     write(os.path.join(docs, "reference", "commands.md"), commands.page())
@@ -145,9 +133,8 @@ def assemble(source, program, docs):
     for name, _ in PAGES:
         text = readmes.spaced(directives.filled(text_of(os.path.join(HERE, "pages", name + ".md"))))
         write(os.path.join(docs, name + ".md"), tree.with_links(text, name + ".html", ""))
-    titles = [(path, "header", link, headers.title(text_of(os.path.join(source, path)))) for path,
-              link in tree.headers.items()
-              if path.endswith(".h")]
+    titles = [(path, "header", link, headers.title(text_of(os.path.join(source, path))))
+              for path, link in tree.headers.items() if path.endswith(".h")]
     write(os.path.join(docs, "find.md"), find_page([*commands.index(), *keys.index(), *results.index(), *titles]))
     shutil.copytree(os.path.join(HERE, "theme"), os.path.join(docs, "theme"))
     return navigation(key_pages, result_pages, rooms, tree)
@@ -168,8 +155,7 @@ def build(source, program, output):
         done = subprocess.run(["mkdocs", "build", "-q", "-f", config], capture_output=True, text=True, check=False)
         if done.returncode != 0:
             raise RuntimeError("mkdocs: " + done.stderr)
-    for path in [os.path.join(site, name) for name in UNUSED] + glob.glob(os.path.join(site, "**", "*.map"),
-                                                                          recursive=True):
+    for path in [*(os.path.join(site, name) for name in UNUSED), *glob.glob(site + "/**/*.map", recursive=True)]:
         remove(path)
     remove(output)
     os.rename(site, output)

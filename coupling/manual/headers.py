@@ -5,6 +5,8 @@ import os
 import posixpath
 import re
 
+from readmes import text_of
+
 
 def find(source):
     """{folder: [paths of its headers]} of the three panels' folders."""
@@ -87,8 +89,8 @@ def flowing(text):
             parts[-1] = (False, parts[-1][1] + " " + line.strip())
         else:
             parts.append((is_set_in, line.strip()))
-    return "".join(f'<p{" class=set-in" if is_set_in else ""}>{with_code(line)}</p>' for is_set_in,
-                   line in parts if line)
+    return "".join(f'<p{" class=set-in" if is_set_in else ""}>{with_code(line)}</p>' for is_set_in, line in parts
+                   if line)
 
 
 def page(source, folder, paths, link_of):
@@ -98,14 +100,12 @@ def page(source, folder, paths, link_of):
     if readme and not readme.startswith("reference/"):
         lines += [f"About this folder: [{folder}/]({posixpath.relpath(readme, 'reference')}).", ""]
     for path in paths:
-        with open(os.path.join(source, path), encoding="utf-8") as file:
-            text = file.read()
+        text = text_of(os.path.join(source, path))
         subject = title(text)
         lines += [f"## `{posixpath.basename(path)}`", "", html.escape(subject[:1].upper() + subject[1:]) + ".", ""]
         for comment, code in comments(text):
-            lines += ['<div class="declared">' + flowing(comment) + "<pre><code>"
-                      + html.escape(code).replace("\n", "&#10;")
-                      + "</code></pre></div>", ""]
+            shown = html.escape(code).replace("\n", "&#10;")
+            lines += [f'<div class="declared">{flowing(comment)}<pre><code>{shown}</code></pre></div>', ""]
     return "\n".join(lines)
 
 

@@ -12,6 +12,22 @@ CODE = re.compile(r"`([^`\n]+)`")
 ITEM = re.compile(r"(?:[-*+]|\d+\.) ")
 
 
+def text_of(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def write(path, text):
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+def copy(path, target):
+    os.makedirs(os.path.dirname(target), exist_ok=True)
+    shutil.copyfile(path, target)
+
+
 def find(source):
     """Sorted paths of all .md files of the tree, without the manual's own pages."""
     found = []
@@ -51,10 +67,8 @@ class Tree:
 
     def __init__(self, source, headers, keys):
         self.source, self.headers, self.keys = source, headers, keys
-        self.paths, self.texts = find(source), {}
-        for path in self.paths:
-            with open(os.path.join(source, path), encoding="utf-8") as file:
-                self.texts[path] = file.read()
+        self.paths = find(source)
+        self.texts = {path: text_of(os.path.join(source, path)) for path in self.paths}
 
     def page_of(self, path):
         """The page (.html, from the top of the site) that shows a file or folder of the tree, or None."""
@@ -104,15 +118,12 @@ class Tree:
         not exist."""
         for path in self.paths:
             folder = posixpath.dirname(path)
-            out = os.path.join(docs, "source", path)
-            os.makedirs(os.path.dirname(out), exist_ok=True)
-            with open(out, "w", encoding="utf-8") as file:
-                file.write(self.with_links(spaced(self.texts[path]), self.page_of(path), folder))
+            write(os.path.join(docs, "source", path),
+                  self.with_links(spaced(self.texts[path]), self.page_of(path), folder))
             for _, link in LINK.findall(self.texts[path]):
                 target = posixpath.normpath(posixpath.join(folder, link.partition("#")[0]))
                 if "://" in link or link.startswith("#") or target in self.texts:
                     continue
                 if not os.path.isfile(os.path.join(self.source, target)):
                     raise ValueError(f"{path}: the link to {link} leads to no file")
-                os.makedirs(os.path.dirname(os.path.join(docs, "source", target)), exist_ok=True)
-                shutil.copyfile(os.path.join(self.source, target), os.path.join(docs, "source", target))
+                copy(os.path.join(self.source, target), os.path.join(docs, "source", target))

@@ -41,11 +41,11 @@ def unit_of(one):
 
 
 class Keys:
-    """The keys of a scene, one page per section."""
+    """The keys of a scene, one page per section. names: meaning of every key by "section/key"."""
 
     def __init__(self, schema):
         self.sections = grouped(schema["keys"], "section")
-        self.names = {section + "/" + one["key"] for section, entries in self.sections for one in entries}
+        self.names = {f"{one['section']}/{one['key']}": one["meaning"] for one in schema["keys"]}
 
     def link(self, name):
         section, key = name.split("/", 1)
@@ -62,26 +62,25 @@ class Keys:
             yield f"reference/keys_{section}.md", f"Section {section}", "\n".join(lines)
 
     def index(self):
-        for section, entries in self.sections:
-            for one in entries:
-                key = section + "/" + one["key"]
-                yield key, "key", self.link(key), one["meaning"]
+        return [(name, "key", self.link(name), meaning) for name, meaning in self.names.items()]
 
 
 class Results:
-    """The columns, numbers and datasets of result files, one page per family of files: the first word of the
-    heading."""
+    """The columns, numbers and datasets of result files, one page per family of files."""
 
     def __init__(self, schema):
-        self.families = {}
-        for heading, entries in grouped(schema["results"], "file"):
-            self.families.setdefault(re.match(r"[a-z]+", heading)[0], []).append((heading, entries))
+        self.entries = schema["results"]
+
+    @staticmethod
+    def family(one):
+        """The first word of the heading."""
+        return re.match(r"[a-z]+", one["file"])[0]
 
     def pages(self):
-        for family, files in self.families.items():
+        for family in dict.fromkeys(map(self.family, self.entries)):
             lines = [f"# Results: {family}", "", "`diptych explain results` prints the same list. Stress and strain "
                      "are positive in compression.", ""]
-            for heading, entries in files:
+            for heading, entries in grouped([one for one in self.entries if self.family(one) == family], "file"):
                 lines += ["## " + heading, ""]
                 for one in entries:
                     facts = (unit_of(one), one["shape"])
@@ -89,11 +88,9 @@ class Results:
             yield f"reference/results_{family}.md", f"Results: {family}", "\n".join(lines)
 
     def index(self):
-        for family, files in self.families.items():
-            for heading, entries in files:
-                for one in entries:
-                    page = f"reference/results_{family}.html#{anchor(heading, one['entry'])}"
-                    yield one["entry"], f"{heading}, {one['shape']}", page, one["meaning"]
+        for one in self.entries:
+            page = f"reference/results_{self.family(one)}.html#{anchor(one['file'], one['entry'])}"
+            yield one["entry"], f"{one['file']}, {one['shape']}", page, one["meaning"]
 
 
 def options(text):
@@ -134,6 +131,6 @@ class Commands:
 
     def index(self):
         for name in self.names:
-            yield "diptych " + name, "command", "reference/commands.html#diptych-" + name, self.helps[name].split("\n",
-                                                                                                                  1)[0]
+            first, _ = self.helps[name].split("\n", 1)
+            yield "diptych " + name, "command", "reference/commands.html#diptych-" + name, first
 

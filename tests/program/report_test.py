@@ -21,8 +21,7 @@ import report_folder
 from diptych.report import calibration, ensemble, studies
 from diptych.report.charts import style, trends
 from diptych.report.charts.strips import _turn
-from diptych.report.data.loading_variable import LOADING_VARIABLES
-from diptych.report.data.numbers import Descriptions, Units
+from diptych.report.data.numbers import Descriptions, LOADING_VARIABLES, Units
 from diptych.report.data.result import Increment
 from diptych.report.page.result_page import end_of, opens_at
 from diptych.report.tables import stage as tables

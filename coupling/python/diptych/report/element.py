@@ -9,7 +9,7 @@ import numpy as np
 from ..files import read_json
 from .charts.style import CONTINUUM, GRAINS, PANEL_LINES, THIRD, chart, limit_below, svg
 from .data.files import read_csv
-from .data.loading_variable import loading_variable_of
+from .data.numbers import loading_variable_of
 from .page.writing import write
 from .tables.wording import ABSENT, rounded, suffix
 

@@ -13,8 +13,7 @@ from ..files import read_ensemble, read_json
 from .charts import profiles
 from .charts.style import FAINT, INK, PANEL_COLOURS, PANEL_LINES, PANEL_MARKS, chart, ruled, svg
 from .data.files import open_arrays, read_provenance, read_text, scene_value
-from .data.loading_variable import LoadingVariable, loading_variable_of
-from .data.numbers import Descriptions
+from .data.numbers import Descriptions, LoadingVariable, loading_variable_of
 from .data.panels import PANEL_NAMES
 from .page.writing import write
 from .tables import ensemble as tables

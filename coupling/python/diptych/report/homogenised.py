@@ -13,8 +13,7 @@ from ..files import read_json
 from .charts import resolution
 from .charts.style import GRAINS, INK, NO_VALUE, chart, limit_below, signed, svg, with_intervals
 from .data.files import read_provenance, require
-from .data.loading_variable import loading_variable_of
-from .data.numbers import plain, scaled
+from .data.numbers import loading_variable_of, plain, scaled
 from .page.writing import write
 from .tables.wording import number, rounded
 

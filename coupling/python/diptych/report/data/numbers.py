@@ -1,4 +1,4 @@
-# diptych: numbers of a result with units and meanings
+# diptych: numbers of a result with units and meanings, and the loading variable (progress)
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A number is plain, or {"value", "low", "high"} with its 95 % interval; None: unknown.
 
@@ -17,6 +17,11 @@ def plain(number):
     if isinstance(number, bool) or not isinstance(number, (int, float)) or not np.isfinite(number):
         return None
     return float(number)
+
+
+def known(numbers):
+    """The values of those numbers that have one."""
+    return [value for value in map(plain, numbers) if value is not None]
 
 
 def interval(number):
@@ -87,3 +92,32 @@ class Descriptions:
             return [self.shown_in(entry, units, place) for entry in tree]
         size = units.size(self.unit(place))
         return tree if size == 1.0 else scaled(tree, 1 / size)
+
+
+@dataclass(frozen=True)
+class LoadingVariable:
+    """Text of a progress: factor times the stored number, then the unit."""
+
+    word: str
+    unit: str = " %"
+    factor: float = 100.0
+
+    @property
+    def label(self):
+        """Label of an axis."""
+        return self.word + (" (%)" if self.unit else "")
+
+    def number(self, progress):
+        return f"{self.factor * progress:.4g}"
+
+    def text(self, progress):
+        return self.number(progress) + self.unit
+
+
+LOADING_VARIABLES = {"axial_strain": LoadingVariable("axial strain"), "shear_strain": LoadingVariable("shear strain"),
+                     "time": LoadingVariable("time", "", 1.0)}
+
+
+def loading_variable_of(name):
+    """For the entry `walk` of a file; if it is missing, one without name or unit."""
+    return LOADING_VARIABLES.get(name, LoadingVariable("progress", "", 1.0))

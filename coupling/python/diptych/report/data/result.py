@@ -11,8 +11,7 @@ import numpy as np
 from ...errors import InputError
 from ...files import read_json
 from .files import open_arrays, read_csv, read_provenance, read_text, require
-from .loading_variable import LoadingVariable, loading_variable_of
-from .numbers import Description, Descriptions, Units
+from .numbers import Description, Descriptions, LoadingVariable, Units, loading_variable_of
 from .panels import PANEL_NAMES
 
 REQUIRED = ("comparison.json", "comparison.h5", "discrete.csv", "continuum.csv", "provenance.json")

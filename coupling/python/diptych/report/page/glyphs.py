@@ -1,6 +1,8 @@
-# diptych: arrows, crosses, forces and probes of one increment, for the browser
+# diptych: arrays, arrows, crosses, forces and probes of one increment, for the browser
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Entries of a Store; {} or None: nothing is stored."""
+"""Glyphs are entries of a Store; {} or None: nothing is stored."""
+
+import base64
 
 import numpy as np
 
@@ -9,7 +11,37 @@ from ..data.panels import PANEL_NAMES
 
 SPACING = 2.5       # d, of the grid with one arrow per square, in both panels
 MOST_DRAWN = 12000  # crosses or forces of one map; the weakest are left out
+LARGEST = 65534     # code of the largest value of an array; 65535 is NaN
 PRINCIPAL = ("major_stress", "minor_stress", "stress_direction")
+
+
+class Store:
+    """Arrays as {"low", "high", "data"}: value = low + code (high - low)/65534, codes of 16 bits, low byte first, in
+    base64.
+
+    Equal arrays share one entry, such as the positions of grains at the end of a window and of the stage that ends
+    there.
+    """
+
+    def __init__(self):
+        self.entries = []
+        self._known = {}
+
+    def add(self, values):
+        """Index of the entry of an array of any shape, which is stored flat. None for None."""
+        if values is None:
+            return None
+        values = np.asarray(values, dtype=float).ravel()
+        finite = values[np.isfinite(values)]
+        low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 0.0)
+        scale = LARGEST / (high - low) if high > low else 0.0
+        codes = np.where(np.isfinite(values), np.rint((np.nan_to_num(values) - low) * scale), LARGEST + 1).astype("<u2")
+        data = base64.b64encode(codes).decode("ascii")
+        key = (low, high, data)
+        if key not in self._known:
+            self._known[key] = len(self.entries)
+            self.entries.append({"low": low, "high": high, "data": data})
+        return self._known[key]
 
 
 def short(values):

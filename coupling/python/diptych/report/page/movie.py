@@ -14,8 +14,7 @@ from PIL import Image
 from ...files import part_of
 from ..data.panels import PANEL_NAMES
 from ..data.result import load
-from .limits import box, limits
-from .quantities import QUANTITIES
+from .quantities import QUANTITIES, box, limits
 
 MOST_FRAMES = 40  # about 5 MB
 SECONDS, LAST_SECONDS = 0.5, 2.0

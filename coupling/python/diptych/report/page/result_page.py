@@ -1,12 +1,14 @@
 # diptych: report.html of a result folder
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
+from types import SimpleNamespace
+
 from ..charts import chains, circular, histories, probes, profiles, resolution, strips, trends
 from ..charts.style import Pair
 from ..data.result import load
 from . import viewer
 from .writing import write
-from ..tables import accounts, accuracy, bands, stage, summary, wording
+from ..tables import accuracy, bands, stage, summary, wording
 
 
 def end_of(increments):
@@ -20,42 +22,41 @@ def opens_at(increments, end):
     return next((i for i in increments if i.end >= end - 1e-9), increments[-1])
 
 
-class Part:
+def _part(name, title, increments, end, content, *, maps=""):
     """A part of the page with one pane per increment.
 
     maps: name of a pair of maps that draw.js draws, or "". content(increment): charts, tables and notes below the maps,
     by name; the template shows them. end: all parts open at the increment that ends there.
     """
-
-    def __init__(self, name, title, increments, end, content, *, maps=""):
-        self.name, self.title, self.maps = name, title, maps
-        first = opens_at(increments, end)
-        self.items = [{"key": i.key, "label": i.label, "kind": i.kind, "title": i.title, "end": f"{i.end:.9g}",
-                       "open": i is first, **content(i)} for i in increments]
+    first = opens_at(increments, end)
+    items = [{"key": i.key, "label": i.label, "kind": i.kind, "title": i.title, "end": f"{i.end:.9g}",
+              "open": i is first, **content(i)} for i in increments]
+    return SimpleNamespace(name=name, title=title, maps=maps, items=items)
 
 
 def parts(result):
     """The parts in the order of the page. A new part is an entry here and its explanation in templates/result.html."""
     every, stages, end = result.increments, result.stages, end_of(result.increments)
     return [
-        Part("maps", "Grains and continuum at the same instant", every, end, lambda i: {
+        _part("maps", "Grains and continuum at the same instant", every, end, lambda i: {
             "tables": [bands.bands(result, i)], "notes": bands.notes(result, i)}, maps="quantity"),
-        Part("difference", "Difference on the same cells", every, end, lambda i: {
+        _part("difference", "Difference on the same cells", every, end, lambda i: {
             "tables": [stage.stress_difference(result, i), stage.dissipation(result, i)],
             "notes": paragraph(i.panel("difference").get("stress_verdict"))}, maps="difference"),
-        Part("arrows", "Displacements and velocities", every, end, lambda i: {}, maps="arrows"),
-        Part("strips", "Sixteen strips parallel to the band", every, end, lambda i: {"pair": strips.pair(i)}),
-        Part("profiles", "Profiles across the band", [i for i in every if i.kind == "window"] or stages, end,
+        _part("arrows", "Displacements and velocities", every, end, lambda i: {}, maps="arrows"),
+        _part("strips", "Sixteen strips parallel to the band", every, end, lambda i: {"pair": strips.pair(i)}),
+        _part("profiles", "Profiles across the band", [i for i in every if i.kind == "window"] or stages, end,
              lambda i: {"pair": profiles.pair(i)}),
-        Part("probes", "Probes: mean stress and contact normals", stages, end, lambda i: {
+        _part("probes", "Probes: mean stress and contact normals", stages, end, lambda i: {
             "roses": probes.roses(i), "notes": [], "tables": [
                 stage.probes(result, i), stage.differences(result, i), stage.grain_pressures(result, i)]},
              maps="probes"),
-        Part("crosses", "Internal moments of single grains", stages, end, lambda i: {
+        _part("crosses", "Internal moments of single grains", stages, end, lambda i: {
             "pair": Pair(chains.distribution(i), chains.traction(i)),
-            "tables": [stage.chains(result, i)], "notes": paragraph(stage.chains_verdict(i))}, maps="crosses"),
-        Part("forces", "Contact forces", stages, end, lambda i: {}, maps="forces"),
-        Part("circle", "Circular probe", stages, end, lambda i: {"pair": circular.pair(i)}),
+            "tables": [stage.chains(result, i)],
+            "notes": paragraph((i.panel("discrete").get("force_chains") or {}).get("verdict"))}, maps="crosses"),
+        _part("forces", "Contact forces", stages, end, lambda i: {}, maps="forces"),
+        _part("circle", "Circular probe", stages, end, lambda i: {"pair": circular.pair(i)}),
     ]
 
 
@@ -76,8 +77,8 @@ def draw(folder, next_folder=None):
           mapping=stage.mapping(result), accuracy=accuracy.table(result), first=summary.first(result.comparison),
           discrete_summary=summary.table(result, "discrete_summary"),
           continuum_summary=summary.table(result, "continuum_summary"),
-          coarse=result.part("continuum_coarse"), cost=accounts.cost(result), provenance=accounts.provenance(result),
-          law=accounts.law_parameters(result), law_name=result.part("continuum_summary").get("law") or "",
+          coarse=result.part("continuum_coarse"), cost=accuracy.cost(result), provenance=accuracy.provenance(result),
+          law=accuracy.law_parameters(result), law_name=result.part("continuum_summary").get("law") or "",
           scene_text=result.scene_text, number=wording.number, absent=wording.ABSENT,
           fitted=result.part("continuum_summary").get("parameters_from"), thickness_note=bands.thickness_note(result),
           thickness_reason=wording.MESH_SET_REASON if bands.internal_length(result) is None

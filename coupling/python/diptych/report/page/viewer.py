@@ -11,10 +11,8 @@ from ..charts.style import NO_VALUE, PANEL_COLOURS
 from ..data.numbers import plain
 from ..data.panels import PANEL_NAMES
 from . import glyphs
-from .glyphs import short
-from .limits import box, limits
-from .quantities import PLACES, QUANTITIES, corners
-from .store import Store
+from .glyphs import Store, short
+from .quantities import PLACES, QUANTITIES, box, corners, limits
 
 
 def data(result):

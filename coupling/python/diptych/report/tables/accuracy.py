@@ -1,8 +1,9 @@
-# diptych: table of the accuracy of a result: solver, balances, mapping, mesh and step
+# diptych: tables of accuracy (solver, balances, mapping, mesh, step), cost, provenance and parameters of the law
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
-from ..data.files import number as parsed, scene_value
-from ..data.numbers import plain
+from . import summary
+from ..data.files import number as parsed, scene_section, scene_value
+from ..data.numbers import known, plain
 from .wording import ABSENT, EXPECTED, number, rounded, shown_unit
 
 MAPPING = {"total_relative_error": "conservative: round-off", "nodal_residual": "identity of virtual power: round-off",
@@ -41,8 +42,7 @@ def _grains(result):
 
 def _largest(result, key):
     """Largest magnitude of a number over the stages of the grains, or None."""
-    return max((abs(plain(s.panel("discrete").get(key))) for s in result.stages
-                if plain(s.panel("discrete").get(key)) is not None), default=None)
+    return max(map(abs, known(s.panel("discrete").get(key) for s in result.stages)), default=None)
 
 
 def _grain_stress_error(result, summary):
@@ -59,10 +59,9 @@ def _grain_stress_error(result, summary):
 
 
 def _mapping(result):
-    kept = [stage.record.get("mapping") or {} for stage in result.stages]
     rows = []
     for key, expected in MAPPING.items():
-        values = [plain(m.get(key)) for m in kept if plain(m.get(key)) is not None]
+        values = known(stage.panel("mapping").get(key) for stage in result.stages)
         unit = shown_unit(result.numbers, f"stages/mapping/{key}")
         rows.append([f"mapping: {result.numbers.meaning(f'stages/mapping/{key}')}, largest of the stages",
                      number(max(values), unit, 2) if values else ABSENT, expected])
@@ -88,3 +87,30 @@ def _widths(result, coarse):
     fine = result.windows[-1].bands("continuum") if result.windows else []
     rough = (coarse.get("windows") or [{}])[-1].get("bands") or []
     return [rounded(bands[0].get("width_10_90_d"), " d") if bands else "no band" for bands in (fine, rough)]
+
+
+def cost(result):
+    """Totals from comparison.json, and every phase from provenance.json."""
+    totals = [row[:2] for row in summary.table(result, "cost")["rows"]]
+    phases = [[str(phase.get("name", "")), number(phase.get("cpu_s"), " s", 3), number(phase.get("wall_s"), " s", 3),
+               number(phase.get("peak_memory_mb"), " MB", 3)] for phase in result.provenance.get("phases") or []]
+    return {"totals": {"head": ["CPU time and memory", ""], "rows": totals},
+            "phases": {"head": ["phase", "CPU time", "wall time", "peak memory"], "rows": phases}}
+
+
+def provenance(result):
+    source, rows = result.provenance, []
+    for key, label in (("program", "program"), ("version", "version"), ("git_revision", "revision"),
+                       ("command", "command"), ("scene", "scene"), ("seeds", "seed"), ("date", "run on")):
+        value = source.get(key)
+        rows.append([label, ", ".join(str(entry) for entry in value) if isinstance(value, list) else number(value)])
+    rows += [[name, str(version)] for name, version in sorted((source.get("libraries") or {}).items())]
+    rows += [["host: " + name, str(value)] for name, value in sorted((source.get("host") or {}).items())]
+    return {"head": ["", ""], "rows": rows}
+
+
+def law_parameters(result):
+    """Name, value and meaning of every key in the section continuum of the scene."""
+    rows = [[name.replace("_", " "), value, meaning]
+            for name, value, meaning in scene_section(result.scene_text, "continuum")]
+    return {"head": ["parameter", "value", "meaning [unit]; range"], "rows": rows}

@@ -13,9 +13,15 @@ OF_GRAINS = {"fabric_direction_deg": "fabric_direction_error_deg", "fabric_to_st
              "anisotropy": "anisotropy_error", "contacts": None}
 
 
+def _table(head, rows):
+    return {"head": head, "rows": rows} if rows else None
+
+
+def _meanings(result, place, keys):
+    return [result.numbers.meaning(f"{place}/{key}") for key in keys]
+
+
 def probes(result, increment):
-    grains = increment.place("discrete/probes")
-    head = ["probe", "panel"] + [result.numbers.meaning(f"{grains}/{key}") for key in (*OF_BOTH, *OF_GRAINS)]
     rows = []
     for panel, words in PANEL_NAMES.items():
         place = increment.place(f"{panel}/probes")
@@ -23,7 +29,8 @@ def probes(result, increment):
             row = [probe.get("name", ""), words] + [_cell(result, place, probe, key) for key in OF_BOTH]
             rows.append(row + ([_cell(result, place, probe, key, error) for key, error in OF_GRAINS.items()]
                                if panel == "discrete" else ["–"] * len(OF_GRAINS)))
-    return {"head": head, "rows": rows} if rows else None
+    keys = _meanings(result, increment.place("discrete/probes"), (*OF_BOTH, *OF_GRAINS))
+    return _table(["probe", "panel", *keys], rows)
 
 
 def _cell(result, place, record, key, error=None):
@@ -40,8 +47,7 @@ def differences(result, increment):
     keys = ("t_over_s", "anisotropy", "direction_deg")
     rows = [[f"{row.get('of', '')} − {row.get('and', '')}", *[_cell(result, place, row, key) for key in keys],
              typeset(row.get("verdict") or "")] for row in increment.panel("discrete").get("probe_differences") or []]
-    head = ["probes of the grains"] + [result.numbers.meaning(f"{place}/{key}") for key in (*keys, "verdict")]
-    return {"head": head, "rows": rows} if rows else None
+    return _table(["probes of the grains", *_meanings(result, place, (*keys, "verdict"))], rows)
 
 
 def grain_pressures(result, increment):
@@ -53,8 +59,7 @@ def grain_pressures(result, increment):
             percentiles = spread.get("percentiles") or {}
             rows.append([probe.get("name", "")] + [_cell(result, place, spread, key) for key in ("mean", "deviation")]
                         + [_cell(result, f"{place}/percentiles", percentiles, level) for level in PERCENTILES])
-    return {"head": ["pressure of single grains", "mean", "standard deviation"] + [f"{p} %" for p in PERCENTILES],
-            "rows": rows} if rows else None
+    return _table(["pressure of single grains", "mean", "standard deviation", *[f"{p} %" for p in PERCENTILES]], rows)
 
 
 def stress_difference(result, increment):
@@ -64,20 +69,17 @@ def stress_difference(result, increment):
     keys = ("resolution_d", "relative_l2", "sampling_alone", "direction_deg")
     rows = [[row.get("label", ""), *[_cell(result, place, row, key) for key in keys]]
             for row in increment.panel("difference").get("stress") or []]
-    return {"head": ["averaged over"] + [result.numbers.meaning(f"{place}/{key}") for key in keys],
-            "rows": rows} if rows else None
+    return _table(["averaged over", *_meanings(result, place, keys)], rows)
 
 
 def mapping(result):
     """Errors of the mapping at each stage."""
+    keys = ("total_relative_error", "nodal_residual", "couple_residual")
     rows = [[result.loading_variable.text(stage.end), str(kept.get("method", "")),
-             number(kept.get("total_relative_error"), "", 2),
-             *[number(kept.get(key), "", 2) for key in ("nodal_residual", "couple_residual")],
-             rounded(kept.get("outside_share"), "%", 2)]
-            for stage in result.stages for kept in [stage.record.get("mapping") or {}] if kept]
-    words = [result.numbers.meaning(f"stages/mapping/{key}")
-             for key in ("total_relative_error", "nodal_residual", "couple_residual", "outside_share")]
-    return {"head": [result.loading_variable.word, "method", *words], "rows": rows} if rows else None
+             *[number(kept.get(key), "", 2) for key in keys], rounded(kept.get("outside_share"), "%", 2)]
+            for stage in result.stages for kept in [stage.panel("mapping")] if kept]
+    words = _meanings(result, "stages/mapping", (*keys, "outside_share"))
+    return _table([result.loading_variable.word, "method", *words], rows)
 
 
 def dissipation(result, increment):
@@ -88,26 +90,17 @@ def dissipation(result, increment):
             place = increment.place(f"{panel}/dissipation")
             rows.append([words] + [shown(result.numbers, f"{place}/{key}", found.get(key), digits)
                                    for key, digits in zip(keys, (1, 1, 2))])
-    place = increment.place("discrete/dissipation")
-    return {"head": ["dissipation since the previous stage (grains: friction and impacts; continuum: plastic work)"]
-            + [result.numbers.meaning(f"{place}/{key}") for key in keys], "rows": rows} if rows else None
+    return _table(["dissipation since the previous stage (grains: friction and impacts; continuum: plastic work)",
+                   *_meanings(result, increment.place("discrete/dissipation"), keys)], rows)
 
 
 def chains(result, increment):
     """Major principal stress of single grains inside and outside the band."""
     found = increment.panel("discrete").get("force_chains") or {}
-    place, rows = increment.place("discrete/force_chains"), []
-    for name in ("inside", "outside"):
-        part = found.get(name) or {}
-        if part:
-            rows.append([f"{name} the band", number(part.get("grains")), rounded(part.get("mean"), ""),
-                         rounded(part.get("share_above_mean"), "%", 1)])
+    rows = [[f"{name} the band", number(part.get("grains")), rounded(part.get("mean"), ""),
+             rounded(part.get("share_above_mean"), "%", 1)]
+            for name in ("inside", "outside") for part in [found.get(name)] if part]
     if rows and found.get("largest_distance") is not None:
-        distance = rounded(found["largest_distance"], "")
-        rows.append([result.numbers.meaning(f"{place}/largest_distance"), "", distance, ""])
-    return {"head": ["major principal stress of a grain", "grains", "mean, relative", "share above the mean"],
-            "rows": rows} if rows else None
-
-
-def chains_verdict(increment):
-    return (increment.panel("discrete").get("force_chains") or {}).get("verdict") or ""
+        words = result.numbers.meaning(increment.place("discrete/force_chains/largest_distance"))
+        rows.append([words, "", rounded(found["largest_distance"], ""), ""])
+    return _table(["major principal stress of a grain", "grains", "mean, relative", "share above the mean"], rows)
