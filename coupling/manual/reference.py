@@ -66,21 +66,19 @@ class Keys:
 
 
 class Results:
-    """The columns, numbers and datasets of result files, one page per family of files."""
+    """The columns, numbers and datasets of result files, one page per family of files: the first word of the
+    heading."""
 
     def __init__(self, schema):
-        self.entries = schema["results"]
-
-    @staticmethod
-    def family(one):
-        """The first word of the heading."""
-        return re.match(r"[a-z]+", one["file"])[0]
+        self.families = {}
+        for heading, entries in grouped(schema["results"], "file"):
+            self.families.setdefault(re.match(r"[a-z]+", heading)[0], []).extend(entries)
 
     def pages(self):
-        for family in dict.fromkeys(map(self.family, self.entries)):
+        for family, found in self.families.items():
             lines = [f"# Results: {family}", "", "`diptych explain results` prints the same list. Stress and strain "
                      "are positive in compression.", ""]
-            for heading, entries in grouped([one for one in self.entries if self.family(one) == family], "file"):
+            for heading, entries in grouped(found, "file"):
                 lines += ["## " + heading, ""]
                 for one in entries:
                     facts = (unit_of(one), one["shape"])
@@ -88,9 +86,10 @@ class Results:
             yield f"reference/results_{family}.md", f"Results: {family}", "\n".join(lines)
 
     def index(self):
-        for one in self.entries:
-            page = f"reference/results_{self.family(one)}.html#{anchor(one['file'], one['entry'])}"
-            yield one["entry"], f"{one['file']}, {one['shape']}", page, one["meaning"]
+        for family, found in self.families.items():
+            for one in found:
+                page = f"reference/results_{family}.html#{anchor(one['file'], one['entry'])}"
+                yield one["entry"], f"{one['file']}, {one['shape']}", page, one["meaning"]
 
 
 def options(text):

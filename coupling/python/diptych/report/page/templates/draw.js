@@ -34,6 +34,14 @@ function numeral(value, digits) {
   return value.toFixed(digits).replace(/^-(0(\.0*)?)$/, "$1").replace("-", "\u2212");
 }
 
+function pen(c, colour, thick) {
+  Object.assign(c, { strokeStyle: colour, fillStyle: colour, lineWidth: thick });
+}
+
+function letters(c, align, baseline) {
+  Object.assign(c, { font: FONT, textAlign: align, textBaseline: baseline });
+}
+
 // The white canvas of a given size, to draw in CSS pixels.
 function cleared(canvas, width, height, pixels) {
   const c = canvas.getContext("2d");
@@ -64,22 +72,18 @@ function clipToAxes(view) {
 function drawAxes(view) {
   const c = view.c, [x0, x1, y0, y1] = data.box;
   c.restore();
-  c.strokeStyle = c.fillStyle = INK;
-  c.lineWidth = 0.8;
-  c.font = FONT;
+  pen(c, INK, 0.8);
   c.strokeRect(view.left, view.top, view.right - view.left, view.bottom - view.top);
   const across = ticks(x0, x1, Math.max(2, Math.min(7, (view.right - view.left) / 45)));
   const up = ticks(y0, y1, Math.max(2, Math.min(8, (view.bottom - view.top) / 45)));
   c.beginPath();
-  c.textAlign = "center";
-  c.textBaseline = "top";
+  letters(c, "center", "top");
   for (const x of across.at) {
     c.moveTo(view.x(x), view.bottom), c.lineTo(view.x(x), view.bottom + 3);
     c.fillText(numeral(x, across.digits), view.x(x), view.bottom + 5);
   }
   c.fillText("x / d", (view.left + view.right) / 2, view.bottom + 19);
-  c.textAlign = "right";
-  c.textBaseline = "middle";
+  letters(c, "right", "middle");
   for (const y of up.at) {
     c.moveTo(view.left, view.y(y)), c.lineTo(view.left - 3, view.y(y));
     c.fillText(numeral(y, up.digits), view.left - 5, view.y(y));
@@ -123,8 +127,7 @@ function drawCells(view, id, numbers, map, limits) {
 }
 
 function drawOutline(view, increment) {
-  view.c.strokeStyle = INK;
-  view.c.lineWidth = 0.7;
+  pen(view.c, INK, 0.7);
   for (const side of increment.outline) {
     path(view, side);
     view.c.stroke();
@@ -145,8 +148,7 @@ function drawBands(view, increment, panel, onColour) {
       const x = increment.centre[0] - Math.sin(a) * along, y = increment.centre[1] + Math.cos(a) * along;
       c.setLineDash(shift === 0 ? [] : [6, 4]);
       for (const [colour, thick] of onColour ? [["#000000", 3], ["#ffffff", 1.5]] : [[INK, 1]]) {
-        c.strokeStyle = colour;
-        c.lineWidth = thick;
+        pen(c, colour, thick);
         path(view, [-far, far].map((reach) => [x + reach * Math.cos(a), y + reach * Math.sin(a)]));
         c.stroke();
       }
@@ -156,8 +158,7 @@ function drawBands(view, increment, panel, onColour) {
   c.globalAlpha = 1;
 }
 
-// One colour bar for a pair of maps. An arrow at an end marks values beyond it.
-/* Lines of a text no wider than width, in FONT, broken at spaces. */
+// Lines of a text no wider than width, in FONT, broken at spaces.
 function wrapped(canvas, text, width) {
   const c = canvas.getContext("2d"), lines = [];
   c.setTransform(1, 0, 0, 1, 0, 0);
@@ -170,6 +171,7 @@ function wrapped(canvas, text, width) {
   return lines;
 }
 
+// One colour bar for a pair of maps. An arrow at an end marks values beyond it.
 function drawBar(canvas, width, pixels, quantity, limits, beyond) {
   const lines = wrapped(canvas, quantity.label, width);
   const inset = Math.max(24, 0.12 * width), c = cleared(canvas, width, 32 + 14 * lines.length, pixels);
@@ -188,11 +190,8 @@ function drawBar(canvas, width, pixels, quantity, limits, beyond) {
     c.fill();
   });
   const marks = ticks(limits[0], limits[1], Math.max(3, Math.min(7, long / 55)));
-  c.fillStyle = c.strokeStyle = INK;
-  c.font = FONT;
-  c.textAlign = "center";
-  c.textBaseline = "top";
-  c.lineWidth = 0.8;
+  pen(c, INK, 0.8);
+  letters(c, "center", "top");
   for (const mark of marks.at) {
     const x = inset + long * (mark - limits[0]) / (limits[1] - limits[0]);
     c.fillRect(x - 0.4, 12, 0.8, 3);

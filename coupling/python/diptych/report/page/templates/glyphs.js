@@ -5,14 +5,11 @@ const ARROW = 4;  // d, drawn length of the increment of the upper platen
 // A legend in the lower right corner: a line and its meaning.
 function drawKey(view, length, thick, colour, words) {
   const c = view.c, x = view.right - 8, y = view.bottom - 11;
-  c.font = FONT;
-  c.textAlign = "right";
-  c.textBaseline = "middle";
+  letters(c, "right", "middle");
   const wide = c.measureText(words).width + length + 14;
   c.fillStyle = "rgba(255, 255, 255, 0.9)";
   c.fillRect(x - wide + 4, y - 9, wide, 18);
-  c.strokeStyle = colour;
-  c.lineWidth = thick;
+  pen(c, colour, thick);
   c.beginPath();
   c.moveTo(x - length, y), c.lineTo(x, y);
   c.stroke();
@@ -39,8 +36,7 @@ function drawArrows(view, increment, panel, which) {
   const stored = (increment.arrows[panel] || {})[which];
   if (!stored) return 0;
   const [x, y, u, v] = [stored.x, stored.y, stored.u, stored.v].map(values), c = view.c;
-  c.strokeStyle = c.fillStyle = data.colours[panel];
-  c.lineWidth = 0.9;
+  pen(c, data.colours[panel], 0.9);
   for (let k = 0; k < x.length; ++k) arrow(view, x[k], y[k], u[k], v[k]);
   drawBands(view, increment, panel, false);
   drawKey(view, view.scale * ARROW, 1.5, data.colours[panel], "upper platen");
@@ -61,8 +57,7 @@ function drawCrosses(view, increment, panel) {
   if (!stored) return 0;
   const [x, y, s1, s2, a] = [stored.x, stored.y, stored.s1, stored.s2, stored.a].map(values);
   const c = view.c, unit = data.cross_unit;
-  c.strokeStyle = data.colours[panel];
-  c.lineWidth = 0.8;
+  pen(c, data.colours[panel], 0.8);
   c.beginPath();
   for (let k = 0; k < x.length; ++k) cross(view, x[k], y[k], a[k], [unit * s1[k], unit * Math.max(0, s2[k])]);
   c.stroke();
@@ -117,14 +112,12 @@ function drawProbes(view, increment, panel) {
   c.textAlign = "center";
   for (const probe of rectangles) {
     const [x, y] = [0, 1].map((n) => probe.polygon.reduce((sum, q) => sum + q[n], 0) / probe.polygon.length);
-    c.strokeStyle = INK;
-    c.lineWidth = 1;
+    pen(c, INK, 1);
     path(view, probe.polygon);
     c.closePath();
     c.stroke();
     if (probe.s1 !== null && probe.direction_deg !== null) {
-      c.strokeStyle = data.colours[panel];
-      c.lineWidth = 2.2;
+      pen(c, data.colours[panel], 2.2);
       c.beginPath();
       cross(view, x, y, probe.direction_deg * Math.PI / 180, [unit * probe.s1, unit * Math.max(0, probe.s2 || 0)]);
       c.stroke();
@@ -133,8 +126,7 @@ function drawProbes(view, increment, panel) {
   }
   if (circle) {
     c.setLineDash([3, 2]);
-    c.strokeStyle = INK;
-    c.lineWidth = 1;
+    pen(c, INK, 1);
     c.beginPath();
     c.arc(view.x(circle[0]), view.y(circle[1]), view.scale * circle[2], 0, 2 * Math.PI);
     c.stroke();
@@ -151,13 +143,12 @@ function nameProbe(view, probe) {
   const words = probe.name + (probe.t_over_s === null ? "" : ": t/s " + probe.t_over_s.toFixed(3));
   const half = c.measureText(words).width / 2;
   const x = level ? view.x(probe.polygon.reduce((s, q) => s + q[0], 0) / probe.polygon.length) : view.x(low[0]);
-  c.fillStyle = INK;
   c.textBaseline = level ? "bottom" : "top";
   const y = level ? view.y(Math.max(...ys)) - 2 : view.y(low[1]) + 3;
   const at = Math.max(view.left + half + 2, Math.min(view.right - half - 2, x));
-  c.strokeStyle = "#ffffff";
-  c.lineWidth = 3;
+  pen(c, "#ffffff", 3);
   c.lineJoin = "round";
   c.strokeText(words, at, y);
+  c.fillStyle = INK;
   c.fillText(words, at, y);
 }

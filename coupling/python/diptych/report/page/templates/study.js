@@ -28,10 +28,8 @@ function drawCurves() {
   if (!curve) return;
   const chosen = boxes.filter((b) => b.checked).map((b) => Number(b.dataset.point));
   const values = chosen.flatMap((k) => curve.rows[k].filter((v) => v !== null));
-  if (!values.length) {
-    element("text", {x: 360, y: 170, "text-anchor": "middle"}, "no curve; tick a finished point");
-    return;
-  }
+  if (!values.length)
+    return element("text", {x: 360, y: 170, "text-anchor": "middle"}, "no curve; tick a finished point");
   let low = Math.min(0, ...values), high = Math.max(0, ...values);
   const room = 0.04 * (high - low || 1), last = curve.progress[curve.progress.length - 1] || 1;
   low -= low < 0 ? room : 0, high += high > 0 ? room : 0;

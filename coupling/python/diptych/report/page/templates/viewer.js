@@ -16,9 +16,7 @@ function shown(increment, panel, quantity, place) {
 
 function bandText(increment, panel) {
   const bands = increment.bands[panel];
-  return bands.length
-    ? bands.map((band) => "band at " + numeral(band[0], 0) + " degrees").join("; ")
-    : "no band detected";
+  return bands.map((band) => "band at " + numeral(band[0], 0) + " degrees").join("; ") || "no band detected";
 }
 
 function drawQuantity(view, increment, panel, canvas) {
@@ -120,22 +118,17 @@ function fit() {
   }
 }
 
-function keyOf(part) {
-  const radio = part.querySelector(".stepper input:checked");
-  return radio ? radio.dataset.key : null;
-}
-
 function refresh(part) {
-  const key = keyOf(part);
+  const radio = part.querySelector(".stepper input:checked"), key = radio ? radio.dataset.key : null;
   all(".pane", part).forEach((pane) => pane.classList.toggle("open", pane.dataset.key === key));
   all(".pair[data-draw]", part).forEach((pair) => drawPair(pair, key));
-  const slider = part.querySelector("input[type=range]"), radio = part.querySelector(".stepper input:checked");
+  const slider = part.querySelector("input[type=range]");
   if (slider && radio) {
-    const stages = all('.stepper input[data-kind="stage"]', part);
+    const stages = all('.stepper input[data-kind="stage"]', part), { title } = increments.get(key);
     const at = stages.findIndex((stage) => stage.dataset.end === radio.dataset.end);
     if (at >= 0) slider.value = at;
-    slider.setAttribute("aria-valuetext", increments.has(key) ? increments.get(key).title : key);
-    part.querySelector(".now").textContent = increments.has(key) ? increments.get(key).title : key;
+    slider.setAttribute("aria-valuetext", title);
+    part.querySelector(".now").textContent = title;
   }
   if (hover.part === part) hideReadout();
 }
