@@ -11,12 +11,10 @@ from matplotlib.transforms import ScaledTranslation
 from . import studies as tables
 from .charts.style import CONTINUUM, DASHES, FAINT, GRAINS, INK, LINE_COLOURS, place_labels, ruled, svg
 from .page.writing import write
-from .studies import unit_of
+from .studies import PANEL_WORDS, unit_of
 from .tables.wording import number, suffix, typeset
 
 MOST_CURVES = 6  # ticked when the page opens
-PANEL_WORDS = {"discrete": "grains", "continuum": "continuum", "difference": "continuum − grains",
-               "material_point": "material point", "comparison": ""}
 PANELS = {"discrete": ("grains", GRAINS, "o", "-"), "continuum": ("continuum", CONTINUUM, "s", DASHES)}
 WIDE = 20   # a numeric axis that spans more than this factor is logarithmic
 MOST_TICKS = 8
@@ -25,19 +23,14 @@ BESIDE = 4  # points between the samples and their mean
 
 
 def draw(study, curves):
-    parts = [(family["name"], [_part(study, family, name, places) for name, places in _by_name(study).items()])
+    by_name = {}  # {name: {panel: index of the quantity}}
+    for k, quantity in enumerate(study.quantities):
+        by_name.setdefault(quantity["name"], {})[quantity["source"]] = k
+    parts = [(family["name"], [_part(study, family, name, places) for name, places in by_name.items()])
              for family in study.record["families"] if family["axes"]]
     write(study.folder, "effects.html", record=study.record, n_samples=len(study.record["seeds"]) or 1,
           changes=_changes(study), families=parts, disturbed=tables.disturbed(study), points=tables.points(study),
           n_ticked=MOST_CURVES, curves=curves, provenance=tables.provenance(study))
-
-
-def _by_name(study):
-    """{name: {panel: index of the quantity}}"""
-    found = {}
-    for k, quantity in enumerate(study.quantities):
-        found.setdefault(quantity["name"], {})[quantity["source"]] = k
-    return found
 
 
 def _part(study, family, name, places):
@@ -47,7 +40,7 @@ def _part(study, family, name, places):
     charts = [_over_parameter(study, family, panels, typeset(name) + unit)]
     if "difference" in places:
         charts.append(_over_parameter(study, family, {"difference": places["difference"]},
-                                      "continuum − grains" + unit))
+                                      PANEL_WORDS["difference"] + unit))
     return {"title": typeset(name), "charts": [chart for chart in charts if chart],
             "means": _means(study, family, places)}
 
@@ -127,12 +120,8 @@ def _lines(study, family):
         name = ", ".join(f"{axis['name']} {label}" for axis, label in zip(others, point["labels"][1:]))
         place = [p["label"] for p in family["axes"][0]["points"]].index(point["labels"][0])
         lines.setdefault(name, []).append((place, point))
-    return {name: sorted(points, key=lambda entry: _order(family, entry[0])) for name, points in lines.items()}
-
-
-def _order(family, place):
-    value = family["axes"][0]["points"][place]["value"]
-    return place if value is None else value
+    values = [k if p["value"] is None else p["value"] for k, p in enumerate(family["axes"][0]["points"])]
+    return {name: sorted(points, key=lambda entry: values[entry[0]]) for name, points in lines.items()}
 
 
 def _are_numbers(across):
@@ -162,7 +151,7 @@ def _changes(study):
     rows = []
     for row in study.record["changes"]:
         where = [": ".join(filter(None, (row["family"], row["parameter"])))] if several else []
-        panel = "continuum − grains" if row["panel"] == "difference" else row["panel"]
+        panel = PANEL_WORDS["difference"] if row["panel"] == "difference" else row["panel"]
         rows.append([typeset(row["quantity"]), panel, *where, _verdict(row), *_ends(study, row), row["samples"]])
     return {"head": head, "rows": rows}
 

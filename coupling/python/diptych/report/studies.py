@@ -11,6 +11,8 @@ from .data.files import open_arrays
 from .tables.wording import number, suffix
 
 PANELS = ("discrete", "continuum", "material_point")
+PANEL_WORDS = {"discrete": "grains", "continuum": "continuum", "difference": "continuum − grains",
+               "material_point": "material point", "comparison": ""}
 CURVES = ("stress_ratio", "volumetric_strain")
 # class: (colour, text colour, letter) in maps and tables
 CLASSES = {"right": ("#b7e1cd", "#222222", "R"), "struggled": ("#e3f0b5", "#222222", "S"),

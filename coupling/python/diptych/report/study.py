@@ -12,10 +12,9 @@ from . import effects, sensitivity
 from . import studies as tables
 from .charts.style import FAINT, INK, LINE_COLOURS, place_labels, ruled, signed, svg
 from .page.writing import write
-from .studies import CLASSES, load
+from .studies import CLASSES, PANEL_WORDS, load
 
 CURVE_NAMES = {"stress_ratio": "stress ratio t/s", "volumetric_strain": "volumetric strain"}
-PANEL_WORDS = {"discrete": "grains", "continuum": "continuum", "material_point": "material point"}
 FAMILY_MARKS = "osD^vP"
 FEW = 50  # ranges below this ratio have ticks between the decades
 LEAST_ERROR = 1e-6  # smaller differences count as zero
