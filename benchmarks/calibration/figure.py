@@ -4,7 +4,6 @@
 """Usage: figure.py DIR FIGURE.png. DIR: folder of `diptych calibrate`. Draws every path and prints all tables as
 Markdown. PYTHONPATH with diptych."""
 import json
-import os
 import sys
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg
