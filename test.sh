@@ -24,10 +24,10 @@ for word in "$@"; do
 done
 targets=(all)
 case "$preset" in
-  debug) targets=(house_tests discrete_tests continuum_tests coupling_tests coupling_panel_tests)
-         select+=(-R '^(house[.]House|discrete|continuum|coupling|coupling_panels)[.]') ;;
-  sanitize) targets=(house_tests discrete_tests coupling_tests coupling_panel_tests)
-            select+=(-R '^(house[.]House|discrete|coupling|coupling_panels)[.]') ;;
+  debug) targets=(discrete_tests continuum_tests coupling_tests coupling_panel_tests)
+         select+=(-R '^(discrete|continuum|coupling|coupling_panels)[.]') ;;
+  sanitize) targets=(discrete_tests coupling_tests coupling_panel_tests)
+            select+=(-R '^(discrete|coupling|coupling_panels)[.]') ;;
   thread) targets=(discrete_tests diptych)
           select+=(-R '^discrete[.](Solvers|StalledContacts|ManyPanels)$') ;;
   fuzz) targets=(fuzz_scene fuzz_table fuzz_problem)

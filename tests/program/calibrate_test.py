@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # diptych: calibrations: what is found, kept, resumed, taken by a scene and refused
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: calibrate_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
-
 import csv
 import json
 import os
@@ -11,7 +8,7 @@ import subprocess
 import time
 
 import browser
-from running import content, diptych, ENVIRONMENT, Folder, listing, main, PROGRAM, QUICK, read_json, start, write
+from running import content, diptych, ENVIRONMENT, Folder, listing, PROGRAM, QUICK, read_json, start, write
 
 TINY = {"sample/grains": 150, "loading/axial_strain": 0.02, "loading/stage_strain": 0.01,
         "loading/inertial_number": 1e-3, "comparison/window_edges": "0, 0.01, 0.02"}
@@ -239,7 +236,3 @@ class Refused(Calibrate):
         self.assertEqual(result.returncode, 2, result.stderr)
         for text in ("friction_angle_pek", "f.prm", "line 2"):
             self.assertIn(text, result.stderr)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # diptych: the continuum alone: loadings with closed forms, meshes, interruption, several processes
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: continuum_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
-
 import os
 import shutil
 import signal
@@ -15,8 +12,8 @@ import h5py
 import numpy
 
 import running
-from running import (content, contents, diptych, ENVIRONMENT, facts, finished, half_files, history, listing, main,
-                     PROGRAM, QUICK, read_json, setting, SMALL, start, temporary, write)
+from running import (content, contents, diptych, ENVIRONMENT, facts, finished, half_files, history, listing, PROGRAM,
+                     QUICK, read_json, setting, SMALL, start, temporary, write)
 
 WIDTH, HEIGHT = 12, 18
 RECTANGLE = setting(continuum_mesh="rectangle", continuum_rectangle_width=WIDTH, continuum_rectangle_height=HEIGHT,
@@ -286,7 +283,3 @@ class Processes(Folder):
         self.assertEqual(result.returncode, 2, result.stderr)
         self.assertIn("mpirun", result.stderr)
         self.assertFalse(os.path.exists(self.folder))
-
-
-if __name__ == "__main__":
-    main()

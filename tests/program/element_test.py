@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # diptych: grains and the law's point on one path
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: element_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
-
 import glob
 import os
 import signal
@@ -11,7 +8,7 @@ import time
 import numpy
 from scipy.integrate import trapezoid
 
-from running import SOURCE, Folder, content, diptych, finished, history, main, read_json, setting, start, write
+from running import content, diptych, finished, Folder, history, read_json, setting, SOURCE, start, write
 
 SCENE = os.path.join(SOURCE, "benchmarks", "element", "scene.prm")
 SMALL = setting(sample_grains=100, loading_axial_strain=0.01, discrete_step=0.1, discrete_tolerance=1e-3)
@@ -78,7 +75,3 @@ class Element(Folder):
         self.assertIn("to go on: diptych element", errors)
         self.assertIn("of 3 runs are finished", finished(*words, "--resume").stdout)
         self.assertEqual(read_json(self.folder, "element.json")["done"], [1, 2, 3])
-
-
-if __name__ == "__main__":
-    main()

@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # diptych: one scene on many samples: members, statistics, failures, interruption, several processes, the page
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: ensemble_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
-
 import json
 import os
 import re
@@ -14,8 +11,8 @@ import time
 
 import pandas
 
-from running import (content, diptych, ENVIRONMENT, Folder, listing, main, member_of, PROGRAM, QUICK, read_json,
-                     setting, start, write)
+from running import (content, diptych, ENVIRONMENT, Folder, listing, member_of, PROGRAM, QUICK, read_json, setting,
+                     start, write)
 
 # 150 grains and a coarse continuum: a member takes less than a second.
 TINY = setting(sample_grains=150, loading_inertial_number=1e-3, loading_axial_strain=0.01, discrete_step=0.1,
@@ -287,7 +284,3 @@ class Page(Ensemble):
         self.assertGreaterEqual(len(images), 5)  # differences, two of dots, two histories; no band, no dots
         diptych("report", self.folder)
         self.assertEqual(content(self.path("report.html")).decode(), text)
-
-
-if __name__ == "__main__":
-    main()

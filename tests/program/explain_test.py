@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # diptych: whatever stands in a file of results is explained, with the unit that the file itself tells
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: explain_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
-
 import json
 import os
 import re
@@ -10,7 +7,7 @@ import unittest
 
 import h5py
 
-from running import QUICK, SMALL, diptych, finished, history, main, member_of, read_json, setting, temporary
+from running import diptych, finished, history, member_of, QUICK, read_json, setting, SMALL, temporary
 
 TINY = SMALL + setting(sample_grains=150, continuum_element_size=2.5, comparison_coarse_element_size=3,
                        output_report="false")
@@ -116,7 +113,3 @@ class Results(unittest.TestCase):
             if heading == "discrete.h5":
                 known |= set(self.entries(name.replace("0001", "NNNN")))
             self.assertEqual(sorted(arrays - known), [], name)
-
-
-if __name__ == "__main__":
-    main()

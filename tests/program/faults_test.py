@@ -1,8 +1,6 @@
-#!/usr/bin/env python3
 # diptych: wrong input, failures of the system and signals: the message and the exit code, and nothing is lost
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: faults_test.py PROGRAM SOURCE_DIR [unittest arguments]. tests/robustness has random cases of the same
-rules."""
+"""tests/robustness has random cases of the same rules."""
 
 import json
 import os
@@ -17,8 +15,8 @@ import time
 import h5py
 
 import running
-from running import (ENVIRONMENT, PROBLEMS, PROGRAM, QUICK, SMALL, content, contents, diptych, facts, finished, listing,
-                     main, member_of, setting, start, write)
+from running import (content, contents, diptych, ENVIRONMENT, facts, finished, listing, member_of, PROBLEMS, PROGRAM,
+                     QUICK, setting, SMALL, start, write)
 
 FEW = SMALL + setting(sample_grains=60, output_report="false")
 BOTH = FEW + setting(continuum_element_size=2.5, continuum_initial_step=0.0025, continuum_max_step=0.0025,
@@ -34,22 +32,6 @@ class Folder(running.Folder):
         cls.addClassCleanup(cls.keep.cleanup)
         cls.whole = os.path.join(cls.keep.name, "whole")
         finished("run", QUICK, *BOTH, "--output", cls.whole, "--quiet")
-
-    def expect(self, code, words, *texts, **options):
-        """Ends with that code and a message with those texts. With code 2 every file keeps its bytes."""
-        before = contents(self.work)
-        result = diptych(*words, cwd=self.work, **options)
-        self.expect_message(result, code, *texts)
-        if code == 2:
-            self.assertEqual(contents(self.work), before)
-        return result
-
-    def expect_message(self, result, code, *texts):
-        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
-        for text in texts:
-            self.assertIn(text, result.stderr)
-        self.assertNotIn("Traceback", result.stderr)
-        self.assertEqual([name for name in listing(self.work) if name.endswith((".part", ".lock"))], [])
 
     def discrete(self, *words):
         return ["discrete", QUICK, *FEW, *words, "--output", self.folder, "--quiet"]
@@ -317,7 +299,3 @@ class Machine(Folder):
                                         text=True, check=False)
             self.assertEqual(result.returncode, 4, words)
             self.assertIn("standard output cannot be written", result.stderr)
-
-
-if __name__ == "__main__":
-    main()

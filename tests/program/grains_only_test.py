@@ -1,11 +1,8 @@
-#!/usr/bin/env python3
 # diptych: campaigns in a build without the continuum
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: grains_only_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
-
 import os
 
-from running import QUICK, SMALL, SOURCE, Folder, diptych, finished, listing, main, read_json
+from running import diptych, finished, Folder, listing, QUICK, read_json, SMALL, SOURCE
 
 CELL = os.path.join(SOURCE, "benchmarks", "element", "scene.prm")
 
@@ -32,7 +29,3 @@ class GrainsOnly(Folder):
                 self.assertIn("this program was built without the continuum", result.stderr)
                 self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
                 self.assertFalse(os.path.exists(self.folder))
-
-
-if __name__ == "__main__":
-    main()

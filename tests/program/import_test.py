@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # diptych: another code's files from the command line to the report
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: import_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
-
 import glob
 import json
 import os
@@ -13,7 +10,7 @@ import unittest
 import h5py
 import numpy
 
-from running import QUICK, SMALL, SOURCE, bits, content, diptych, history, listing, main, member_of, setting, write
+from running import bits, content, diptych, history, listing, member_of, QUICK, setting, SMALL, SOURCE, write
 
 FOREIGN = os.path.join(SOURCE, "tests", "foreign")
 COARSE = ["--set", "continuum/element_size=3", "--set", "comparison/coarse_element_size=0", "--set",
@@ -225,7 +222,3 @@ class Export(Case):
         self.refused("export", self.path("both"), "--format", "lammps", "--output", self.path("start"), says="exists")
         self.refused("export", self.path("both"), "--format", "csv", "--stage", "9", "--output", self.path("x"),
                      says="0 to 3")
-
-
-if __name__ == "__main__":
-    main()

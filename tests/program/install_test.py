@@ -1,7 +1,6 @@
-#!/usr/bin/env python3
 # diptych: the Debian package runs without the tree that it was built from
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: install_test.py PROGRAM SOURCE_DIR [unittest arguments]; PROGRAM in its build folder."""
+"""PROGRAM in its build folder."""
 
 import gzip
 import os
@@ -11,7 +10,7 @@ import subprocess
 import sys
 import unittest
 
-from running import ENVIRONMENT, PROGRAM, SMALL, SOURCE, content, main, member_of, setting, temporary
+from running import content, ENVIRONMENT, member_of, PROGRAM, setting, SMALL, SOURCE, temporary
 
 BUILD = os.path.dirname(PROGRAM)
 
@@ -142,7 +141,3 @@ class Package(unittest.TestCase):
         done = self.run_program("new")
         self.assertEqual(done.returncode, 4, done.stderr)
         self.assertIn("installation is broken", done.stderr)
-
-
-if __name__ == "__main__":
-    main()

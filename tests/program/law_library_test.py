@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # diptych: laws of the user from shared libraries
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: law_library_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
-
 import os
 import re
 import signal
@@ -11,7 +8,7 @@ import subprocess
 import h5py
 import numpy
 
-from running import (bits, content, diptych, ENVIRONMENT, finished, Folder, history, main, PROGRAM, read_json, setting,
+from running import (bits, content, diptych, ENVIRONMENT, finished, Folder, history, PROGRAM, read_json, setting,
                      SOURCE, temporary, write)
 
 HEADER, EXAMPLES = os.path.join(SOURCE, "continuum", "laws"), os.path.join(SOURCE, "benchmarks", "own_law")
@@ -153,7 +150,3 @@ class Libraries(Folder):
             for word in words:
                 self.assertIn(word, result.stderr)
             self.assertFalse(os.path.exists(self.folder))
-
-
-if __name__ == "__main__":
-    main()

@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # diptych: tests of the manual: content, links, and width on a screen and a phone
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: manual_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
-
 import html
 import html.parser
 import json
@@ -16,7 +13,7 @@ import unittest
 import urllib.parse
 
 import browser
-from running import PROGRAM, QUICK, SMALL, SOURCE, content, diptych, main, setting
+from running import content, diptych, PROGRAM, QUICK, setting, SMALL, SOURCE
 
 MANUAL = os.path.join(SOURCE, "coupling", "manual")
 sys.path.insert(0, MANUAL)
@@ -216,7 +213,3 @@ class Look(Built):
                         "f.dispatchEvent(new Event('input')); })()")
         self.assertIn("reference/keys_continuum.html#continuum-internal_length", self.window.run(links))
         self.assertEqual(self.window.messages, [])
-
-
-if __name__ == "__main__":
-    main()

@@ -1,12 +1,9 @@
-#!/usr/bin/env python3
 # diptych: one point of the continuum along a loading
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: material_point_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
-
 import math
 import os
 
-from running import QUICK, Folder, diptych, finished, history, listing, main, setting, write
+from running import diptych, finished, Folder, history, listing, QUICK, setting, write
 
 
 class MaterialPoint(Folder):
@@ -66,7 +63,3 @@ class MaterialPoint(Folder):
         self.assertEqual(result.returncode, 2)
         self.assertIn("nearest is 'constant_volume'", result.stderr)
         self.assertFalse(os.path.exists(self.folder))
-
-
-if __name__ == "__main__":
-    main()

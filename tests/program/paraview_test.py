@@ -1,7 +1,6 @@
-#!/usr/bin/python3
 # diptych: the files for ParaView and OVITO, read back by readers that are not ours
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""python3 tests/program/paraview_test.py PROGRAM SOURCE_DIR; the readers are meshio and VTK, which test.sh installs."""
+"""The readers are meshio and VTK, which test.sh installs."""
 
 import os
 import unittest
@@ -16,7 +15,7 @@ from vtkmodules.vtkFiltersCore import vtkTubeFilter
 from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
-from running import QUICK, SMALL, finished, main, setting, temporary
+from running import finished, QUICK, setting, SMALL, temporary
 
 SERIES = ("discrete", "discrete_contacts", "continuum", "fields")
 DIGITS = dict(rtol=1e-6, atol=1e-6)  # single precision; coordinates and stresses are of the order 1 to 20
@@ -159,7 +158,3 @@ class Files(unittest.TestCase):
             self.assertGreater(len(movie.convert("RGB").getcolors(10 ** 6)), 50, "both panels are coloured")
         finished("compare", self.folder, "--quiet")
         self.assertFalse(os.path.exists(self.path("movie.gif")), "it would show the earlier comparison")
-
-
-if __name__ == "__main__":
-    main()

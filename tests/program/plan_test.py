@@ -1,14 +1,11 @@
-#!/usr/bin/env python3
 # diptych: plans: what is found, kept, resumed, carried out and refused
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: plan_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
-
 import json
 import os
 import signal
 import time
 
-from running import content, diptych, Folder, history, listing, main, QUICK, read_json, SMALL, SOURCE, setting, start
+from running import content, diptych, Folder, history, listing, QUICK, read_json, setting, SMALL, SOURCE, start
 
 GRAINS = os.path.join(SOURCE, "benchmarks", "dense_biaxial", "scene.prm")
 OBLIQUE = os.path.join(SOURCE, "benchmarks", "cosserat_band", "oblique.prm")
@@ -149,7 +146,3 @@ class Refused(Plan):
         self.assertFalse(panel["reaches"])
         self.assertEqual(len(panel["quantities"]), 2)  # the budget of what comes next
         self.assertIn("planned.prm", listing(self.folder))
-
-
-if __name__ == "__main__":
-    main()

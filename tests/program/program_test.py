@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # diptych: the program as a user meets it: end to end, wrong input, interruption
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: program_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
-
 import csv
 import os
 import re
@@ -13,8 +10,7 @@ import unittest
 import numpy
 
 import browser
-from running import (PROGRAM, QUICK, SOURCE, diptych, finished, half_files, history, main, read_json, setting,
-                     temporary, write)
+from running import diptych, finished, half_files, history, PROGRAM, QUICK, read_json, setting, SOURCE, temporary, write
 
 
 def number(value):
@@ -247,7 +243,3 @@ class CommandLine(unittest.TestCase):
                                    "echo ${COMPREPLY[@]}"], capture_output=True, text=True, check=True).stdout.split()
             self.assertIn(offered, told, words)
             self.assertLess(len(told), 20, words)
-
-
-if __name__ == "__main__":
-    main()

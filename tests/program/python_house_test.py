@@ -1,19 +1,18 @@
-#!/usr/bin/env python3
 # diptych: the Python sources: length of lines and functions, arguments, order of rooms, records by name
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: python_house_test.py SOURCE_DIR [unittest arguments]. The numbers are those that CONTRIBUTING.md states."""
+"""The numbers are those that CONTRIBUTING.md states."""
 
 import ast
 import glob
 import os
 import re
-import sys
 import tempfile
 import unittest
 
-SOURCE = os.path.abspath(sys.argv.pop(1))
+from house_test import allowed, FOLDERS
+from running import content, SOURCE, write
+
 PACKAGE = os.path.join(SOURCE, "coupling", "python", "diptych")
-FOLDERS = ("discrete", "continuum", "coupling", "tests", "benchmarks")
 
 # The rooms of the package from the ground up: a folder or a module. A room imports itself and those before it.
 ROOMS = ("errors", "words", "files", "entries", "compiled", "scenes", "plotting", "arrays", "operators", "laws",
@@ -23,19 +22,8 @@ ROOMS = ("errors", "words", "files", "entries", "compiled", "scenes", "plotting"
          "campaigns/element", "campaigns", "")
 
 
-def text_of(path):
-    with open(path, encoding="utf-8") as file:
-        return file.read()
-
-
 def sources(root=SOURCE, folders=FOLDERS):
     return sorted(path for top in folders for path in glob.glob(os.path.join(root, top, "**", "*.py"), recursive=True))
-
-
-def allowed(pattern):
-    """The numbers that CONTRIBUTING.md states."""
-    text = " ".join(text_of(os.path.join(SOURCE, "CONTRIBUTING.md")).split())
-    return [int(number) for number in re.search(pattern, text).groups()]
 
 
 def functions(text):
@@ -55,7 +43,7 @@ def room_of(module):
 def imports(root, path):
     """The modules of the package that a module imports outside of type checks, as paths below the package."""
     here = [part for part in os.path.relpath(os.path.dirname(path), root).split(os.sep) if part != "."]
-    tree = ast.parse(text_of(path))
+    tree = ast.parse(content(path).decode())
     typing_only = {child for node in ast.walk(tree) if isinstance(node, ast.If)
                    and "TYPE_CHECKING" in ast.dump(node.test)
                    for child in ast.walk(node)}
@@ -96,7 +84,7 @@ class PythonHouse(unittest.TestCase):
     def judge(self, finds, paths, broken):
         """finds(text): violations. There are none in the paths, and one in the text `broken`."""
         self.assertGreater(len(paths), 100)
-        found = {os.path.relpath(path, SOURCE): list(finds(text_of(path))) for path in paths}
+        found = {os.path.relpath(path, SOURCE): list(finds(content(path).decode())) for path in paths}
         self.assertEqual({path: names for path, names in found.items() if names}, {})
         self.assertEqual(len(list(finds(broken))), 1)
 
@@ -120,10 +108,5 @@ class PythonHouse(unittest.TestCase):
         self.assertEqual(wrong_arrows(PACKAGE), [])
         with tempfile.TemporaryDirectory() as root:  # it can fail
             for name, text in (("low.py", "from .high import b\n"), ("high.py", "from . import low\n")):
-                with open(os.path.join(root, name), "w", encoding="utf-8") as file:
-                    file.write(text)
+                write(os.path.join(root, name), text)
             self.assertEqual(wrong_arrows(root, ("low", "high")), ["low.py imports high.py"])
-
-
-if __name__ == "__main__":
-    unittest.main()

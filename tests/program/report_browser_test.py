@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # diptych: tests of the report of a tiny result folder in headless Chromium
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """test.sh installs Chromium. Without it these tests are skipped."""
@@ -163,7 +162,3 @@ class Browser(unittest.TestCase):
         self.assertEqual(self.page.run("document.querySelectorAll('#sheet canvas').length"), 0)
         self.assertTrue(self.page.pdf().startswith(b"%PDF"))
         self.assertEqual(self.page.messages, [])
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,8 +1,5 @@
-#!/usr/bin/python3
 # diptych: tests of the report of a tiny result folder
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Run with the package on the path: PYTHONPATH=build/release/python /usr/bin/python3 tests/program/report_test.py"""
-
 import base64
 import glob
 import json
@@ -320,7 +317,3 @@ class Formulas(unittest.TestCase):
                     module = module if above else f"{folder}.{module}"
                     for one in [module] if "." in module else [f"{module}.{name}" for name in names.split(", ")]:
                         self.assertTrue(any(one == t or one.startswith(t + ".") for t in targets), f"{path}: {one}")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # diptych: result folders: refused, gone on from, overwritten, and never emptied of what others put there
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: result_folders_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
-
 import json
 import os
 import shutil
@@ -10,7 +7,7 @@ import time
 
 import faults_test
 from faults_test import BOTH
-from running import QUICK, SOURCE, content, diptych, history, listing, main, member_of, setting, start, write
+from running import content, diptych, history, listing, member_of, QUICK, setting, SOURCE, start, write
 
 OTHER = setting(continuum_friction_angle_peak=30)
 STUDY = {
@@ -209,7 +206,3 @@ class GoneOn(Folders):
         self.expect(0, [*words, "--resume"])  # repeated, and the other scene is kept
         self.assertIn(b"set friction = 0.9\n", content(os.path.join(member + ".1", "scene.prm")))
         self.assertEqual(content(os.path.join(self.folder, "ensemble.csv")), table)
-
-
-if __name__ == "__main__":
-    main()

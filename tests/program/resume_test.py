@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # diptych: interrupted runs of the grains go on with the same bits
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: resume_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
-
 import os
 import random
 import signal
@@ -10,8 +7,8 @@ import time
 
 import h5py
 
-from running import (bits, content, contents, diptych, finished, Folder, half_files, listing, LONG, main, QUICK,
-                     setting, SMALL, start, temporary)
+from running import (bits, content, contents, diptych, finished, Folder, half_files, listing, LONG, QUICK, setting,
+                     SMALL, start, temporary)
 
 
 class Resume(Folder):
@@ -126,7 +123,3 @@ class Resume(Folder):
         self.assertNotIn("--resume", errors)
         self.assertNotIn("checkpoint.h5", listing(self.folder))
         self.assertEqual(half_files(self.folder), [])
-
-
-if __name__ == "__main__":
-    main()

@@ -1,15 +1,14 @@
 # diptych: grains against stored runs of LAMMPS, and against their own limits of step and tolerance
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""rigid_limit_test.py PROGRAM SOURCE CLASS. Samples, stored curves and how a run is read: benchmarks/rigid_limit. All
-runs have the same bits on every machine: bounds allow for changes of the code, not for chance. Differences are sample
-by sample."""
+"""Samples, stored curves and how a run is read: benchmarks/rigid_limit. All runs have the same bits on every machine:
+bounds allow for changes of the code, not for chance. Differences are sample by sample."""
 import argparse
 import os
 import sys
 
 import numpy as np
 
-from running import PROGRAM, SOURCE, Folder, main
+from running import Folder, PROGRAM, SOURCE
 
 sys.path.insert(0, os.path.join(SOURCE, "benchmarks", "rigid_limit"))
 import rigid_limit  # noqa: E402
@@ -70,7 +69,3 @@ class StepAndTolerance(Folder):
         loose = nscd(self.work, inertial, self.seeds, step, f"discrete/tolerance={0.3 * inertial / 0.1:g}")
         lost, _ = relative(loose, right, DILATION)
         self.assertLess(lost, -0.05, "what lies outside the rule loses dilation: else the rule is too strict")
-
-
-if __name__ == "__main__":
-    main()

@@ -1,19 +1,20 @@
 # diptych: the program run by tests, and what it leaves
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""For tests called as NAME_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
+"""In this folder: DIPTYCH_PROGRAM=PROGRAM PYTHONPATH=BUILD/python python3 -B -m unittest NAME_test[.CLASS[.TEST]]"""
 
 import ctypes
 import json
 import os
 import subprocess
-import sys
 import tempfile
+import time
 import unittest
 
 import h5py
 import numpy
 
-PROGRAM, SOURCE = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
+SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+PROGRAM = os.path.abspath(os.environ["DIPTYCH_PROGRAM"])
 QUICK = os.path.join(SOURCE, "benchmarks", "moreau_quick", "scene.prm")
 PROBLEMS = os.path.join(SOURCE, "tests", "discrete", "contact_problems")
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
@@ -57,8 +58,8 @@ def write(path, text):
     return path
 
 
-def content(path):
-    with open(path, "rb") as file:
+def content(*names):
+    with open(os.path.join(*names), "rb") as file:
         return file.read()
 
 
@@ -105,6 +106,49 @@ class Folder(unittest.TestCase):
     def path(self, *names):
         return os.path.join(self.folder, *names)
 
+    def expect(self, code, words, *texts, **options):
+        """Ends with that code and a message with those texts. With code 2 everything stays as it was."""
+        before = os.path.exists(self.folder), contents(self.work)
+        result = diptych(*words, **{"cwd": self.work, **options})
+        self.expect_message(result, code, *texts)
+        if code == 2:
+            self.assertEqual((os.path.exists(self.folder), contents(self.work)), before)
+        return result
+
+    def expect_message(self, result, code, *texts):
+        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
+        for text in texts:
+            self.assertIn(text, result.stderr)
+        self.assertNotIn("Traceback", result.stderr)
+        self.assertEqual([name for name in listing(self.work) if name.endswith((".part", ".lock"))], [])
+
+    def started_until(self, is_reached, *words, **options):
+        """A program that still runs when something is reached."""
+        process = start(*words, **options)
+        while process.poll() is None and not is_reached():
+            time.sleep(0.002)
+        self.assertIsNone(process.poll(), "it ended before that")
+        return process
+
+    def signalled(self, number, is_reached, *words, **options):
+        """(exit code, message) of a program that gets a signal when something is reached."""
+        process = self.started_until(is_reached, *words, **options)
+        process.send_signal(number)
+        _, errors = process.communicate()
+        return process.returncode, errors
+
+    def expect_stopped(self, number, is_reached, *words):
+        """A run that a signal ends tells how it goes on."""
+        code, errors = self.signalled(number, is_reached, *words)
+        self.assertEqual(code, 3, errors)
+        for text in ("stopped on request", "--resume", self.folder):
+            self.assertIn(text, errors)
+        return errors
+
+    def expect_same_files(self, other, *names):
+        for name in names:
+            self.assertEqual(content(self.path(name)), content(other, name), name)
+
 
 def history(folder, name="discrete.csv"):
     """Columns of a table: numbers, or texts."""
@@ -138,7 +182,3 @@ def bits(path):
     with h5py.File(path, "r") as file:
         file.visititems(add)
     return found
-
-
-def main():
-    unittest.main(module="__main__", argv=[sys.argv[0], *sys.argv[3:]])

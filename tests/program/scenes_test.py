@@ -1,15 +1,12 @@
-#!/usr/bin/env python3
 # diptych: scenes of the grains alone and the physics in their histories
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: scenes_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
-
 import math
 import os
 
 import h5py
 import numpy
 
-from running import facts, finished, Folder, half_files, history, LOOSE, main, QUICK, setting, SMALL, temporary, write
+from running import facts, finished, Folder, half_files, history, LOOSE, QUICK, setting, SMALL, temporary, write
 
 
 class Scenes(Folder):
@@ -117,7 +114,3 @@ class Scenes(Folder):
             self.assertEqual(self.stage(first, -1, name).tobytes(), self.stage(second, 0, name).tobytes(), name)
         self.assertEqual(self.stage(first, -1, "upper_y"), self.stage(second, 0, "upper_y"))
         self.assertGreater(rows["stress_ratio"][:20].mean(), 0.2)  # it is sheared already
-
-
-if __name__ == "__main__":
-    main()

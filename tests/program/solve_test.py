@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # diptych: stored contact problems
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: solve_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
-
 import os
 import shutil
 
@@ -10,7 +7,7 @@ import h5py
 import numpy
 import scipy.sparse
 
-from running import bits, diptych, Folder, listing, main, PROBLEMS, write
+from running import bits, diptych, Folder, listing, PROBLEMS, write
 
 
 def solve(problem, *words):
@@ -91,7 +88,3 @@ class Solve(Folder):
             result, _ = solve("small.h5", *words)
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn(words[1], result.stderr)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # diptych: studies that are stopped, killed, changed and gone on with end as one that is left alone
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: study_interruption_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
-
 import json
 import os
 import shutil
@@ -11,7 +8,7 @@ import tempfile
 import time
 
 import study_test
-from running import bits, content, diptych, listing, main, read_json, start, write
+from running import bits, content, diptych, listing, read_json, start, write
 from study_test import LONG
 
 
@@ -97,7 +94,3 @@ class Interruption(study_test.Study):
                 write(self.path(name), "no checkpoint")
         self.assertIn("begin anew", self.run_study(LONG, "--resume").stderr)
         self.expect_the_rest()
-
-
-if __name__ == "__main__":
-    main()

@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 # diptych: studies: points, errors and classes; workers, processes, growth; what is refused; the page
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: study_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
-
 import json
 import os
 import re
@@ -16,7 +13,7 @@ import unittest
 import pandas
 
 import browser
-from running import bits, content, diptych, Folder, listing, main, read_json, SOURCE, start, write
+from running import bits, content, diptych, Folder, listing, read_json, SOURCE, start, write
 
 # 150 grains between smooth rigid walls: a run takes a fifth of a second.
 STUDY = {
@@ -322,7 +319,3 @@ class Comparisons(Study):
         self.assertEqual([q["verdict"] for q in point["quantities"]], ["beyond", "within"])
         self.assertEqual(point["class"], "silently wrong")
         self.assertNotIn("report.html", [os.path.basename(name) for name in listing(self.path("runs"))])
-
-
-if __name__ == "__main__":
-    main()

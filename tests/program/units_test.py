@@ -1,11 +1,8 @@
-#!/usr/bin/env python3
 # diptych: files beside a scene are found from anywhere, and results do not depend on the units
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: units_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
-
 import os
 
-from running import QUICK, SMALL, diptych, finished, Folder, history, main, setting, temporary, write
+from running import diptych, finished, Folder, history, QUICK, setting, SMALL, temporary, write
 
 FEW = SMALL + setting(sample_grains=150, output_report="false")
 
@@ -84,6 +81,3 @@ class Units(Folder):
                                 continuum_rectangle_height=60 * units[0])
             runs.append(self.columns("continuum", scene, words + rectangle, units))
         self.expect_same(*runs, 1e-6)
-
-if __name__ == "__main__":
-    main()

@@ -1,12 +1,9 @@
-#!/usr/bin/env python3
 # diptych: every wrong key of a scene is refused by name, and nothing is written
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: wrong_keys_test.py PROGRAM SOURCE_DIR [unittest arguments]."""
-
 import os
 import re
 
-from running import contents, diptych, finished, Folder, half_files, main, QUICK, setting, SMALL, write
+from running import contents, diptych, finished, Folder, half_files, QUICK, setting, SMALL, write
 
 ROW = [f"{x},0.5,0.5" for x in range(12)]  # grains beside each other
 PERIODIC, WALLS = setting(discrete_lateral="periodic"), setting(discrete_lateral="rigid_walls")
@@ -129,7 +126,3 @@ class WrongKeys(Folder):
         result = diptych("discrete", QUICK, *SMALL, *words, "--output", self.folder, "--quiet", cwd=self.work)
         self.assertEqual(result.returncode, 2, result.stderr)
         self.assertEqual(contents(self.folder), before)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,7 +1,6 @@
-#!/usr/bin/env python3
 # diptych: a program that breaks a rule of the robustness tests is found, and no other program
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: judge_test.py PROGRAM SOURCE_DIR [unittest arguments]. Shell scripts take the place of the program."""
+"""Shell scripts take the place of the program."""
 
 import os
 import random
@@ -17,7 +16,7 @@ import damage  # noqa: E402
 import input_kinds  # noqa: E402
 import robustness  # noqa: E402
 import same  # noqa: E402
-from running import main  # noqa: E402
+from running import E402, noqa
 
 
 class Judged(unittest.TestCase):
@@ -110,7 +109,3 @@ class Harness(unittest.TestCase):
         self.assertEqual(same.differences(one, one), [])
         self.assertEqual(same.differences(one, other), ["b.h5: x"])
         self.assertEqual(same.differences(one, {"a.csv": other["a.csv"]}), ["b.h5 is missing"])
-
-
-if __name__ == "__main__":
-    main()

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # diptych: random damaged files, full disks, kills and competing runs: nothing is lost, nothing silently wrong
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Usage: robustness.py PROGRAM SOURCE_DIR [--cases N] [--seed S] [--kinds a,b] [--jobs J] [--keep DIR] [--case
+"""DIPTYCH_PROGRAM=PROGRAM robustness.py [--cases N] [--seed S] [--kinds a,b] [--jobs J] [--keep DIR] [--case
 KIND:SEED]"""
 
 import argparse
@@ -65,8 +65,6 @@ def table(counted):
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("program")
-    parser.add_argument("source")
     parser.add_argument("--cases", type=int, default=100)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--kinds", default=",".join(KINDS),
