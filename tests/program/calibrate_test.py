@@ -70,9 +70,8 @@ class Results(Calibrate):
         mesh = ["--set", "continuum/mesh=rectangle", "--set", "continuum/rectangle_width=15", "--set",
                 "continuum/rectangle_height=20", "--set", "comparison/coarse_element_size=0"]
         again = os.path.join(self.work, "again")
-        result = diptych("continuum", QUICK, *words, *mesh, "--set-file", fragment, "--set",
-                         "continuum/internal_length=2.5", "--output", again, "--quiet")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        self.expect(0, ["continuum", QUICK, *words, *mesh, "--set-file", fragment, "--set",
+                    "continuum/internal_length=2.5", "--output", again, "--quiet"])
         for text in (f"= {friction['value']!r}", "= 2.5", "= calibrated on fitted, seeds 1-2"):
             self.assertIn(text, content(os.path.join(again, "scene.prm")).decode())
         page = content(self.path("report.html")).decode()
@@ -101,9 +100,8 @@ class Results(Calibrate):
         folders = []
         for seed in (1, 2):
             folders.append(os.path.join(self.work, f"grains_{seed}"))
-            result = diptych("discrete", QUICK, *words, "--set", f"sample/seed={seed}", "--output", folders[-1],
-                             "--quiet")
-            self.assertEqual(result.returncode, 0, result.stderr)
+            self.expect(0, ["discrete", QUICK, *words, "--set", f"sample/seed={seed}", "--output", folders[-1],
+                        "--quiet"])
         self.calibrate(calibration(targets=[{"name": "read", "results": folders}], check_samples=0))
         record = self.record()
         self.assertEqual(record["paths"][0]["seeds"], [1, 2])
@@ -127,8 +125,7 @@ class Results(Calibrate):
         scene = write(os.path.join(self.work, "mine.prm"), content(QUICK).decode())
         words = [word for key, value in {**TINY, "continuum/law": "linear_elastic"}.items()
                  for word in ("--set", f"{key}={value}")]
-        result = diptych("calibrate", scene, "--seeds", "1-2", *words, "--output", self.folder, "--quiet")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        self.expect(0, ["calibrate", scene, "--seeds", "1-2", *words, "--output", self.folder, "--quiet"])
         asked = read_json(self.folder, "calibration_input.json")
         self.assertEqual([p["key"] for p in asked["parameters"]], ["youngs_modulus"])  # all that this law reads
         self.assertEqual(asked["quantities"], ["stress_ratio", "volumetric_strain"])
@@ -140,8 +137,7 @@ class Results(Calibrate):
     def test_friction_of_grains_is_fitted_to_a_curve(self):
         words = [word for key, value in TINY.items() for word in ("--set", f"{key}={value}")]
         lab = os.path.join(self.work, "lab")
-        result = diptych("discrete", QUICK, *words, "--set", "discrete/friction=0.5", "--output", lab, "--quiet")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        self.expect(0, ["discrete", QUICK, *words, "--set", "discrete/friction=0.5", "--output", lab, "--quiet"])
         friction = {"key": "discrete/friction", "start": 0.3, "low": 0.1, "high": 0.9}
         target = {"name": "test", "scene": QUICK, "set": TINY, "curve": "lab/discrete.csv", "seeds": "1-4"}
         asked = calibration(targets=[target], parameters=[friction])
@@ -226,13 +222,9 @@ class Refused(Calibrate):
                 self.assertFalse(os.path.exists(self.folder), "something was made")
         for words, text in [((QUICK,), "--seeds 1-4"), ((self.file(calibration()), "--seeds", "1-2"),
                                                         "--seeds, --set")]:
-            result = diptych("calibrate", *words, "--output", self.folder)
-            self.assertEqual(result.returncode, 2, result.stderr)
-            self.assertIn(text, result.stderr)
+            self.expect(2, ["calibrate", *words, "--output", self.folder], text)
 
     def test_a_fragment_is_checked(self):
         fragment = write(os.path.join(self.work, "f.prm"), "subsection continuum\n  set friction_angle_pek = 20\nend\n")
-        result = diptych("continuum", QUICK, "--set-file", fragment, "--output", self.folder)
-        self.assertEqual(result.returncode, 2, result.stderr)
-        for text in ("friction_angle_pek", "f.prm", "line 2"):
-            self.assertIn(text, result.stderr)
+        self.expect(2, ["continuum", QUICK, "--set-file", fragment, "--output", self.folder], "friction_angle_pek",
+                    "f.prm", "line 2")

@@ -3,12 +3,11 @@
 import glob
 import os
 import signal
-import time
 
 import numpy
 from scipy.integrate import trapezoid
 
-from running import content, diptych, finished, Folder, history, read_json, setting, SOURCE, start, write
+from running import content, finished, Folder, history, read_json, setting, SOURCE, write
 
 SCENE = os.path.join(SOURCE, "benchmarks", "element", "scene.prm")
 SMALL = setting(sample_grains=100, loading_axial_strain=0.01, discrete_step=0.1, discrete_tolerance=1e-3)
@@ -49,29 +48,18 @@ class Element(Folder):
         for text, message in (("volume,mean_stress,exy\n0,1,0\n0.1,1,0\n", "one follows from the others"),
                               ("eyy,sxx,exy\n0,2,0\n0.1,2,0\n", "not the stress of the start")):
             write(table, text)
-            result = diptych(*words)
-            self.assertEqual(result.returncode, 2, result.stderr)
-            self.assertIn(table, result.stderr)
-            self.assertIn(message, result.stderr)
-            self.assertFalse(os.path.exists(self.folder))
+            self.expect(2, words, table, message)
         write(table, "progress,syy,sxx,exy\n0,1,1,0\n0.01,9,1,0\n")  # t/s = 0.8
-        result = diptych(*words)
-        self.assertEqual(result.returncode, 3, result.stderr)
+        self.expect(3, words, "the law ended before the end of the path")
         curves, record = history(self.folder, "element.csv"), read_json(self.folder, "element.json")
         self.assertGreater(curves["law_stress_ratio"][numpy.isfinite(curves["law_stress_ratio"])].max(), 0.2)
         self.assertIn("sxx = 1, syy", record["law"]["failure"])
-        self.assertIn("the law ended before the end of the path", result.stderr)
         self.assertTrue(os.path.exists(self.path("report.html")))
 
     def test_after_a_stop_the_finished_samples_are_kept(self):
         words = ("element", SCENE, *SMALL, "--seeds", "1-3", "--jobs", "1", "--output", self.folder)
-        run = start(*words)
-        while not any(b"exit_code" in content(path) for path in glob.glob(self.path("runs",
-                                                                                    "*.json"))) and run.poll() is None:
-            time.sleep(0.02)
-        run.send_signal(signal.SIGINT)
-        _, errors = run.communicate()
-        self.assertEqual(run.returncode, 3, errors)
+        errors = self.expect_stopped(signal.SIGINT, lambda: any(
+            b"exit_code" in content(path) for path in glob.glob(self.path("runs", "*.json"))), *words)
         self.assertIn("to go on: diptych element", errors)
         self.assertIn("of 3 runs are finished", finished(*words, "--resume").stdout)
         self.assertEqual(read_json(self.folder, "element.json")["done"], [1, 2, 3])

@@ -192,10 +192,8 @@ class Results(Folder):
     def test_a_report_script_that_fails(self):
         shutil.copytree(self.whole, self.folder)
         os.mkdir(os.path.join(self.folder, "report.html.part"))  # the script cannot write its page
-        result = diptych("report", self.folder, "--quiet")
-        self.assertEqual(result.returncode, 4, result.stderr)
-        for text in ("the report could not be drawn", "kept in", "comparison.json"):
-            self.assertIn(text, result.stderr)
+        self.expect(4, ["report", self.folder, "--quiet"], "the report could not be drawn", "kept in",
+                    "comparison.json")
 
     def test_a_run_that_ends_early_tells_why(self):
         self.expect(3, self.discrete(*setting(discrete_tolerance=1e-13, discrete_max_sweeps=20)), "did not converge")

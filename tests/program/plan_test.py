@@ -3,9 +3,8 @@
 import json
 import os
 import signal
-import time
 
-from running import content, diptych, Folder, history, listing, QUICK, read_json, setting, SMALL, SOURCE, start
+from running import content, Folder, history, listing, QUICK, read_json, setting, SMALL, SOURCE
 
 GRAINS = os.path.join(SOURCE, "benchmarks", "dense_biaxial", "scene.prm")
 OBLIQUE = os.path.join(SOURCE, "benchmarks", "cosserat_band", "oblique.prm")
@@ -23,9 +22,7 @@ def without_clocks(plan):
 
 class Plan(Folder):
     def plan(self, scene, accuracy, *words, code=0):
-        result = diptych("plan", scene, "--accuracy", accuracy, "--output", self.folder, "--quiet", *words)
-        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
-        return result
+        return self.expect(code, ["plan", scene, "--accuracy", accuracy, "--output", self.folder, "--quiet", *words])
 
     def check_budget(self, panel, accuracy):
         for quantity in panel["quantities"]:
@@ -36,8 +33,8 @@ class Plan(Folder):
 
 class Panels(Plan):
     def test_grains_are_planned_and_carried_out(self):
-        result = diptych("plan", GRAINS, "--accuracy", "15", "%", *TINY, "--run", "--output", self.folder, "--quiet")
-        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        result = self.expect(0, ["plan", GRAINS, "--accuracy", "15", "%", *TINY, "--run", "--output", self.folder,
+                             "--quiet"])
         plan = read_json(self.folder, "plan.json")
         (panel,) = plan["panels"]  # the scene sets nothing of a continuum
         self.assertEqual((panel["panel"], panel["command"], panel["reaches"]), ("discrete", "discrete", True))
@@ -53,8 +50,7 @@ class Panels(Plan):
             self.assertIn(text, result.stdout)
         # The planned scene is one that runs, as planned.
         again = os.path.join(self.work, "again")
-        run = diptych("discrete", os.path.join(self.folder, "planned.prm"), "--output", again, "--quiet")
-        self.assertEqual(run.returncode, 0, run.stderr)
+        self.expect(0, ["discrete", os.path.join(self.folder, "planned.prm"), "--output", again, "--quiet"])
         accuracy = next(s for s in panel["settings"] if s.startswith("discrete/accuracy")).split(" = ")[1]
         self.assertIn(f"set accuracy = {accuracy}\n", content(os.path.join(again, "scene.prm")).decode())
 
@@ -69,8 +65,7 @@ class Panels(Plan):
                        comparison_coarse_element_size=0)
         for scene, folder, words in ((OBLIQUE, reference, COARSE + fine),
                                      (os.path.join(self.folder, "planned.prm"), self.work + "/planned", [])):
-            run = diptych("continuum", scene, "--output", folder, "--quiet", *words)
-            self.assertEqual(run.returncode, 0, run.stderr)
+            self.expect(0, ["continuum", scene, "--output", folder, "--quiet", *words])
         peaks = [max(history(folder, "continuum.csv")["stress_ratio"])
                  for folder in (reference, self.work + "/planned")]
         self.assertLess(abs(peaks[1] / peaks[0] - 1), 0.03)
@@ -98,15 +93,8 @@ class Interruption(Plan):
 
     def test_what_was_run_is_kept(self):
         words = setting(sample_grains=300, loading_axial_strain=0.02, loading_stage_strain=0.02)
-        process = start("plan", GRAINS, "--accuracy", "30%", "--output", self.folder, "--jobs", "1", *words)
-        while process.poll() is None and not self.ended():
-            time.sleep(0.002)
-        self.assertIsNone(process.poll(), "it ended before the signal")
-        process.send_signal(signal.SIGINT)
-        _, errors = process.communicate()
-        self.assertEqual(process.returncode, 3, errors)
-        for text in ("stopped on request", "--resume", self.folder):
-            self.assertIn(text, errors)
+        self.expect_stopped(signal.SIGINT, self.ended, "plan", GRAINS, "--accuracy", "30%", "--output", self.folder,
+                            "--jobs", "1", *words)
         self.assertNotIn("plan.json", listing(self.folder))
         ended = self.ended()
         self.plan(GRAINS, "30%", *words, "--resume")
@@ -131,11 +119,7 @@ class Refused(Plan):
                 (OBLIQUE, ["--accuracy", "2%", "--for", "discrete.strength"], ["sets no key of sample or discrete"]),
                 (GRAINS, [], ["--accuracy is required"])]:
             with self.subTest(words=words):
-                result = diptych("plan", scene, *words, "--output", self.folder)
-                self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
-                for text in texts:
-                    self.assertIn(text, result.stderr)
-        self.assertFalse(os.path.exists(self.folder))
+                self.expect(2, ["plan", scene, *words, "--output", self.folder], *texts)
 
     def test_an_accuracy_out_of_reach_is_said(self):
         result = self.plan(GRAINS, "0.1%", *setting(sample_grains=40, loading_axial_strain=0.01,

@@ -105,8 +105,7 @@ class Resume(Folder):
                                 discrete_method="penalty", discrete_penalty_step_fraction=1.5,
                                 discrete_penalty_preload=0)
         for more in ([], ["--resume"]):
-            result = diptych("discrete", QUICK, *words, "--output", self.folder, "--quiet", *more)
-            self.assertEqual(result.returncode, 3, result.stdout + result.stderr)
+            self.expect(3, ["discrete", QUICK, *words, "--output", self.folder, "--quiet", *more])
             with h5py.File(self.path("discrete.h5"), "r") as file:
                 self.assertEqual(len(file), 2, "it did not blow up within the stage")
 

@@ -78,13 +78,9 @@ class Solve(Folder):
             file["numbers"] = [1, 2, 3]
         for wrong in [half, other, write(os.path.join(self.work, "text.h5"), "no HDF5\n"),
                       os.path.join(self.work, "none.h5")]:
-            result, _ = solve(wrong)
-            self.assertEqual(result.returncode, 2, result.stderr)
-            self.assertIn(wrong, result.stderr)
+            self.expect(2, ["solve", wrong], wrong)
 
     def test_words_that_are_wrong(self):
         for words in [["--solver", "lemke"], ["--form", "global"], ["--tolerance", "0"], ["--tolerance", "2"],
                       ["--max-sweeps", "0"]]:
-            result, _ = solve("small.h5", *words)
-            self.assertEqual(result.returncode, 2, result.stderr)
-            self.assertIn(words[1], result.stderr)
+            self.expect(2, ["solve", os.path.join(PROBLEMS, "small.h5"), *words], words[1])

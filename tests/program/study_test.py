@@ -100,8 +100,7 @@ class Points(Study):
     def test_a_point_gives_the_numbers_of_a_run_of_its_own(self):
         record = read_json(self.done, "study.json")
         folder = os.path.join(self.done, record["points"][4]["folders"][1])
-        alone = diptych("discrete", folder + ".prm", "--output", self.folder, "--quiet")
-        self.assertEqual(alone.returncode, 0, alone.stderr)
+        self.expect(0, ["discrete", folder + ".prm", "--output", self.folder, "--quiet"])
         self.assertEqual(content(self.path("discrete.csv")), content(os.path.join(folder, "discrete.csv")))
 
     def test_the_number_of_workers_does_not_change_a_bit(self):
@@ -151,8 +150,7 @@ class Points(Study):
     def test_the_page_draws_itself_again(self):
         shutil.copytree(self.done, self.folder)
         page = content(self.path("report.html"))
-        again = diptych("report", self.folder)
-        self.assertEqual(again.returncode, 0, again.stderr)
+        self.expect(0, ["report", self.folder])
         self.assertEqual(content(self.path("report.html")), page)
         links = re.findall(r'(?:href|src)="([^"]+)"', page.decode())
         self.assertEqual([link for link in links if not link.startswith(("data:", "runs/"))], [])
@@ -299,9 +297,7 @@ class Effects(Folder):
                                 ([self.scene, "--vary", "sample/seed=1,2", "--seeds", "1-2"], "sample/seed = 1"),
                                 ([self.scene, "--vary", "loading/axial_strain=0.013"], "every point is refused")]:
             with self.subTest(words=words[1:]):
-                result = diptych("study", *words, "--output", self.folder)
-                self.assertEqual(result.returncode, 2)
-                self.assertIn(expected, result.stderr)
+                self.expect(2, ["study", *words, "--output", self.folder], expected)
         self.assertFalse(os.path.exists(self.folder))
 
 
