@@ -60,8 +60,8 @@ class Page:
         os.close(self._write), os.close(self._read)
         self._profile.cleanup()
 
-    def size(self, width, height, scale=1):
-        self.command("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=scale,
+    def size(self, width, height):
+        self.command("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1,
                      mobile=width < 600)
 
     def open(self, path):
@@ -83,10 +83,6 @@ class Page:
         for kind in ("rawKeyDown", "keyUp"):
             self.command("Input.dispatchKeyEvent", type=kind, key=key, code=key,
                          windowsVirtualKeyCode={"ArrowLeft": 37, "ArrowRight": 39, "Tab": 9}[key])
-
-    def picture(self, path, whole=False):
-        with open(path, "wb") as stream:
-            stream.write(base64.b64decode(self.command("Page.captureScreenshot", captureBeyondViewport=whole)["data"]))
 
     def pdf(self):
         return base64.b64decode(self.command("Page.printToPDF", printBackground=True, preferCSSPageSize=True)["data"])

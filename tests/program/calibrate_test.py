@@ -5,14 +5,12 @@ import json
 import os
 import signal
 import subprocess
-import time
 
 import browser
-from running import content, diptych, ENVIRONMENT, Folder, listing, PROGRAM, QUICK, read_json, start, write
+from running import content, diptych, ENVIRONMENT, Folder, listing, PROGRAM, QUICK, read_json, setting, start, write
 
 TINY = {"sample/grains": 150, "loading/axial_strain": 0.02, "loading/stage_strain": 0.01,
         "loading/inertial_number": 1e-3, "comparison/window_edges": "0, 0.01, 0.02"}
-TABLES = ("calibration.json", "calibration.csv", "posterior.csv", "calibrated.prm")
 
 
 def calibration(**changes):
@@ -27,14 +25,22 @@ def calibration(**changes):
     return {**asked, **changes}
 
 
+def keywords(**keys):
+    return [word for key, value in keys.items() for word in ("--set", f"{key}={value}")]
+
+
 class Calibrate(Folder):
     def file(self, asked):
         return write(os.path.join(self.work, "one.json"), json.dumps(asked, indent=1))
 
-    def calibrate(self, asked, *words, code=0, folder=None):
-        result = diptych("calibrate", self.file(asked), "--output", folder or self.folder, "--quiet", *words)
-        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
-        return result
+    def calibrate(self, asked, *words, code=0, told=()):
+        self.expect(code, ["calibrate", self.file(asked), "--output", self.folder, "--quiet", *words], *told)
+
+    def tiny(self, folder, *words, command="discrete", **keys):
+        """A tiny run in a folder of `work`."""
+        folder = os.path.join(self.work, folder)
+        self.expect(0, [command, QUICK, *keywords(**{**TINY, **keys}), *words, "--output", folder, "--quiet"])
+        return folder
 
     def record(self):
         return read_json(self.folder, "calibration.json")
@@ -62,18 +68,15 @@ class Results(Calibrate):
             for o in path["observables"]:
                 self.assertLess(abs(o["half_step"]), o["deviation"], o)
             self.assertEqual([p["quantity"] for p in path["predictions"]], ["peak_stress_ratio", "volumetric_strain"])
-        with open(os.path.join(self.folder, "calibration.csv"), encoding="utf-8") as file:
+        with open(self.path("calibration.csv"), encoding="utf-8") as file:
             self.assertEqual(len(list(csv.DictReader(file))), 16)
         # The fragment is what a scene takes, before what --set says.
-        fragment = os.path.join(self.folder, "calibrated.prm")
-        words = [word for key, value in TINY.items() for word in ("--set", f"{key}={value}")]
-        mesh = ["--set", "continuum/mesh=rectangle", "--set", "continuum/rectangle_width=15", "--set",
-                "continuum/rectangle_height=20", "--set", "comparison/coarse_element_size=0"]
-        again = os.path.join(self.work, "again")
-        self.expect(0, ["continuum", QUICK, *words, *mesh, "--set-file", fragment, "--set",
-                    "continuum/internal_length=2.5", "--output", again, "--quiet"])
+        fragment = self.path("calibrated.prm")
+        mesh = setting(continuum_mesh="rectangle", continuum_rectangle_width=15, continuum_rectangle_height=20,
+                       comparison_coarse_element_size=0, continuum_internal_length=2.5)
+        again = self.tiny("again", *mesh, "--set-file", fragment, command="continuum")
         for text in (f"= {friction['value']!r}", "= 2.5", "= calibrated on fitted, seeds 1-2"):
-            self.assertIn(text, content(os.path.join(again, "scene.prm")).decode())
+            self.assertIn(text, content(again, "scene.prm").decode())
         page = content(self.path("report.html")).decode()
         for text in ("friction_angle_peak", "cannot tell", "not identified", "<img"):
             self.assertIn(text, page)
@@ -89,19 +92,14 @@ class Results(Calibrate):
             self.skipTest("chromium is not installed (test.sh installs it)")
         for width in (1400, 390):
             with browser.Page(width, 900) as page:
-                page.open(os.path.join(self.folder, "report.html"))
+                page.open(self.path("report.html"))
                 self.assertEqual(page.messages, [])
                 self.assertLessEqual(page.run("document.documentElement.scrollWidth"), width)
                 self.assertGreaterEqual(page.run("document.querySelectorAll('svg, img').length"), 3 * paths + 2)
                 self.assertTrue(page.run("[...document.images].every(image => image.naturalWidth > 0)"))
 
     def test_result_folders_stand_in_the_place_of_runs(self):
-        words = [word for key, value in TINY.items() for word in ("--set", f"{key}={value}")]
-        folders = []
-        for seed in (1, 2):
-            folders.append(os.path.join(self.work, f"grains_{seed}"))
-            self.expect(0, ["discrete", QUICK, *words, "--set", f"sample/seed={seed}", "--output", folders[-1],
-                        "--quiet"])
+        folders = [self.tiny(f"grains_{seed}", **{"sample/seed": seed}) for seed in (1, 2)]
         self.calibrate(calibration(targets=[{"name": "read", "results": folders}], check_samples=0))
         record = self.record()
         self.assertEqual(record["paths"][0]["seeds"], [1, 2])
@@ -110,21 +108,16 @@ class Results(Calibrate):
         table = os.path.join(folders[1], "discrete.csv")
         lines = content(table).decode().splitlines(keepends=True)
         write(table, "".join(lines[:len(lines) // 2]))
-        changed = self.calibrate(calibration(targets=[{"name": "read", "results": folders}]), code=2,
-                                 folder=os.path.join(self.work, "b"))
-        self.assertIn("grains_2/discrete.csv", changed.stderr)
+        read, other = calibration(targets=[{"name": "read", "results": folders}]), os.path.join(self.work, "b")
+        words = ("calibrate", self.file(read), "--output", other, "--quiet")
+        self.expect_message(diptych(*words), 2, "grains_2/discrete.csv")
         record = os.path.join(folders[1], "provenance.json")
         write(record, content(record).decode().replace("discrete_files", "no_files"))  # as of an earlier version
-        result = self.calibrate(calibration(targets=[{"name": "read", "results": folders}]), code=2,
-                                folder=os.path.join(self.work, "b"))
-        for text in ("target 'read'", "grains_2", "before the end of its loading"):
-            self.assertIn(text, result.stderr)
-
+        self.expect_message(diptych(*words), 2, "target 'read'", "grains_2", "before the end of its loading")
 
     def test_a_scene_with_seeds_stands_for_a_file(self):
         scene = write(os.path.join(self.work, "mine.prm"), content(QUICK).decode())
-        words = [word for key, value in {**TINY, "continuum/law": "linear_elastic"}.items()
-                 for word in ("--set", f"{key}={value}")]
+        words = keywords(**TINY, **{"continuum/law": "linear_elastic"})
         self.expect(0, ["calibrate", scene, "--seeds", "1-2", *words, "--output", self.folder, "--quiet"])
         asked = read_json(self.folder, "calibration_input.json")
         self.assertEqual([p["key"] for p in asked["parameters"]], ["youngs_modulus"])  # all that this law reads
@@ -135,9 +128,7 @@ class Results(Calibrate):
         self.assertEqual(content(self.path("calibrated.prm")), found)
 
     def test_friction_of_grains_is_fitted_to_a_curve(self):
-        words = [word for key, value in TINY.items() for word in ("--set", f"{key}={value}")]
-        lab = os.path.join(self.work, "lab")
-        self.expect(0, ["discrete", QUICK, *words, "--set", "discrete/friction=0.5", "--output", lab, "--quiet"])
+        self.tiny("lab", **{"discrete/friction": 0.5})
         friction = {"key": "discrete/friction", "start": 0.3, "low": 0.1, "high": 0.9}
         target = {"name": "test", "scene": QUICK, "set": TINY, "curve": "lab/discrete.csv", "seeds": "1-4"}
         asked = calibration(targets=[target], parameters=[friction])
@@ -149,7 +140,7 @@ class Results(Calibrate):
         fragment = content(self.path("calibrated.prm")).decode()
         self.assertIn("subsection discrete\n  set friction = ", fragment)
         self.assertIn("calibrated on test, discrete.csv, seeds 1-4", fragment)
-        self.assertTrue("<h2>Measured curve and grains</h2>" in content(self.path("report.html")).decode())
+        self.assertIn(b"<h2>Measured curve and grains</h2>", content(self.path("report.html")))
 
 
 class Interruption(Calibrate):
@@ -159,34 +150,28 @@ class Interruption(Calibrate):
         return [name for name in names if b"exit_code" in content(self.path("runs", name))]
 
     def stop_after(self, runs, with_signal):
-        process = start("calibrate", self.file(calibration()), "--output", self.folder, "--resume", "--quiet")
-        while process.poll() is None and len(self.finished_runs()) < runs:
-            time.sleep(0.002)
-        self.assertIsNone(process.poll(), "it ended before the signal")
-        process.send_signal(with_signal)
-        _, errors = process.communicate()
-        return process.returncode, errors
+        return self.signalled(with_signal, lambda: len(self.finished_runs()) >= runs, "calibrate",
+                              self.file(calibration()), "--output", self.folder, "--resume", "--quiet")
 
     def test_killed_and_stopped_ones_go_on_to_the_same_bits(self):
         code, _ = self.stop_after(1, signal.SIGKILL)
         self.assertEqual(code, -signal.SIGKILL)
-        kept = {name: content(os.path.join(self.folder, "runs", name)) for name in self.finished_runs()}
+        kept = {name: content(self.path("runs", name)) for name in self.finished_runs()}
         code, errors = self.stop_after(len(kept) + 5, signal.SIGINT)
         self.assertEqual(code, 3, errors)
         for text in ("stopped on request", "--resume", self.folder):
             self.assertIn(text, errors)
         self.assertEqual(self.record()["status"], "stopped on request")
-        self.assertIn("stopped on request", open(os.path.join(self.folder, "calibrated.prm"), encoding="utf-8").read())
+        self.assertIn(b"stopped on request", content(self.path("calibrated.prm")))
         self.calibrate(calibration(), "--resume")
         for name, bit in kept.items():
-            self.assertEqual(content(os.path.join(self.folder, "runs", name)), bit, "run again")
+            self.assertEqual(content(self.path("runs", name)), bit, "run again")
         alone = os.path.join(self.work, "alone")
         words = ["mpirun", "--oversubscribe", "-np", "2", PROGRAM, "calibrate", self.file(calibration()), "--output",
                  alone, "--quiet"]
         result = subprocess.run(words, env=ENVIRONMENT, capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        for name in TABLES:
-            self.assertEqual(content(os.path.join(self.folder, name)), content(os.path.join(alone, name)), name)
+        self.expect_same_files(alone, "calibration.json", "calibration.csv", "posterior.csv", "calibrated.prm")
 
 
 class Refused(Calibrate):
@@ -216,12 +201,9 @@ class Refused(Calibrate):
                 ({"parameters": [parameter, {**parameter, "key": "discrete/friction"}]}, ["parameters", "two files"]),
                 ({"starts": 0}, ["starts"])]:
             with self.subTest(changes=changes):
-                result = self.calibrate(calibration(**changes), code=2)
-                for text in [*words, "one.json"]:
-                    self.assertIn(text, result.stderr)
-                self.assertFalse(os.path.exists(self.folder), "something was made")
-        for words, text in [((QUICK,), "--seeds 1-4"), ((self.file(calibration()), "--seeds", "1-2"),
-                                                        "--seeds, --set")]:
+                self.calibrate(calibration(**changes), code=2, told=[*words, "one.json"])
+        for words, text in [((QUICK,), "--seeds 1-4"),
+                            ((self.file(calibration()), "--seeds", "1-2"), "--seeds, --set")]:
             self.expect(2, ["calibrate", *words, "--output", self.folder], text)
 
     def test_a_fragment_is_checked(self):

@@ -3,18 +3,14 @@
 import glob
 import json
 import os
-import shutil
-import tempfile
-import unittest
 
 import h5py
 import numpy
 
-from running import bits, content, diptych, history, listing, member_of, QUICK, setting, SMALL, SOURCE, write
+from running import bits, content, diptych, Folder, history, member_of, QUICK, read_json, setting, SMALL, SOURCE, write
 
 FOREIGN = os.path.join(SOURCE, "tests", "foreign")
-COARSE = ["--set", "continuum/element_size=3", "--set", "comparison/coarse_element_size=0", "--set",
-          "output/report=false"]
+COARSE = setting(continuum_element_size=3, comparison_coarse_element_size=0, output_report="false")
 
 
 def files(pattern):
@@ -27,45 +23,33 @@ YADE = files("yade/spheres_*.txt") + files("yade/contacts_*.txt") + files("yade/
 CSV = files("plain_csv/*.csv")
 
 
-class Case(unittest.TestCase):
+class Case(Folder):
     def setUp(self):
-        self.folder = tempfile.mkdtemp()
-        self.addCleanup(shutil.rmtree, self.folder)
-
-    def path(self, *names):
-        return os.path.join(self.folder, *names)
+        super().setUp()
+        self.folder = self.work
 
     def done(self, *words):
-        run = diptych(*words)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        return run.stdout
+        return self.expect(0, words).stdout
 
     def refused(self, *words, says):
-        before = listing(self.folder)
-        run = diptych(*words)
-        self.assertEqual(run.returncode, 2, run.stderr)
-        self.assertIn(says, run.stderr)
-        self.assertEqual(listing(self.folder), before)
+        self.expect(2, words, says)
 
 
 class Import(Case):
     def test_a_sample_of_lammps_beside_the_continuum(self):
         told = self.done("import", "lammps", *LAMMPS, "--output", self.path("mine"))
         self.assertIn("not in the files: rotations", told)
-        self.done("run", self.path("mine", "scene.prm"), "--output", self.path("both"), "--quiet", "--set",
-                  "continuum/element_size=3", "--set", "comparison/coarse_element_size=0")
+        self.done("run", self.path("mine", "scene.prm"), "--output", self.path("both"), "--quiet", *COARSE,
+                  *setting(output_report="true"))
         self.assertEqual(bits(self.path("mine", "discrete.h5")), bits(self.path("both", "discrete.h5")))
-        with open(self.path("both", "comparison.json")) as file:
-            stages = json.load(file)["stages"]
-        self.assertEqual(len(stages), 3)
+        self.assertEqual(len(read_json(self.path("both"), "comparison.json")["stages"]), 3)
         # The mapped stress of the last stage: its mean over the mesh is that of the contacts, which truth.json has.
-        with open(os.path.join(FOREIGN, "lammps", "truth.json")) as file:
-            truth = -numpy.array(json.load(file)["frames"]["480000"]["mean_stress_from_contacts"])
+        frame = read_json(FOREIGN, "lammps", "truth.json")["frames"]["480000"]
+        truth = -numpy.array(frame["mean_stress_from_contacts"])
         grains = history(self.path("both"))
         self.assertAlmostEqual(grains["sxx"][-1] / truth[0, 0], 1, delta=1e-6)
         self.assertAlmostEqual(grains["syy"][-1] / truth[1, 1], 1, delta=1e-6)
-        with open(self.path("both", "report.html")) as file:
-            page = file.read()
+        page = content(self.path("both", "report.html")).decode()
         self.assertIn("Grains imported from lammps", page)
         self.assertIn("Not in the files, and left out below: rotations", page)
         self.done("compare", self.path("both"), "--quiet")
@@ -114,8 +98,7 @@ class Import(Case):
                        "set": {"continuum/hardening": "exponential"}, "coarse_element_size": 5,
                        "parameters": [{"key": "friction_angle_peak", "start": 30, "low": 12, "high": 50}]}
         write(self.path("calibration.json"), json.dumps(calibration))
-        run = diptych("calibrate", self.path("calibration.json"), "--output", self.path("fit"), "--quiet")
-        self.assertEqual(run.returncode, 0, run.stderr)
+        self.done("calibrate", self.path("calibration.json"), "--output", self.path("fit"), "--quiet")
         self.assertIn(b"friction_angle_peak", content(self.path("fit", "calibrated.prm")))
         study = {"scene": "mine/scene.prm", "command": "run", "set": {"comparison/coarse_element_size": 0},
                  "reference": {"continuum/element_size": 2}, "axes": [{"key": "continuum/element_size", "values": [4]}],
@@ -132,13 +115,12 @@ class Import(Case):
             self.assertIn("grains/mass", file["stage_0001"].attrs["not_told"].decode())
         self.assertTrue(numpy.isnan(history(self.path("mine"))["kinetic_energy"]).all())
         self.done("run", self.path("mine", "scene.prm"), "--output", self.path("both"), "--quiet", *COARSE)
-        with open(self.path("both", "comparison.json")) as file:
-            self.assertNotIn("NaN", file.read())
+        self.assertNotIn(b"NaN", content(self.path("both", "comparison.json")))
 
 
 class Refused(Case):
     def test_wrong_input_writes_nothing(self):
-        folder, out = self.folder, self.path("out")
+        out = self.path("out")
         self.refused("import", "lammps", self.path("absent.dump"), "--output", out, says="absent.dump")
         self.refused("import", "nonsense", *LAMMPS, "--output", out, says="nonsense")
         cut = write(self.path("cut.dump"), content(LAMMPS[0])[:5000].decode())
@@ -181,10 +163,9 @@ class Refused(Case):
         write(self.path("mine", "import.json"), record.decode())
         self.refused("run", scene, "--output", self.path("mine"), says="--overwrite")
         self.refused("run", scene, "--output", self.path("out"), "--set", "discrete/file=absent.h5", says="absent.h5")
-        self.refused("run", scene, "--output", self.path("out"), "--set", "loading/stages=0.01,0.03", "--set",
-                     "loading/axial_strain=0.03", "--set", "comparison/window_edges=0,0.03", says="frames")
-        self.refused("run", scene, "--output", self.path("out"), "--set", "loading/stages=0.01,0.02,0.031", "--set",
-                     "loading/axial_strain=0.031", "--set", "comparison/window_edges=0,0.031", says="frame 3 is at")
+        for stages, end, says in (("0.01,0.03", 0.03, "frames"), ("0.01,0.02,0.031", 0.031, "frame 3 is at")):
+            words = setting(loading_stages=stages, loading_axial_strain=end, comparison_window_edges=f"0,{end}")
+            self.refused("run", scene, "--output", self.path("out"), *words, says=says)
 
 
 class Export(Case):

@@ -1,6 +1,5 @@
 # diptych: plans: what is found, kept, resumed, carried out and refused
 # SPDX-License-Identifier: LGPL-2.1-or-later
-import json
 import os
 import signal
 
@@ -50,9 +49,9 @@ class Panels(Plan):
             self.assertIn(text, result.stdout)
         # The planned scene is one that runs, as planned.
         again = os.path.join(self.work, "again")
-        self.expect(0, ["discrete", os.path.join(self.folder, "planned.prm"), "--output", again, "--quiet"])
+        self.expect(0, ["discrete", self.path("planned.prm"), "--output", again, "--quiet"])
         accuracy = next(s for s in panel["settings"] if s.startswith("discrete/accuracy")).split(" = ")[1]
-        self.assertIn(f"set accuracy = {accuracy}\n", content(os.path.join(again, "scene.prm")).decode())
+        self.assertIn(f"set accuracy = {accuracy}\n", content(again, "scene.prm").decode())
 
     def test_a_continuum_is_planned_by_itself(self):
         self.plan(OBLIQUE, "3%", *COARSE)
@@ -64,7 +63,7 @@ class Panels(Plan):
         fine = setting(continuum_element_size=0.75, continuum_max_step=0.0005, continuum_initial_step=0.0005,
                        comparison_coarse_element_size=0)
         for scene, folder, words in ((OBLIQUE, reference, COARSE + fine),
-                                     (os.path.join(self.folder, "planned.prm"), self.work + "/planned", [])):
+                                     (self.path("planned.prm"), self.work + "/planned", [])):
             self.expect(0, ["continuum", scene, "--output", folder, "--quiet", *words])
         peaks = [max(history(folder, "continuum.csv")["stress_ratio"])
                  for folder in (reference, self.work + "/planned")]
@@ -85,7 +84,7 @@ class Panels(Plan):
 class Interruption(Plan):
     def ended(self):
         """Runs that came to their end, and when."""
-        runs, found = os.path.join(self.folder, "runs"), {}
+        runs, found = self.path("runs"), {}
         for name in os.listdir(runs) if os.path.isdir(runs) else []:
             if name.endswith(".json") and "exit_code" in read_json(runs, name):
                 found[name] = os.stat(os.path.join(runs, name)).st_mtime_ns
@@ -99,7 +98,7 @@ class Interruption(Plan):
         ended = self.ended()
         self.plan(GRAINS, "30%", *words, "--resume")
         for name, time_ns in ended.items():
-            self.assertEqual(os.stat(os.path.join(self.folder, "runs", name)).st_mtime_ns, time_ns, "run again")
+            self.assertEqual(os.stat(self.path("runs", name)).st_mtime_ns, time_ns, "run again")
         # The cost of what is kept is the recorded one: the same runs make the same plan.
         first = without_clocks(read_json(self.folder, "plan.json"))
         self.plan(GRAINS, "30%", *words, "--resume", "--jobs", "2")

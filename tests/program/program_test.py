@@ -10,7 +10,8 @@ import unittest
 import numpy
 
 import browser
-from running import diptych, finished, half_files, history, PROGRAM, QUICK, read_json, setting, SOURCE, temporary, write
+from running import (diptych, finished, Folder, half_files, history, PROGRAM, QUICK, read_json, setting, SOURCE,
+                     temporary, write)
 
 
 def number(value):
@@ -29,9 +30,8 @@ class QuickScene(unittest.TestCase):
 
     def test_every_promised_file_is_there_and_no_half_file(self):
         for name in ["scene.prm", "provenance.json", "discrete.h5", "discrete.pvd", "discrete_contacts.pvd",
-                     "discrete.csv", "continuum.h5",
-                     "continuum.pvd", "continuum.csv", "comparison.json", "comparison.csv", "summary.csv",
-                     "fields.pvd", "report.html"]:
+                     "discrete.csv", "continuum.h5", "continuum.pvd", "continuum.csv", "comparison.json",
+                     "comparison.csv", "summary.csv", "fields.pvd", "report.html"]:
             self.assertTrue(os.path.getsize(os.path.join(self.folder, name)) > 0, name)
         self.assertEqual(half_files(self.folder), [])
 
@@ -194,7 +194,7 @@ class WideSample(unittest.TestCase):
         self.assertGreater(n_bands, 9, "there must have been bands to judge")
 
 
-class CommandLine(unittest.TestCase):
+class CommandLine(Folder):
     def test_wrong_words_are_named(self):
         for words, *texts in ((["run"], "SCENE is required"), (["rnu", QUICK], "'rnu' is not a command", "'run'"),
                               (["run", QUICK, "--outptu", "x"], "'--outptu x' is not used",
@@ -208,26 +208,22 @@ class CommandLine(unittest.TestCase):
                               (["report", SOURCE], "comparison.json"), (["explain", "sampel"], "sample"),
                               (["explain", "resultz"], "results")):
             with self.subTest(words=words):
-                result = diptych(*words)
-                self.assertEqual(result.returncode, 2, result.stderr)
-                for text in texts:
-                    self.assertIn(text, result.stderr)
+                self.expect(2, words, *texts)
 
     def test_new_lists_templates_and_prints_scenes_that_run(self):
-        listed, folder = diptych("new", check=True).stdout.splitlines(), temporary(self)
+        listed = diptych("new", check=True).stdout.splitlines()
         self.assertGreater(len(listed), 7)
         for name in (line.split(":")[0] for line in listed):
             text = diptych("new", name, check=True).stdout
             self.assertEqual(text.splitlines()[0], "# " + next(line for line in listed if line.startswith(name + ":")))
-            scene = write(os.path.join(folder, name + ".prm"), text)
+            scene = write(os.path.join(self.work, name + ".prm"), text)
             command = re.search(r"^# Run it: diptych (\w+) FILE", text, re.MULTILINE)[1]
-            short = ["--check"] if command == "run" else ["--output", os.path.join(folder, name), *setting(
+            short = ["--check"] if command == "run" else ["--output", os.path.join(self.work, name), *setting(
                 sample_grains=100, loading_axial_strain=1e-5, loading_stage_strain=1e-5)]
-            done = diptych(command, scene, *short)
-            self.assertEqual(done.returncode, 0, name + done.stderr)
+            self.expect(0, [command, scene, *short])
 
     def test_completion_offers_commands_options_keys_and_values(self):
-        script = write(os.path.join(temporary(self), "completion"), diptych("completion", "bash").stdout)
+        script = write(os.path.join(self.work, "completion"), diptych("completion", "bash").stdout)
         for words, offered in ((["ru"], "run"), (["run", "scene.prm", "--see"], "--seeds"),
                                (["solve", "--solver", ""], "psor"),
                                (["solve", "--form", "lo"], "local"), (["explain", "samp"], "sample"),
@@ -238,8 +234,7 @@ class CommandLine(unittest.TestCase):
                                (["run", "--set", "continuum/law", "=", "mo"], "mohr_coulomb"),
                                (["run", "--set", "discrete/lateral", "="], "periodic")):
             quoted = " ".join(f"'{word}'" for word in [PROGRAM, *words])
-            told = subprocess.run(["bash", "-c", f"source {script}; COMP_WORDS=({quoted}); COMP_CWORD={len(words)}; "
-                                   "_diptych; "
-                                   "echo ${COMPREPLY[@]}"], capture_output=True, text=True, check=True).stdout.split()
+            line = f"source {script}; COMP_WORDS=({quoted}); COMP_CWORD={len(words)}; _diptych; echo ${{COMPREPLY[@]}}"
+            told = subprocess.run(["bash", "-c", line], capture_output=True, text=True, check=True).stdout.split()
             self.assertIn(offered, told, words)
             self.assertLess(len(told), 20, words)

@@ -5,7 +5,6 @@
 import ast
 import glob
 import os
-import re
 import tempfile
 import unittest
 

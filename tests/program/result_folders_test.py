@@ -3,11 +3,11 @@
 import json
 import os
 import shutil
-import time
+import signal
 
 import faults_test
 from faults_test import BOTH
-from running import content, diptych, history, listing, member_of, QUICK, setting, SOURCE, start, write
+from running import content, contents, diptych, history, listing, member_of, QUICK, setting, SOURCE, write
 
 OTHER = setting(continuum_friction_angle_peak=30)
 STUDY = {
@@ -51,16 +51,15 @@ class Refused(Folders):
     def test_a_folder_with_other_files_is_refused(self):
         shutil.rmtree(self.folder)
         os.mkdir(self.folder)
-        write(os.path.join(self.folder, "thesis.tex"), "n\n")
+        write(self.path("thesis.tex"), "n\n")
         for words in (["run"], ["run", "--resume"], ["run", "--overwrite"], ["run", "--seeds", "1-2"],
                       ["run", "--seeds", "1-2", "--overwrite"]):
             self.expect(2, self.words(*words), self.folder)
 
     def test_a_second_writer_is_refused(self):
         shutil.rmtree(self.folder)
-        process = start(*self.words("discrete", *setting(sample_grains=400)), cwd=self.work)
-        while process.poll() is None and not os.path.exists(os.path.join(self.folder, "provenance.json")):
-            time.sleep(0.002)
+        process = self.started_until(lambda: os.path.exists(self.path("provenance.json")),
+                                     *self.words("discrete", *setting(sample_grains=400)), cwd=self.work)
         result = diptych(*self.words("discrete", "--overwrite", *setting(sample_grains=400)), cwd=self.work)
         self.assertIsNone(process.poll(), "it ended before the second writer came")
         self.assertEqual(process.wait(), 0)
@@ -73,7 +72,7 @@ class Refused(Folders):
                                ("continuum.csv", ("compare", "report", "resume")),
                                ("discrete.h5", ("compare", "report", "resume")),
                                ("continuum.h5", ("compare", "report")), ("comparison.json", ("report",))):
-            path = os.path.join(self.folder, name)
+            path = self.path(name)
             whole = content(path)
             with open(path, "wb") as file:
                 file.write(whole[:-20] + bytes([whole[-20] ^ 1]) + whole[-19:])
@@ -87,19 +86,18 @@ class Refused(Folders):
 
 class Overwritten(Folders):
     def test_the_old_results_are_renamed_whole(self):
-        write(os.path.join(self.folder, "notes.txt"), "mine\n")
-        before = {name: content(os.path.join(self.folder, name)) for name in listing(self.folder)}
+        write(self.path("notes.txt"), "mine\n")
+        before = contents(self.folder)
         for seed in (3, 4):  # one generation is kept
             self.expect(0, self.words("discrete", "--overwrite", *setting(sample_seed=seed)))
             if seed == 3:
-                self.assertEqual({name: content(os.path.join(self.folder + ".1", name))
-                                  for name in listing(self.folder + ".1")}, before)
+                self.assertEqual(contents(self.folder + ".1"), before)
         self.assertNotIn("notes.txt", listing(self.folder))
-        self.assertIn(b"set seed = 3", content(os.path.join(self.folder + ".1", "scene.prm")))
-        self.assertIn(b"set seed = 4", content(os.path.join(self.folder, "scene.prm")))
+        self.assertIn(b"set seed = 3", content(self.folder + ".1", "scene.prm"))
+        self.assertIn(b"set seed = 4", content(self.path("scene.prm")))
 
     def test_an_input_is_never_moved(self):
-        sample = os.path.join(self.folder, "discrete.h5")
+        sample = self.path("discrete.h5")
         for command in ("discrete", "run"):
             self.expect(2, self.words(command, "--overwrite", *setting(sample_file=sample)), sample)
         old = os.path.join(self.folder + ".1", "discrete.h5")
@@ -132,59 +130,56 @@ class Overwritten(Folders):
 
 class GoneOn(Folders):
     def test_a_finished_run_of_the_same_scene_is_recognised(self):
-        before = {name: content(os.path.join(self.folder, name)) for name in listing(self.folder)}
+        before = contents(self.folder)
         words = [word for word in self.words("run") if word != "--quiet"]
         self.assertIn("finished run of this scene", self.expect(0, words).stdout)
         for command, answer in (("continuum", "not run again"), ("discrete", "finished grains of this scene")):
             self.assertIn(answer, self.expect(0, [word for word in self.words(command) if word != "--quiet"]).stdout)
-        self.assertEqual({name: content(os.path.join(self.folder, name)) for name in listing(self.folder)}, before)
+        self.assertEqual(contents(self.folder), before)
 
     def test_another_continuum_takes_the_place_of_the_first(self):
-        grains = content(os.path.join(self.folder, "discrete.h5"))
+        grains = content(self.path("discrete.h5"))
         for command in (["run", "--resume"], ["continuum"]):
             with self.subTest(command=command):
                 shutil.rmtree(self.folder)
                 shutil.copytree(self.whole, self.folder)
                 self.expect(0, self.words(*command, *OTHER))
                 self.assertEqual(self.curve(self.folder), self.curve(self.truth()))
-                self.assertEqual(content(os.path.join(self.folder, "discrete.h5")), grains)
-                self.assertIn(b"set friction_angle_peak = 30\n", content(os.path.join(self.folder, "scene.prm")))
+                self.assertEqual(content(self.path("discrete.h5")), grains)
+                self.assertIn(b"set friction_angle_peak = 30\n", content(self.path("scene.prm")))
                 self.assertNotIn("next", os.listdir(self.folder))
-                self.assertEqual(os.path.exists(os.path.join(self.folder, "comparison.json")), command[0] == "run")
+                self.assertEqual(os.path.exists(self.path("comparison.json")), command[0] == "run")
                 self.expect(0, ["compare", self.folder, "--quiet"])
 
     def test_until_it_is_complete_the_first_continuum_stays(self):
         """Killed at any moment, the folder is that of the first continuum, and --resume ends with the second one's
         bits."""
         first, second = self.curve(self.folder), self.curve(self.truth())
-        comparison = content(os.path.join(self.folder, "comparison.json"))
+        comparison = content(self.path("comparison.json"))
         words = self.words("run", "--resume", *OTHER, *setting(continuum_checkpoint_minutes=0))
         for name in ("continuum_checkpoint.h5", "comparison.json"):
-            process = start(*words, cwd=self.work)
-            while process.poll() is None and not os.path.exists(os.path.join(self.folder, "next", name)):
-                time.sleep(0.002)
-            process.kill()
-            process.wait()
-            self.assertEqual((self.curve(self.folder), content(os.path.join(self.folder, "comparison.json"))),
+            self.signalled(signal.SIGKILL, lambda name=name: os.path.exists(self.path("next", name)), *words,
+                           cwd=self.work)
+            self.assertEqual((self.curve(self.folder), content(self.path("comparison.json"))),
                              (first, comparison))
         self.expect(0, words)
         self.assertEqual(self.curve(self.folder), second)
-        self.assertNotEqual(content(os.path.join(self.folder, "comparison.json")), comparison)
+        self.assertNotEqual(content(self.path("comparison.json")), comparison)
         self.assertNotIn("next", os.listdir(self.folder))
 
     def test_a_changed_scene_file_is_noticed(self):
-        scene = os.path.join(self.folder, "scene.prm")
+        scene = self.path("scene.prm")
         write(scene, content(scene).decode().replace("set max_bands = 2", "set max_bands = 1"))
         for command in ("compare", "report"):
             self.expect(2, [command, self.folder], scene, "was changed")
 
     def test_another_comparison_needs_no_panel_again(self):
-        panels = {name: content(os.path.join(self.folder, name)) for name in ("discrete.h5", "continuum.h5")}
+        panels = {name: content(self.path(name)) for name in ("discrete.h5", "continuum.h5")}
         self.expect(0, self.words("run", "--resume", *setting(comparison_max_bands=1)))
         self.expect(0, ["compare", self.folder, *setting(comparison_max_bands=2), "--quiet"])
         self.expect(2, ["compare", self.folder, *setting(comparison_coarse_element_size=5)], "diptych run --resume")
-        self.assertEqual({name: content(os.path.join(self.folder, name)) for name in panels}, panels)
-        self.assertIn(b"set max_bands = 2\n", content(os.path.join(self.folder, "scene.prm")))
+        self.assertEqual({name: content(self.path(name)) for name in panels}, panels)
+        self.assertIn(b"set max_bands = 2\n", content(self.path("scene.prm")))
 
     def test_a_changed_input_file_is_another_sample(self):
         shutil.rmtree(self.folder)
@@ -198,11 +193,11 @@ class GoneOn(Folders):
         shutil.rmtree(self.folder)
         words = self.words("run", "--seeds", "1-2", "--jobs", "2")
         self.expect(0, words)
-        table = content(os.path.join(self.folder, "ensemble.csv"))
+        table = content(self.path("ensemble.csv"))
         member = member_of(self.folder, 1)
         self.expect(0, ["run", QUICK, *BOTH, *setting(discrete_friction=0.9), "--quiet", "--overwrite", "--output",
                         member])
         self.expect(2, ["compare", self.folder], member, "discrete/friction")
         self.expect(0, [*words, "--resume"])  # repeated, and the other scene is kept
         self.assertIn(b"set friction = 0.9\n", content(os.path.join(member + ".1", "scene.prm")))
-        self.assertEqual(content(os.path.join(self.folder, "ensemble.csv")), table)
+        self.assertEqual(content(self.path("ensemble.csv")), table)

@@ -7,8 +7,7 @@ import time
 
 import h5py
 
-from running import (bits, content, contents, diptych, finished, Folder, half_files, listing, LONG, QUICK, setting,
-                     SMALL, start, temporary)
+from running import bits, content, finished, Folder, half_files, listing, LONG, QUICK, setting, SMALL, start, temporary
 
 
 class Resume(Folder):
@@ -22,8 +21,8 @@ class Resume(Folder):
             assert len(file) == 21, "20 stages after the prepared sample"
 
     def expect_same_results(self):
-        for name in ("discrete.csv", "discrete.pvd", "discrete/stage_0020.vtu", "discrete_contacts/stage_0020.vtu"):
-            self.assertEqual(content(os.path.join(self.alone, name)), content(self.path(name)))
+        self.expect_same_files(self.alone, "discrete.csv", "discrete.pvd", "discrete/stage_0020.vtu",
+                               "discrete_contacts/stage_0020.vtu")
         a, b = bits(os.path.join(self.alone, "discrete.h5")), bits(self.path("discrete.h5"))
         self.assertEqual(sorted(a), sorted(b))
         self.assertEqual([name for name in a if a[name] != b[name]], [])
@@ -34,23 +33,13 @@ class Resume(Folder):
         """When a file of the folder was written; 0 without one."""
         return os.stat(self.path(name)).st_mtime_ns if os.path.exists(self.path(name)) else 0
 
-    def wait_for(self, process, name, newer_than=0):
-        while process.poll() is None and self.written(name) <= newer_than:
-            time.sleep(0.002)
-
-    def resume(self, *words):
-        return diptych("discrete", QUICK, *LONG, *words, "--output", self.folder, "--resume")
+    def resume(self, *words, code=0, told=()):
+        return self.expect(code, ["discrete", QUICK, *LONG, *words, "--output", self.folder, "--resume"], *told)
 
     def stop(self, signal_number):
         """A run that a signal ends a tenth of a second after the prepared sample was written."""
-        process = start("discrete", QUICK, *LONG, "--output", self.folder, "--quiet")
-        self.wait_for(process, "discrete.h5")
-        time.sleep(0.1)
-        process.send_signal(signal_number)
-        _, errors = process.communicate()
-        self.assertEqual(process.returncode, 3, errors)
-        for text in ("stopped on request", "--resume", self.folder):
-            self.assertIn(text, errors)
+        self.expect_stopped(signal_number, lambda: self.written("discrete.h5") and not time.sleep(0.1),
+                            "discrete", QUICK, *LONG, "--output", self.folder, "--quiet")
         self.assertIn("checkpoint.h5", listing(self.folder))
         self.assertEqual(half_files(self.folder), [])
 
@@ -60,21 +49,19 @@ class Resume(Folder):
         for _ in range(4):
             before = self.written("checkpoint.h5")
             process = start("discrete", QUICK, *LONG, *often, "--output", self.folder, "--resume", "--quiet")
-            self.wait_for(process, "checkpoint.h5", before)
+            while process.poll() is None and self.written("checkpoint.h5") <= before:
+                time.sleep(0.002)
             time.sleep(dice.uniform(0, 0.1))
             process.kill()
             process.communicate()
             hits += process.returncode == -signal.SIGKILL and os.path.exists(self.path("checkpoint.h5"))
         self.assertGreaterEqual(hits, 2, "they ended before the signals")
-        last = self.resume(*often)
-        self.assertEqual(last.returncode, 0, last.stderr)
+        self.resume(*often)
         self.expect_same_results()
 
     def test_ctrl_c_and_two_threads_that_take_over(self):
         self.stop(signal.SIGINT)
-        resumed = self.resume("--threads", "2")
-        self.assertEqual(resumed.returncode, 0, resumed.stderr)
-        self.assertNotIn("beginning", resumed.stdout)
+        self.assertNotIn("beginning", self.resume("--threads", "2").stdout)
         self.expect_same_results()
 
     def test_sigterm_and_what_cannot_be_gone_on_from(self):
@@ -87,15 +74,10 @@ class Resume(Folder):
                                   ([], len(whole) // 2, path), ([], len(whole) // 50, path)):
             with self.subTest(words=words, size=size):
                 os.truncate(path, size)
-                before = contents(self.folder)
-                refused = self.resume(*words)
-                self.assertEqual(refused.returncode, 2, refused.stderr)
-                self.assertIn(text, refused.stderr)
-                self.assertEqual(contents(self.folder), before)
+                self.resume(*words, code=2, told=[text])
         with open(path, "wb") as file:
             file.write(whole)
-        resumed = self.resume()
-        self.assertEqual(resumed.returncode, 0, resumed.stderr)
+        self.resume()
         self.expect_same_results()
 
     def test_a_run_that_did_not_converge_in_its_last_stage_is_not_finished(self):

@@ -5,6 +5,7 @@
 import ctypes
 import json
 import os
+import re
 import subprocess
 import tempfile
 import time
@@ -64,7 +65,8 @@ def content(*names):
 
 
 def contents(folder):
-    return {name: content(os.path.join(folder, name)) for name in listing(folder)}
+    """The bytes of every file; a pipe would wait for a writer."""
+    return {name: content(folder, name) for name in listing(folder) if os.path.isfile(os.path.join(folder, name))}
 
 
 def half_files(folder):
@@ -120,7 +122,8 @@ class Folder(unittest.TestCase):
         for text in texts:
             self.assertIn(text, result.stderr)
         self.assertNotIn("Traceback", result.stderr)
-        self.assertEqual([name for name in listing(self.work) if name.endswith((".part", ".lock"))], [])
+        left = [name for name in listing(self.work) if name.endswith((".part", ".lock"))]
+        self.assertEqual([name for name in left if not re.search(r"\.\d/", name)], [])  # a killed run is set aside whole
 
     def started_until(self, is_reached, *words, **options):
         """A program that still runs when something is reached."""

@@ -4,11 +4,10 @@ import json
 import os
 import shutil
 import signal
-import tempfile
 import time
 
 import study_test
-from running import bits, content, diptych, listing, read_json, start, write
+from running import bits, content, finished, listing, start, temporary, write
 from study_test import LONG
 
 
@@ -27,25 +26,18 @@ def running_on(folder):
 class Interruption(study_test.Study):
     @classmethod
     def setUpClass(cls):
-        work = cls.enterClassContext(tempfile.TemporaryDirectory())
-        cls.alone, file = os.path.join(work, "alone"), write(os.path.join(work, "steps.json"),
-                                                             json.dumps(LONG, indent=1))
-        result = diptych("study", file, "--output", cls.alone, "--quiet")
-        assert result.returncode == 0, result.stderr
+        work = temporary(cls)
+        cls.alone, file = os.path.join(work, "alone"), write(os.path.join(work, "steps.json"), json.dumps(LONG))
+        finished("study", file, "--output", cls.alone, "--quiet")
 
     def stop(self, signal_number):
         """Sends a signal when the first run has its prepared sample."""
-        process = start("study", self.study_file(LONG), "--output", self.folder, "--jobs", "2")
-        while process.poll() is None and not any(name.endswith("discrete.h5") for name in listing(self.work)):
-            time.sleep(0.002)
-        self.assertIsNone(process.poll(), "it ended before the signal")
-        process.send_signal(signal_number)
-        _, errors = process.communicate()
-        return process.returncode, errors
+        return self.signalled(signal_number, lambda: any(name.endswith("discrete.h5") for name in listing(self.work)),
+                              "study", self.study_file(LONG), "--output", self.folder, "--jobs", "2")
 
     def expect_the_rest(self):
         self.run_study(LONG, "--resume")
-        self.assertEqual(content(self.path("study.json")), content(os.path.join(self.alone, "study.json")))
+        self.expect_same_files(self.alone, "study.json")
         self.assertEqual(bits(self.path("study.h5")), bits(os.path.join(self.alone, "study.h5")))
         self.assertEqual([name for name in listing(self.folder) if "checkpoint" in name and ".1/" not in name], [])
 
@@ -55,7 +47,7 @@ class Interruption(study_test.Study):
         for text in ("stopped on request", "runs are left", "--resume", self.folder):
             self.assertIn(text, errors)
         self.assertTrue(any(name.endswith("checkpoint.h5") for name in listing(self.folder)))
-        self.assertIn("not run", {p["class"] for p in read_json(self.folder, "study.json")["points"]})
+        self.assertIn("not run", self.classes())
         self.expect_the_rest()
 
     def test_ctrl_c_while_the_report_is_drawn_tells_how_to_draw_it(self):
@@ -68,7 +60,7 @@ class Interruption(study_test.Study):
 
     def test_a_run_whose_table_was_changed_since_is_run_again(self):
         shutil.copytree(self.alone, self.folder)
-        table = next(os.path.join(self.folder, name) for name in listing(self.folder) if name.endswith("discrete.csv"))
+        table = next(self.path(name) for name in listing(self.folder) if name.endswith("discrete.csv"))
         rows = content(table).splitlines(keepends=True)
         fields = rows[len(rows) // 2].split(b",")
         fields[rows[0].split(b",").index(b"stress_ratio")] = b"0.99"

@@ -6,14 +6,13 @@ import re
 import resource
 import shutil
 import signal
-import tempfile
 import time
 import unittest
 
 import pandas
 
 import browser
-from running import bits, content, diptych, Folder, listing, read_json, SOURCE, start, write
+from running import bits, content, diptych, finished, Folder, listing, read_json, SOURCE, start, temporary, write
 
 # 150 grains between smooth rigid walls: a run takes a fifth of a second.
 STUDY = {
@@ -39,13 +38,14 @@ class Study(Folder):
     def study_file(self, study):
         return write(os.path.join(self.work, "steps.json"), json.dumps(study, indent=1))
 
-    def run_study(self, study, *words, code=0, folder=None):
-        result = diptych("study", self.study_file(study), "--output", folder or self.folder, *words)
-        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
-        if code == 0:  # runs/HASH.1 is what a killed run left
-            self.assertEqual([name for name in listing(folder or self.folder)
-                              if name.endswith(".part") and not re.search(r"runs/\w+\.\d", name)], [])
-        return result
+    def record(self):
+        return read_json(self.folder, "study.json")
+
+    def classes(self):
+        return {point["class"] for point in self.record()["points"]}
+
+    def run_study(self, study, *words, code=0, told=()):
+        return self.expect(code, ["study", self.study_file(study), "--output", self.folder, *words], *told)
 
     def times(self):
         """When each run's table was written."""
@@ -73,11 +73,9 @@ class Points(Study):
 
     @classmethod
     def setUpClass(cls):
-        work = cls.enterClassContext(tempfile.TemporaryDirectory())
-        cls.done, file = os.path.join(work, "done"), write(os.path.join(work, "steps.json"),
-                                                           json.dumps(STUDY, indent=1))
-        cls.process = diptych("study", file, "--output", cls.done, "--jobs", "1")
-        assert cls.process.returncode == 0, cls.process.stdout + cls.process.stderr
+        work = temporary(cls)
+        cls.done, file = os.path.join(work, "done"), write(os.path.join(work, "steps.json"), json.dumps(STUDY))
+        finished("study", file, "--output", cls.done, "--jobs", "1")
 
     def test_every_point_is_there_with_its_errors(self):
         record = read_json(self.done, "study.json")
@@ -101,11 +99,11 @@ class Points(Study):
         record = read_json(self.done, "study.json")
         folder = os.path.join(self.done, record["points"][4]["folders"][1])
         self.expect(0, ["discrete", folder + ".prm", "--output", self.folder, "--quiet"])
-        self.assertEqual(content(self.path("discrete.csv")), content(os.path.join(folder, "discrete.csv")))
+        self.expect_same_files(folder, "discrete.csv")
 
     def test_the_number_of_workers_does_not_change_a_bit(self):
         self.run_study(STUDY, "--jobs", "2")
-        self.assertEqual(content(self.path("study.json")), content(os.path.join(self.done, "study.json")))
+        self.expect_same_files(self.done, "study.json")
         self.assertEqual(bits(self.path("study.h5")), bits(os.path.join(self.done, "study.h5")))
 
     def test_a_study_that_grows_runs_only_what_is_new(self):
@@ -117,27 +115,26 @@ class Points(Study):
         after = self.times()
         self.assertEqual(len(after), N_RUNS + 4)
         self.assertEqual({name: after[name] for name in before}, before)
-        self.assertEqual(read_json(self.folder, "study.json")["points"][5]["quantities"],
+        self.assertEqual(self.record()["points"][5]["quantities"],
                          read_json(self.done, "study.json")["points"][3]["quantities"])
 
     def test_runs_of_another_revision_are_run_again(self):
         shutil.copytree(self.done, self.folder)
-        name = read_json(self.folder, "study.json")["points"][1]["folders"][0]
+        name = self.record()["points"][1]["folders"][0]
         end = read_json(self.folder, name + ".json")
         write(self.path(name + ".json"), json.dumps({**end, "revision": "another"}))
         write(self.path(name + "/notes.txt"), "of the user")
-        result = self.run_study(STUDY, "--resume")
+        result = self.run_study(STUDY, "--resume", told=["repeated runs (of revision another): 1"])
         self.assertIn(f"{N_RUNS - 1} of {N_RUNS} runs are finished", result.stdout)
-        self.assertIn("repeated runs (of revision another): 1", result.stderr)
         self.assertEqual(content(self.path(name + ".1/notes.txt")), b"of the user")
-        self.assertEqual(content(self.path("study.json")), content(os.path.join(self.done, "study.json")))
+        self.expect_same_files(self.done, "study.json")
 
     def test_other_limits_need_no_run(self):
         shutil.copytree(self.done, self.folder)
         before = self.times()
         self.run_study({**STUDY, "quantities": [{**STUDY["quantities"][0], "limit": {"relative": 10}}]}, "--resume")
         self.assertEqual(self.times(), before)
-        self.assertEqual({p["class"] for p in read_json(self.folder, "study.json")["points"]}, {"right"})
+        self.assertEqual(self.classes(), {"right"})
 
     def test_costs_stand_apart(self):
         bill = read_json(self.done, "study_cost.json")
@@ -145,7 +142,7 @@ class Points(Study):
         self.assertEqual(bill["runs"], N_RUNS)
         everything = [c for c in bill["cheapest"] if c["quantity"] == "" and c["accuracy"] == 1]
         self.assertEqual(len(everything), 1)
-        self.assertNotIn("cpu_s", content(os.path.join(self.done, "study.json")).decode())
+        self.assertNotIn("cpu_s", content(self.done, "study.json").decode())
 
     def test_the_page_draws_itself_again(self):
         shutil.copytree(self.done, self.folder)
@@ -179,9 +176,8 @@ class Failures(Study):
             {"label": "plain", "set": {}},
             {"label": "no sweeps", "set": {"discrete/tolerance": 1e-13, "discrete/max_sweeps": 20}},
             {"label": "half a stage", "set": {"loading/stage_strain": 0.004}}]}]}
-        result = self.run_study(study)
-        self.assertIn("failed with exit code 3", result.stderr)
-        points = read_json(self.folder, "study.json")["points"][1:]
+        self.run_study(study, told=["failed with exit code 3"])
+        points = self.record()["points"][1:]
         self.assertEqual([p["class"] for p in points], ["right", "stopped", "refused"])
         self.assertIn("did not converge", points[1]["words"])
         self.assertNotIn(self.folder, points[1]["words"])
@@ -194,10 +190,9 @@ class Failures(Study):
         _, errors = process.communicate()
         self.assertEqual(process.returncode, 3, errors)
         self.assertIn(words, errors)
-        self.assertIn(sum(p["class"] == "not run" for p in read_json(self.folder, "study.json")["points"]),
-                      range(1, most + 1))
+        self.assertIn(sum(p["class"] == "not run" for p in self.record()["points"]), range(1, most + 1))
         self.run_study(LONG, "--resume")
-        self.assertNotIn("not run", {p["class"] for p in read_json(self.folder, "study.json")["points"]})
+        self.assertNotIn("not run", self.classes())
 
     def test_a_killed_worker_loses_its_run_alone(self):
         process = start("study", self.study_file(LONG), "--output", self.folder, "--jobs", "1")
@@ -218,15 +213,13 @@ class Failures(Study):
     def test_a_window_beyond_the_loading_is_pointed_out_and_not_judged(self):
         study = {**STUDY, "seeds": 1, "axes": [{"key": "discrete/step", "values": [0.2]}],
                  "quantities": [{"name": "far", "strength": [0.5, 0.9], "limit": {"relative": 0.05}}]}
-        self.assertIn("no value of 'far'", self.run_study(study).stderr)
-        self.assertEqual({p["class"] for p in read_json(self.folder, "study.json")["points"]}, {"unjudged"})
+        self.run_study(study, told=["no value of 'far'"])
+        self.assertEqual(self.classes(), {"unjudged"})
 
     def test_a_folder_that_is_no_study_is_left_alone(self):
         os.mkdir(self.folder)
         write(self.path("mine.txt"), "mine")
-        result = self.run_study(STUDY, code=2)
-        self.assertIn("holds other files", result.stderr)
-        self.assertEqual(listing(self.folder), ["mine.txt"])
+        self.run_study(STUDY, code=2, told=["holds other files"])
 
     def test_wrong_studies_are_refused_before_anything_is_written(self):
         for study, words in [({**STUDY, "seedz": 3}, ["seedz", "'seeds'"]),
@@ -236,9 +229,7 @@ class Failures(Study):
                               ["seeds", "sample/seed = 1"]),
                              ({**STUDY, "set": {"sample/grains": 0}}, ["sample/grains = '0'", "whole number"])]:
             with self.subTest(words=words):
-                result = self.run_study(study, code=2)
-                for word in [*words, "steps.json, line "]:
-                    self.assertIn(word, result.stderr)
+                self.run_study(study, code=2, told=[*words, "steps.json, line "])
         self.assertIn("with scene and axes", diptych("study", write(os.path.join(self.work, "empty.json"), "")).stderr)
         self.assertIn("not valid JSON", diptych("study", write(os.path.join(self.work, "broken.json"), "{")).stderr)
         self.assertIn("--resume", diptych("study", self.study_file(STUDY), "--step").stderr)
@@ -253,11 +244,10 @@ class Effects(Folder):
 
     @classmethod
     def setUpClass(cls):
-        work = cls.enterClassContext(tempfile.TemporaryDirectory())
+        work = temporary(cls)
         cls.scene, cls.done = write(os.path.join(work, "tiny.prm"), cls.SCENE), os.path.join(work, "done")
-        cls.process = diptych("study", cls.scene, "--vary", "discrete/friction=0.1,0.6", "--seeds", "1-2", "--output",
-                              cls.done)
-        assert cls.process.returncode == 0, cls.process.stdout + cls.process.stderr
+        cls.process = finished("study", cls.scene, "--vary", "discrete/friction=0.1,0.6", "--seeds", "1-2", "--output",
+                               cls.done)
 
     def test_means_follow_from_the_summaries_of_the_runs(self):
         table, record = pandas.read_csv(os.path.join(self.done, "effects.csv")), read_json(self.done, "study.json")
@@ -269,7 +259,7 @@ class Effects(Folder):
             self.assertAlmostEqual(peaks[panel], sum(s[panel][0] for s in summaries) / 2, places=8)
 
     def test_terminal_and_page_judge_nothing(self):
-        page = content(os.path.join(self.done, "report.html")).decode()
+        page = content(self.done, "report.html").decode()
         for text in (self.process.stdout, page):
             for word in ("unjudged", "heapest", "reference"):
                 self.assertNotIn(word, text)
@@ -280,9 +270,9 @@ class Effects(Folder):
     def test_the_kept_study_file_gives_the_same_and_keeps_the_runs(self):
         shutil.copytree(self.done, self.folder)
         file = shutil.copy(self.path("study_input.json"), os.path.join(self.work, "tiny.json"))
-        result = diptych("study", file, "--output", self.folder, "--resume")
-        self.assertIn("4 of 4 runs are finished", result.stdout, result.stderr)
-        self.assertEqual(content(self.path("study.json")), content(os.path.join(self.done, "study.json")))
+        result = self.expect(0, ["study", file, "--output", self.folder, "--resume"])
+        self.assertIn("4 of 4 runs are finished", result.stdout)
+        self.expect_same_files(self.done, "study.json")
 
     def test_wrong_words_are_refused_with_key_value_and_range(self):
         file = write(os.path.join(self.work, "file.json"), json.dumps(STUDY))
@@ -298,7 +288,6 @@ class Effects(Folder):
                                 ([self.scene, "--vary", "loading/axial_strain=0.013"], "every point is refused")]:
             with self.subTest(words=words[1:]):
                 self.expect(2, ["study", *words, "--output", self.folder], expected)
-        self.assertFalse(os.path.exists(self.folder))
 
 
 class Comparisons(Study):
@@ -311,7 +300,7 @@ class Comparisons(Study):
                  "quantities": [{"number": "continuum_summary peak_stress_ratio", "limit": {"relative": 0.01}},
                                 {"number": "discrete_summary peak_stress_ratio", "limit": {"absolute": 1e-9}}]}
         self.run_study(study)
-        point = read_json(self.folder, "study.json")["points"][1]
+        point = self.record()["points"][1]
         self.assertEqual([q["verdict"] for q in point["quantities"]], ["beyond", "within"])
         self.assertEqual(point["class"], "silently wrong")
         self.assertNotIn("report.html", [os.path.basename(name) for name in listing(self.path("runs"))])

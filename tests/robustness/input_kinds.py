@@ -1,6 +1,5 @@
 # diptych: damaged input files, and every key at its bounds
 # SPDX-License-Identifier: LGPL-2.1-or-later
-
 import functools
 import json
 import os

@@ -1,6 +1,5 @@
 # diptych: killed runs that go on, and two runs that write to the same folder
 # SPDX-License-Identifier: LGPL-2.1-or-later
-
 import json
 import os
 import shutil

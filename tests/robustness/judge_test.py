@@ -16,7 +16,6 @@ import damage  # noqa: E402
 import input_kinds  # noqa: E402
 import robustness  # noqa: E402
 import same  # noqa: E402
-from running import E402, noqa
 
 
 class Judged(unittest.TestCase):

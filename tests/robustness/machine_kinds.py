@@ -1,6 +1,5 @@
 # diptych: full disks and little memory
 # SPDX-License-Identifier: LGPL-2.1-or-later
-
 import contextlib
 import ctypes
 import functools

@@ -1,6 +1,5 @@
 # diptych: damaged results and checkpoints
 # SPDX-License-Identifier: LGPL-2.1-or-later
-
 import os
 
 import bases
