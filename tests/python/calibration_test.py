@@ -82,11 +82,15 @@ def path_of(target, data):
                 left_out=[""] * len(data.observables))
 
 
-def calibrated(c, paths):
-    record = empty_record("c")
+def material_point(settings, path, _):
+    return Observation(values=response(settings, path.data.observables))
+
+
+def calibrated(c, paths, run=material_point, **model):
+    """The record of a calibration whose runs are run(settings, path, is_fine)."""
+    record = empty_record("c", **model)
     calibrate(Trials(c, Coordinates(c.parameters, {}), paths, lambda on, points, fine, step: [
-        [Observation(values=response(s, path.data.observables)) for path, s in zip(on, point)] for point in points],
-                     record))
+        [run(s, path, fine) for path, s in zip(on, point)] for point in points], record))
     return record
 
 
@@ -225,20 +229,19 @@ def test_intervals_hold():
 def test_failed_runs_are_left_out_and_told():
     """The law refuses friction above 29 degrees, as at the first start, and the samples' own mesh never comes to its
     end."""
-    c, record = calibration(**EXACT), empty_record("c")
+    c = calibration(**EXACT)
     truth = truth_of(c, "", TRUTHS)
 
-    def observed(settings, observables, fine):
+    def observed(settings, path, fine):
         angle = next(float(one.value) for one in settings if one.key == "friction_angle_peak")
         if fine or angle > 29:
-            return Observation(values=np.full(len(observables), np.nan),
+            return Observation(values=np.full(len(path.data.observables), np.nan),
                                failure="no balance" if fine else f"angle {angle} exceeds 29")
-        return Observation(values=response(settings, observables))
+        return material_point(settings, path, fine)
 
     path = path_of(c.targets[0], Data(observables=c.observables_of(SCENE), values=[truth, truth]))
     path.target.before = [Setting("continuum", "friction_angle_peak", "20", "")]
-    calibrate(Trials(c, Coordinates(c.parameters, {}), [path], lambda on, points, fine, step: [
-        [observed(s, on[0].data.observables, fine) for s in point] for point in points], record))
+    record = calibrated(c, [path], observed)
     assert record["status"] == "finished"
     assert [p["number"] for p in record["parameters"]] == pytest.approx(TRUTHS, rel=1e-2)
     assert any("rests on the coarse mesh" in words for words in record["words"])
@@ -309,8 +312,8 @@ def test_friction_of_noisy_grains_is_found_within_its_interval():
         lab = drawn(USUAL, observables, mean(0.4), 16, 1000 + seed).mean
         common = drawn(USUAL, observables, 0 * x, 8, seed).values
 
-        def samples(point):
-            friction = float(point[0].value) if point else 0.3
+        def samples(settings):
+            friction = float(settings[0].value) if settings else 0.3
             own = drawn(USUAL, observables, 0 * x, 8, int(1e6 * friction)).values
             return [Observation(values=mean(friction) + 0.95 * a + 0.3 * b, progress=np.linspace(0, 0.03, CURVE_POINTS))
                     for a, b in zip(common, own)]
@@ -318,9 +321,7 @@ def test_friction_of_noisy_grains_is_found_within_its_interval():
         given = np.sqrt(np.diag(noise.covariance(USUAL, Data(observables=observables, values=0 * x))) / 16)
         path = path_of(c.targets[0], Data(observables=observables, values=lab, given=given, runs=8))
         path.scatter = Data(observables=observables, values=[one.values for one in samples([])])
-        record = empty_record("c", "grains")
-        calibrate(Trials(c, Coordinates(c.parameters, {}), [path], lambda on, points, fine, step: [
-            [mean_of(samples(point[0]), 0.005)] for point in points], record))
+        record = calibrated(c, [path], lambda settings, *_: mean_of(samples(settings), 0.005), model="grains")
         found.append(record["parameters"][0])
     assert sum(p["number_low"] < 0.4 < p["number_high"] for p in found) >= 7
     assert np.sqrt(np.mean([(p["value"] - 0.4) ** 2 for p in found])) < 0.04
@@ -340,15 +341,12 @@ def test_a_profile_gives_the_internal_length_and_no_more_for_finer_strips(parts)
                               far=a + (b - a) * (k + 1) / parts)
                    for low in (0.01, 0.02) for a, b in zip(STRIPS, STRIPS[1:]) for k in range(parts)]
     c, truth, held, deviations = calibration([parameter("internal_length", "logarithm", 3, 0.8, 8)]), 2.0, 0, []
-    mean, c.noise = banded([Setting("continuum", "internal_length", str(truth), "")],
-                           observables), Noise(width_discrepancy=1e-3)
+    mean = banded([Setting("continuum", "internal_length", str(truth), "")], observables)
+    c.noise = Noise(width_discrepancy=1e-3)
     for seed in range(12):
         data = drawn(replace(noise.NO_SCATTER, profile_stretch=0.2, profile_noise=0.08), observables, mean, 4, seed)
-        record = empty_record("c")
-        calibrate(Trials(c, Coordinates(c.parameters, {}), [path_of(c.targets[0], data)], lambda on, points, fine,
-                         step: [
-[Observation(values=banded(s, observables)) for s in point] for point in points], record))
-        [p] = record["parameters"]
+        [p] = calibrated(c, [path_of(c.targets[0], data)],
+                         lambda settings, *_: Observation(values=banded(settings, observables)))["parameters"]
         held += p["number_low"] < truth < p["number_high"]
         deviations.append(np.log(p["draws"]).std())
     # Twelve intervals of 90 %: fewer than 9 hold the truth in 3 of 100 such tests.
