@@ -2,19 +2,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <cmath>
-#include <functional>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "continuum/mesh/mesh.h"
 #include "continuum/panel/panel.h"
+#include "tests/common.h"
 
 namespace diptych::continuum::tests
 {
+  using namespace diptych::continuum;
+
   inline QuadMesh rectangle(const double width, const double height, const double element_size)
   {
     return rectangle_mesh({width, height, 0, element_size});
@@ -57,6 +52,12 @@ namespace diptych::continuum::tests
     options.platens  = platens;
     options.geometry = geometry;
     return options;
+  }
+
+  inline Loading with_sides(Loading loading, const LateralCondition &sides)
+  {
+    loading.lateral = sides;
+    return loading;
   }
 
   // All accepted steps have the same length.

@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <random>
-#include <string>
-#include <vector>
-
 #include "continuum/equilibrium/driver.h"
 #include "continuum/equilibrium/refinement.h"
 #include "tests/continuum/continuum_scenes.h"

@@ -2,13 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <map>
-#include <random>
-#include <vector>
-
 #include <Eigen/Core>
 
 #include "continuum/snapshot.h"
@@ -18,9 +11,14 @@
 #include "coupling/cells/mesh_cells.h"
 #include "coupling/fields/strain_increment.h"
 #include "discrete/snapshot.h"
+#include "discrete/files/text_file.h"
+#include "tests/common.h"
 
 namespace diptych::coupling::synthetic
 {
+  using namespace diptych;
+  using namespace diptych::coupling;
+
   inline double uniform(std::mt19937_64 &random, const double low, const double high)
   {
     return low + (high - low) * ((random() >> 11) * 0x1p-53); // gives the same on every standard library

@@ -2,24 +2,25 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include "discrete/panel/panel.h"
+#include "discrete/files/text_file.h"
+#include "tests/common.h"
 
 namespace diptych::tests
 {
   using namespace diptych::discrete;
 
   // Plain Gauss-Seidel to round-off, without lateral action and friction unless a test sets them.
-  inline StepSetting exact_setting(const double step)
+  inline StepSetting exact_setting(const double step, const double gravity_y = 0)
   {
     StepSetting setting;
-    setting.step              = step;
-    setting.law               = same_friction(0);
-    setting.solver.solver     = ContactSolver::nsgs;
-    setting.solver.tolerance  = 1e-14;
-    setting.solver.max_sweeps = 100000;
-    setting.lateral           = NoSides{};
+    setting.step               = step;
+    setting.stepping.gravity_y = gravity_y;
+    setting.law                = same_friction(0);
+    setting.solver.solver      = ContactSolver::nsgs;
+    setting.solver.tolerance   = 1e-14;
+    setting.solver.max_sweeps  = 100000;
+    setting.lateral            = NoSides{};
     return setting;
   }
 
@@ -36,6 +37,14 @@ namespace diptych::tests
   {
     double angle, friction, rolling = 0;
   };
+
+  inline void tilt(StepSetting &setting, const Slope &s, const double g)
+  {
+    setting.stepping.gravity_x          = g * std::sin(s.angle);
+    setting.stepping.gravity_y          = -g * std::cos(s.angle);
+    setting.law.platen_friction         = s.friction;
+    setting.law.platen_rolling_friction = s.rolling;
+  }
 
   // Acceleration and angular acceleration of a disc on a slope a, with t = tan a and the coefficients mu and mu_r. It rests for
   // t <= mu and t <= mu_r and rolls with (2/3) g (sin a - mu_r cos a) for t <= 3 mu - 2 mu_r. Otherwise it slides with

@@ -1,6 +1,5 @@
 // diptych: forces and motion of platens and sides
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <algorithm>
 #include <tuple>
 
 #include "continuum/equilibrium/boundary_value_problem.h"
@@ -9,7 +8,6 @@
 
 namespace
 {
-  using namespace diptych::continuum;
   using namespace diptych::continuum::tests;
 
   // Nodes of a snapshot whose initial position satisfies a condition, sorted by height, then horizontal position.
@@ -105,10 +103,8 @@ namespace
   // also between rough platens.
   TEST(BoundaryConditions, RigidWallBetweenRoughPlatensCarriesThePressure)
   {
-    const QuadMesh mesh    = rectangle(12, 16, 2.);
-    Loading        loading = straight_loading(1, {0, -16}, {0});
-    loading.lateral        = RigidSides();
-    const Course c         = finished(mesh, loading, with(elastic(), Platens::rough, Kinematics::small_strain));
+    const Loading loading = with_sides(straight_loading(1, {0, -16}, {0}), RigidSides());
+    const Course  c       = finished(rectangle(12, 16, 2.), loading, with(elastic(), Platens::rough, Kinematics::small_strain));
     EXPECT_NEAR(c.end().mean_stress(0, 0), 1, 1e-6);
   }
 
@@ -147,10 +143,8 @@ namespace
   // Free sides, elastic, smooth platens: the initial pressure relaxes to uniaxial compression without lateral stress.
   TEST(BoundaryConditions, FreeSidesCarryNothing)
   {
-    const QuadMesh mesh    = rectangle(4, 6, 1.);
-    Loading        loading = straight_loading(1, {0, -6}, {1e-3});
-    loading.lateral        = FreeSides();
-    const Course c         = finished(mesh, loading, with(elastic(), Platens::smooth, Kinematics::small_strain));
+    const Loading loading = with_sides(straight_loading(1, {0, -6}, {1e-3}), FreeSides());
+    const Course  c       = finished(rectangle(4, 6, 1.), loading, with(elastic(), Platens::smooth, Kinematics::small_strain));
     EXPECT_NEAR(c.end().mean_stress(0, 0), 0, 1e-4);
     // Relaxing s_xx from 1 to 0 at fixed height reduces s_yy by nu/(1 - nu) = 0.25. Then E/(1 - nu^2) x 1e-3 = 0.520833 is
     // added.
@@ -161,9 +155,8 @@ namespace
   TEST(BoundaryConditions, RigidWallUnderPressure)
   {
     const QuadMesh mesh    = rectangle(12, 16, 2.);
-    Loading        loading = straight_loading(1, {0, -16}, {0.01});
-    loading.lateral        = RigidSides();
-    const Course c         = finished(mesh, loading, with_weak_spot(with({}, Platens::smooth, Kinematics::small_strain)));
+    const Loading  loading = with_sides(straight_loading(1, {0, -16}, {0.01}), RigidSides());
+    const Course   c       = finished(mesh, loading, with_weak_spot(with({}, Platens::smooth, Kinematics::small_strain)));
     EXPECT_NEAR(c.end().mean_stress(0, 0), 1, 1e-4);
     const Snapshot &s    = c.snapshots.back();
     const auto      wall = nodes_at_x(s, 12), other = nodes_at_x(s, 0), inside = nodes_at_x(s, 6);
@@ -179,9 +172,8 @@ namespace
   TEST(BoundaryConditions, RigidWallCarriesThePressureOnTheMovedShape)
   {
     const QuadMesh mesh    = rectangle(12, 16, 4.);
-    Loading        loading = straight_loading(1, {0, -16}, {0.05});
-    loading.lateral        = RigidSides();
-    const Course c = finished(mesh, loading, with_steps(with_weak_spot(with({}, Platens::smooth, Kinematics::updated)), 1e-3));
+    const Loading  loading = with_sides(straight_loading(1, {0, -16}, {0.05}), RigidSides());
+    const Course   c = finished(mesh, loading, with_steps(with_weak_spot(with({}, Platens::smooth, Kinematics::updated)), 1e-3));
     EXPECT_NEAR(c.end().mean_stress(0, 0), 1, 2e-3);
   }
 
@@ -189,10 +181,9 @@ namespace
   // lambda = M nu/(1 - nu) = 138.889: d s_xx = lambda e_y + M e_x, d s_yy = M e_y + lambda e_x.
   TEST(BoundaryConditions, RigidWallsDrivenApart)
   {
-    const QuadMesh mesh    = rectangle(4, 6, 2.);
-    Loading        loading = straight_loading(1, {0, -6}, {1e-4});
-    loading.lateral        = RigidSides{[](const double progress) { return 2 * progress; }};
-    const Course c         = finished(mesh, loading, with(elastic(), Platens::smooth, Kinematics::small_strain));
+    Loading loading = straight_loading(1, {0, -6}, {1e-4});
+    loading.lateral = RigidSides{[](const double progress) { return 2 * progress; }};
+    const Course c  = finished(rectangle(4, 6, 2.), loading, with(elastic(), Platens::smooth, Kinematics::small_strain));
     EXPECT_NEAR((c.end().mean_stress(0, 0) - 1) / 1e-4, 138.889 - 0.5 * 555.556, 0.01);
     EXPECT_NEAR((c.end().mean_stress(1, 1) - 1) / 1e-4, 555.556 - 0.5 * 138.889, 0.01);
   }
@@ -202,8 +193,7 @@ namespace
   TEST(BoundaryConditions, PeriodicSidesOfFixedWidthGiveK0)
   {
     const QuadMesh mesh    = rectangle(4, 6, 2.);
-    Loading        loading = straight_loading(1, {0, -6}, {1e-4});
-    loading.lateral        = PeriodicSides{0.};
+    const Loading  loading = with_sides(straight_loading(1, {0, -6}, {1e-4}), PeriodicSides{0.});
     for (const Platens platens : {Platens::rough, Platens::smooth})
       {
         const Course c = finished(mesh, loading, with(elastic(), platens, Kinematics::small_strain));
@@ -215,11 +205,10 @@ namespace
   // Periodic sides of free width: all pairs have the same distance. Mean s_xx is the pressure.
   TEST(BoundaryConditions, PeriodicSidesOfFreeWidthCarryThePressure)
   {
-    const QuadMesh mesh    = rectangle(12, 16, 2.);
-    Loading        loading = straight_loading(1, {0, -16}, {0, 0.01});
-    loading.lateral        = PeriodicSides{std::nullopt};
-    const Course    c      = finished(mesh, loading, with_weak_spot(with({}, Platens::smooth, Kinematics::small_strain)));
-    const Snapshot &s      = c.snapshots.back();
+    const QuadMesh  mesh    = rectangle(12, 16, 2.);
+    const Loading   loading = with_sides(straight_loading(1, {0, -16}, {0, 0.01}), PeriodicSides{std::nullopt});
+    const Course    c       = finished(mesh, loading, with_weak_spot(with({}, Platens::smooth, Kinematics::small_strain)));
+    const Snapshot &s       = c.snapshots.back();
     const auto      left = nodes_at_x(s, 0), right = nodes_at_x(s, 12);
     ASSERT_EQ(left.size(), 17u);
     ASSERT_EQ(right.size(), 17u);
@@ -242,8 +231,7 @@ namespace
   TEST(BoundaryConditions, PeriodicSidesRotateAlike)
   {
     const QuadMesh mesh    = rectangle(12, 12, 2.);
-    Loading        loading = straight_loading(1, {12, 0}, {0.02});
-    loading.lateral        = PeriodicSides{0.};
+    Loading        loading = with_sides(straight_loading(1, {12, 0}, {0.02}), PeriodicSides{0.});
     loading.platens[1][1]  = force(-12);
     Options options        = with_weak_spot({});
     options.weak_spot_x    = 0.9;
@@ -266,8 +254,7 @@ namespace
   TEST(BoundaryConditions, PlatenUnderAForceKeepsTheNormalStress)
   {
     const QuadMesh mesh    = rectangle(8, 8, 2.);
-    Loading        loading = straight_loading(1, {8, 0}, {0.08, 0.1});
-    loading.lateral        = PeriodicSides{0.};
+    Loading        loading = with_sides(straight_loading(1, {8, 0}, {0.08, 0.1}), PeriodicSides{0.});
     loading.platens[1][1]  = force(-3 * 8);
     loading.pressure       = 3;
     for (const LawKind law : {LawKind::mohr_coulomb, LawKind::cosserat_mohr_coulomb})

@@ -4,7 +4,6 @@
 
 namespace
 {
-  using namespace diptych::continuum;
   using namespace diptych::continuum::tests;
 
   void expect_same(const CommittedState &a, const CommittedState &b)

@@ -7,7 +7,6 @@
 
 namespace
 {
-  using namespace diptych::continuum;
   using namespace diptych::continuum::tests;
 
   Options softening(const LawKind law)
@@ -185,9 +184,8 @@ namespace
 
   TEST(Refinement, DoesNotDivideAnElasticSample)
   {
-    const QuadMesh mesh    = rectangle(8, 8, 2.);
-    Options        options = elastic();
-    options.refinement     = Refinement::adaptive;
-    EXPECT_EQ(finished(mesh, straight_loading(1, {8, -8}, {0.01}), options).report.n_cells, 16u);
+    Options options    = elastic();
+    options.refinement = Refinement::adaptive;
+    EXPECT_EQ(finished(rectangle(8, 8, 2.), straight_loading(1, {8, -8}, {0.01}), options).report.n_cells, 16u);
   }
 } // namespace

@@ -11,7 +11,6 @@
 
 namespace
 {
-  using namespace diptych::continuum;
   using namespace diptych::continuum::tests;
 
   // Quarter of a cylinder in small strain, without weight and initial stress. All nodes of the inner arc move outwards by the

@@ -1,18 +1,11 @@
 // diptych: hardening that unloads and reverses
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cmath>
-#include <map>
-#include <stdexcept>
-
-#include <gtest/gtest.h>
-
 #include "continuum/equilibrium/point_operations.h"
 #include "continuum/laws/plastic_flow.h"
 #include "tests/continuum/laws/law_states.h"
 
 namespace
 {
-  using namespace diptych::continuum;
   using namespace diptych::continuum::tests;
 
   const std::vector<LawKind> laws = {LawKind::drucker_prager, LawKind::cosserat_drucker_prager, LawKind::cosserat_mohr_coulomb};

@@ -2,15 +2,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <cmath>
-#include <map>
-#include <string>
-#include <vector>
-
 #include "continuum/laws/law_checks.h"
+#include "tests/common.h"
 
 namespace diptych::continuum::tests
 {
+  using namespace diptych::continuum;
+
   constexpr double    degree = M_PI / 180;
   inline const double E      = ElasticOptions().youngs_modulus; // [P], the scale of tangents
 

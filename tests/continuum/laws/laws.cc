@@ -1,18 +1,10 @@
 // diptych: requirements on every constitutive law, at single points
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cmath>
-#include <map>
-#include <set>
-#include <stdexcept>
-
-#include <gtest/gtest.h>
-
 #include "continuum/laws/plastic_flow.h"
 #include "tests/continuum/laws/law_states.h"
 
 namespace
 {
-  using namespace diptych::continuum;
   using namespace diptych::continuum::tests;
 
   // Start states and strain sizes that reach every regime: isotropic, softened, stretched, sigma_zz as an outer stress.

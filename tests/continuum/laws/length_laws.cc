@@ -1,15 +1,9 @@
 // diptych: laws with an internal length, at single points
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cmath>
-#include <stdexcept>
-
-#include <gtest/gtest.h>
-
 #include "tests/continuum/laws/law_states.h"
 
 namespace
 {
-  using namespace diptych::continuum;
   using namespace diptych::continuum::tests;
 
   // Without rotation and curvature a Cosserat law is the classical one, for Mohr-Coulomb if sigma_zz is intermediate.

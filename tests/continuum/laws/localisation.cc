@@ -1,14 +1,9 @@
 // diptych: loss of ellipticity against the closed form of in-plane Mohr-Coulomb and against a search over directions
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cmath>
-#include <limits>
-#include <random>
-
-#include <gtest/gtest.h>
-
 #include <Eigen/Dense>
 
 #include "continuum/laws/localisation.h"
+#include "tests/common.h"
 
 namespace
 {

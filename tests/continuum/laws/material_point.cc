@@ -1,16 +1,10 @@
 // diptych: one point along paths of strains and stresses
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "continuum/laws/material_point.h"
-
-#include <algorithm>
-#include <cmath>
-
 #include "tests/continuum/laws/law_states.h"
-#include "tests/files.h"
 
 namespace
 {
-  using namespace diptych::continuum;
   using namespace diptych::continuum::tests;
 
   MaterialPointReport drive(const LawKind     law,

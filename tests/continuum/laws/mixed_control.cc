@@ -1,15 +1,10 @@
 // diptych: one point along paths on which any strain or stress is prescribed
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <algorithm>
-#include <cmath>
-
 #include "continuum/laws/material_point.h"
 #include "tests/continuum/laws/law_states.h"
-#include "tests/files.h"
 
 namespace
 {
-  using namespace diptych::continuum;
   using namespace diptych::continuum::tests;
 
   // From an isotropic stress of 1; the first row is the start.

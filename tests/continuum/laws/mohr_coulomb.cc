@@ -1,19 +1,12 @@
 // diptych: Mohr-Coulomb in principal space, against independent solutions
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cmath>
-#include <map>
-#include <random>
-#include <set>
-
 #include <Eigen/Dense>
-#include <gtest/gtest.h>
 
 #include "continuum/laws/plastic_flow.h"
 #include "tests/continuum/laws/law_states.h"
 
 namespace
 {
-  using namespace diptych::continuum;
   using namespace diptych::continuum::tests;
 
   // Principal stresses along the axes. Plane (i, j) is (s_i - s_j)/2 + (s_i + s_j)/2 sin phi - c cos phi = 0; there are six.

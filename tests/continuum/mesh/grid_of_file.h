@@ -2,15 +2,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <fstream>
-#include <map>
-
 #include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
 
 #include "continuum/mesh/mesh.h"
-#include "tests/files.h"
+#include "tests/common.h"
 
 namespace diptych::continuum
 {

@@ -1,9 +1,5 @@
 // diptych: meshes that are made
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cmath>
-#include <map>
-#include <set>
-
 #include "continuum/elements/discretisation.h"
 #include "tests/continuum/continuum_scenes.h"
 #include "tests/continuum/mesh/grid_of_file.h"

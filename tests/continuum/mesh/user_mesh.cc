@@ -1,10 +1,14 @@
-// diptych: the user's meshes and the templates: read by name, or refused with the reason
+// diptych: meshes of the user, and the child process that makes them
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cmath>
-
+#include <unistd.h>
+#include <iterator>
+#include <csignal>
 #include <gmsh.h>
 
+#include "continuum/mesh/mesh_child.h"
+#include "continuum/mesh/mesh.h"
 #include "tests/continuum/mesh/grid_of_file.h"
+#include "tests/common.h"
 
 namespace
 {
@@ -201,8 +205,7 @@ namespace
 
   TEST(Mesh, TemplateOfASampleIsMeshed)
   {
-    const QuadMesh    mesh    = mesh_of_template("sample.geo");
-    const MeshSummary summary = summarise(mesh);
+    const MeshSummary summary = summarise(mesh_of_template("sample.geo"));
     EXPECT_NEAR(summary.area, 52 * 75, 1e-9);
     EXPECT_TRUE(summary.sides_match);
   }
@@ -249,5 +252,52 @@ namespace
     UserMesh().write(folder / "text.msh");
     rewrite(folder / "text.msh", folder / "binary.msh", "Mesh.Binary", 1);
     EXPECT_EQ(read_mesh(folder / "binary.msh").cells.size(), 2u);
+  }
+
+  // Process numbers of the children of this thread; MPI may have one.
+  std::string children()
+  {
+    std::ifstream file("/proc/thread-self/children");
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  TEST(MeshChild, ReturnsTheMeshUnchanged)
+  {
+    const QuadMesh mesh = rectangle_mesh({10, 6.2, 1.3, 0.5});
+    const QuadMesh same = made_in_child([&] { return mesh; }, {});
+    EXPECT_EQ(same.vertices, mesh.vertices);
+    EXPECT_EQ(same.cells, mesh.cells);
+    EXPECT_EQ(same.boundary.size(), mesh.boundary.size());
+  }
+
+  TEST(MeshChild, ExceptionsCrashesAndExitsAreReported)
+  {
+    EXPECT_THROW((void)made_in_child([]() -> QuadMesh { throw std::invalid_argument("no"); }, {}), std::invalid_argument);
+    EXPECT_THROW((void)made_in_child([]() -> QuadMesh { throw std::runtime_error("no"); }, {}), std::runtime_error);
+    const auto crash = []() -> QuadMesh {
+      std::raise(SIGSEGV);
+      return {};
+    };
+    EXPECT_THROW((void)made_in_child(crash, {}), GmshEnded);
+    EXPECT_THROW((void)made_in_child([]() -> QuadMesh { _exit(0); }, {}), GmshEnded);
+  }
+
+  TEST(MeshChild, EndsOnRequestAndAtItsTimeLimit)
+  {
+    const auto endless = []() -> QuadMesh {
+      for (volatile int k = 0;; k = k + 1)
+        {}
+    };
+    struct Stopped
+    {};
+    const std::string before = children();
+    EXPECT_THROW((void)made_in_child(endless, [] { throw Stopped(); }), Stopped);
+    EXPECT_EQ(children(), before) << "the child is still there";
+    EXPECT_THROW((void)made_in_child(endless, {}, 1), GmshEnded);
+    const auto waiting = []() -> QuadMesh { // uses no CPU time
+      pause();
+      return {};
+    };
+    EXPECT_THROW((void)made_in_child(waiting, {}, 1), GmshEnded);
   }
 } // namespace

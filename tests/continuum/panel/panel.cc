@@ -1,11 +1,9 @@
 // diptych: a run of the continuum panel: stages, rows, early ends, refused input
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "tests/continuum/continuum_scenes.h"
-#include "tests/files.h"
 
 namespace
 {
-  using namespace diptych::continuum;
   using namespace diptych::continuum::tests;
 
   TEST(Panel, FortyFiveDegreeShearLandsOnItsStages)
@@ -30,8 +28,7 @@ namespace
   // At a stage the cells fill the area, the means are those of the history, the platens are at the prescribed positions.
   TEST(Panel, SnapshotAndHistoryAreOfOneState)
   {
-    const QuadMesh  mesh = rectangle(14, 20, 2.);
-    const Course    c    = finished(mesh, straight_loading(1, {20, -20}, {0.01}), {});
+    const Course    c    = finished(rectangle(14, 20, 2.), straight_loading(1, {20, -20}, {0.01}), {});
     const Snapshot &s    = c.snapshots.back();
     double          area = 0, weight = 0, dissipation = 0;
     Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
@@ -327,9 +324,8 @@ namespace
   TEST(Panel, LoadingsThatTheMeshCannotCarryAreRefused)
   {
     const QuadMesh straight = rectangle(4, 6, 2.);
-    Loading        loading  = straight_loading(1, {0, -6}, {0.001});
-    loading.lateral         = PeriodicSides();
-    Options options         = elastic();
+    Loading        loading  = with_sides(straight_loading(1, {0, -6}, {0.001}), PeriodicSides());
+    Options        options  = elastic();
     options.refinement      = Refinement::adaptive;
     EXPECT_THROW((void)course(straight, loading, options), std::invalid_argument);
     loading.lateral = PeriodicSides{std::nullopt};

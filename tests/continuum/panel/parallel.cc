@@ -6,7 +6,6 @@
 
 namespace
 {
-  using namespace diptych::continuum;
   using namespace diptych::continuum::tests;
 
   bool is_first()
@@ -78,28 +77,24 @@ namespace
 
   TEST(Parallel, MultigridSolver)
   {
-    const QuadMesh mesh    = rectangle(14, 20, 2.);
-    Options        options = fixed_steps(LawKind::mohr_coulomb);
-    options.linear_solver  = LinearChoice::amg;
-    as_alone(mesh, straight_loading(1, {20, -20}, {0, 0.006}), options, 1e-4);
+    Options options       = fixed_steps(LawKind::mohr_coulomb);
+    options.linear_solver = LinearChoice::amg;
+    as_alone(rectangle(14, 20, 2.), straight_loading(1, {20, -20}, {0, 0.006}), options, 1e-4);
   }
 
   // Pairs of periodic nodes, and tied nodes of a platen, lie on different processes.
   TEST(Parallel, PlaneShearBetweenPeriodicSides)
   {
-    const QuadMesh mesh    = rectangle(16, 8, 2.);
-    Loading        loading = straight_loading(1, {8, 0}, {0, 0.01});
-    loading.lateral        = PeriodicSides{0.};
-    loading.platens[1][1]  = force(-16);
-    as_alone(mesh, loading, fixed_steps(LawKind::mohr_coulomb), 1e-4);
+    Loading loading       = with_sides(straight_loading(1, {8, 0}, {0, 0.01}), PeriodicSides{0.});
+    loading.platens[1][1] = force(-16);
+    as_alone(rectangle(16, 8, 2.), loading, fixed_steps(LawKind::mohr_coulomb), 1e-4);
   }
 
   TEST(Parallel, RigidWallUnderPressure)
   {
     const QuadMesh mesh      = rectangle(8, 16, 2.);
-    Loading        loading   = straight_loading(1, {0, -16}, {0, 0.01});
-    loading.lateral          = RigidSides();
-    Options options          = fixed_steps(LawKind::mohr_coulomb);
+    const Loading  loading   = with_sides(straight_loading(1, {0, -16}, {0, 0.01}), RigidSides());
+    Options        options   = fixed_steps(LawKind::mohr_coulomb);
     options.platens          = Platens::smooth;
     options.element          = Displacement::q1_bbar;
     options.weak_spot_strain = 0.05;
@@ -191,10 +186,9 @@ namespace
   // Material is squeezed out beside a platen and joins it, which adds nodes to the platen.
   TEST(ParallelChanges, SideContact)
   {
-    const QuadMesh mesh    = rectangle(30, 30, 3.75);
-    Options        options = fixed_steps(LawKind::cosserat_mohr_coulomb);
-    options                = with_steps(options, 5e-3);
-    const Course c         = as_alone(mesh, straight_loading(1, {30, -30}, {0, 0.25}), options, 1e-3);
+    Options options = fixed_steps(LawKind::cosserat_mohr_coulomb);
+    options         = with_steps(options, 5e-3);
+    const Course c  = as_alone(rectangle(30, 30, 3.75), straight_loading(1, {30, -30}, {0, 0.25}), options, 1e-3);
     if (!is_first())
       return;
     EXPECT_GT(n_captured(c.snapshots.back(), 30), 0);

@@ -4,7 +4,6 @@
 
 namespace
 {
-  using namespace diptych::continuum;
   using namespace diptych::continuum::tests;
 
   Options options_of(const LawKind law, const bool is_adaptive = false)

@@ -1,13 +1,11 @@
-// diptych: the continuum panel against closed forms
+// diptych: the continuum panel against closed forms and published codes of others
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <algorithm>
-
 #include "continuum/laws/material_point.h"
 #include "tests/continuum/continuum_scenes.h"
+#include "tests/continuum/problem_scenes.h"
 
 namespace
 {
-  using namespace diptych::continuum;
   using namespace diptych::continuum::tests;
 
   constexpr double E = 500, nu = 0.2, G = E / (2 * (1 + nu)); // defaults of ElasticOptions
@@ -139,8 +137,7 @@ namespace
     options.material.couple_shear_ratio = 0.5;
     options.material.internal_length    = 1;
     options.tolerance                   = 1e-8;
-    Loading loading                     = straight_loading(1, {20, 0}, {1e-3});
-    loading.lateral                     = PeriodicSides{0.};
+    const Loading loading               = with_sides(straight_loading(1, {20, 0}, {1e-3}), PeriodicSides{0.});
     for (const auto &[rotation, expected] : {std::pair{PlatenRotation::held, 1.042562}, std::pair{PlatenRotation::free, 1.}})
       for (const Kinematics geometry : {Kinematics::small_strain, Kinematics::updated})
         {
@@ -157,10 +154,9 @@ namespace
   // zero step length is the closed form.
   TEST(Validation, StressTurnsWithTheMaterialInSimpleShear)
   {
-    const QuadMesh mesh    = rectangle(2, 2, 2.);
-    Loading        loading = straight_loading(1, {2, 0}, {1});
-    loading.lateral        = PeriodicSides{0.};
-    const auto stress_at   = [&](const double step) {
+    const QuadMesh mesh      = rectangle(2, 2, 2.);
+    const Loading  loading   = with_sides(straight_loading(1, {2, 0}, {1}), PeriodicSides{0.});
+    const auto     stress_at = [&](const double step) {
       return Eigen::Matrix3d(finished(mesh, loading, with_steps(elastic(), step)).end().mean_stress);
     };
     const Eigen::Matrix3d coarse = stress_at(0.02), fine = stress_at(0.01), limit = 2 * fine - coarse;
@@ -178,8 +174,7 @@ namespace
   TEST(Validation, SimpleShearStrengthIsThatOfDavis)
   {
     const QuadMesh mesh    = rectangle(2, 2, 2.);
-    Loading        loading = straight_loading(1, {2, 0}, {0.1});
-    loading.lateral        = PeriodicSides{0.};
+    Loading        loading = with_sides(straight_loading(1, {2, 0}, {0.1}), PeriodicSides{0.});
     loading.platens[1][1]  = force(-2);
     for (const auto &[law, element] : plastic_elements)
       {
@@ -222,5 +217,104 @@ namespace
             EXPECT_GT(std::min(stress[0], stress[1]), 2.325236) << "rough platens confine";
           }
       }
+  }
+
+  // A square of 24 x 24 between rough platens, 16 x 16 elements with 9 nodes, small strain, 40 equal steps to 2 % axial strain.
+  // E = 500 and nu = 0.2 are the defaults. The pressure on the sides is 1 and falls as the height does: 1 - strain on the
+  // initial shape.
+  HistoryRow after_forty_steps(const LawKind law,
+                               const double  dilatancy,
+                               const double  cohesion,
+                               const double  horizontal_over_vertical)
+  {
+    constexpr double side = 24, strain = 0.02;
+    Options          options = perfectly_plastic(law, 30, dilatancy, cohesion);
+    options                  = with_steps(with(options, Platens::rough, Kinematics::small_strain), strain / 40);
+    options.tolerance        = 1e-8;
+    Loading loading          = straight_loading(1, {horizontal_over_vertical * side, -side}, {strain});
+    loading.side_pressure    = [](const double progress) { return 1 - progress; };
+    return finished(rectangle(side, side, side / 16), loading, options).end();
+  }
+
+  // Friction 30 degrees, cohesion 0.1. Returns to the edges and to the apex of the pyramid occur near the corners.
+  TEST(Published, AssociatedMohrCoulombCarriesTheForceOfSysalasCode)
+  {
+    const HistoryRow end = after_forty_steps(LawKind::mohr_coulomb, 30, 0.1, 0);
+    EXPECT_NEAR(-end.upper_platen_force.y(), 103.959039, 1e-6);
+    EXPECT_NEAR(end.volumetric_strain, -0.0293904, 1e-7);
+  }
+
+  // Dilatancy 10 degrees; the upper platen moves down at 45 degrees.
+  TEST(Published, NonAssociatedMohrCoulombCarriesTheForceOfSysalasCodeAtFortyFiveDegrees)
+  {
+    const HistoryRow end = after_forty_steps(LawKind::mohr_coulomb, 10, 0.1, 1);
+    EXPECT_NEAR(-end.upper_platen_force.y(), 94.574584, 1e-6);
+    EXPECT_NEAR(end.upper_platen_force.x(), 1.70665, 1e-5);
+    EXPECT_NEAR(end.volumetric_strain, -0.0016055, 1e-7);
+  }
+
+  TEST(Published, AssociatedDruckerPragerCarriesTheForceOfTheCodeOfCermakSysalaAndValdman)
+  {
+    const HistoryRow end = after_forty_steps(LawKind::drucker_prager, 30, 0.1, 0);
+    EXPECT_NEAR(-end.upper_platen_force.y(), 103.363899977, 5e-7);
+    EXPECT_NEAR(end.volumetric_strain, -0.0236368692, 1e-9);
+  }
+
+  // Softens linearly from c = 0.5 to 0.36 over a hardening variable of 0.1; no friction. A weak spot starts the band.
+  Options layer(const double length, const double weight)
+  {
+    Options options           = with_steps(with({}, Platens::rough, Kinematics::small_strain), 1e-3);
+    options.law               = LawKind::gradient_drucker_prager;
+    LawOptions &law           = options.material;
+    law.hardening             = HardeningKind::table;
+    law.table_strain          = {0, 0.1};
+    law.table_friction_angle  = {0, 0};
+    law.table_dilatancy_angle = {0, 0};
+    law.table_cohesion        = {0.5, 0.36};
+    law.internal_length       = length;
+    law.nonlocal_weight       = weight;
+    law.viscosity             = 5e-4;
+    options.weak_spot_strain  = 0.01;
+    options.weak_spot_radius  = 0.8 * length;
+    return options;
+  }
+
+  // Standard deviation across the layer of the hardening variable that grew between two progresses.
+  double half_width(const double h, const Options &options)
+  {
+    constexpr double     height  = 20;
+    const Loading        loading = with_sides(straight_loading(1, {height, 0}, {1}), PeriodicSides{0.});
+    BoundaryValueProblem problem(rectangle(h, height, h), Units(), loading, options);
+    LoadDriver           driver(problem, options);
+    EXPECT_EQ(driver.equilibrate(), "");
+    EXPECT_EQ(advance(problem, driver, 0.015), "");
+    const auto before = problem.committed().points;
+    EXPECT_EQ(advance(problem, driver, 0.025), "");
+    const auto &mesh = problem.discretisation();
+    double      sum = 0, first = 0, second = 0;
+    for (std::size_t i = 0; i < before.size(); ++i)
+      {
+        const std::size_t c = i / mesh.reference.n_points, q = i % mesh.reference.n_points;
+        double            y = -height / 2;
+        for (unsigned int node = 0; node < mesh.reference.n_nodes; ++node)
+          y += mesh.reference.shape[q][node] * mesh.nodes[mesh.cells[c].nodes[node]].initial.y();
+        const double w = problem.geometry().cells[c].points[q].area *
+                         (problem.committed().points[i].equivalent_plastic_strain - before[i].equivalent_plastic_strain);
+        sum += w, first += w * y, second += w * y * y;
+      }
+    EXPECT_GT(sum, 0);
+    return std::sqrt(second / sum - first * first / (sum * sum));
+  }
+
+  // The softening variable is uniform in the plastic zone, so that kappa = cos(x/a) - cos(w/(2a)) up to a factor, with a = l
+  // sqrt(m - 1) and the zone w = 2 a (pi - atan(l/a)), where kappa = 0. For m = 2 this is w = 4.71 l and a standard deviation of
+  // 0.976 l. For m = 1 there is no such solution: the band is as thin as the mesh permits.
+  TEST(GradientLayer, HasTheWidthOfTheClosedFormOnAnyMesh)
+  {
+    const double coarse = half_width(2, layer(2, 2)), fine = half_width(1, layer(2, 2));
+    EXPECT_NEAR(coarse / fine, 1, 0.03);
+    EXPECT_NEAR(fine, 0.976 * 2, 0.03 * 0.976 * 2);
+    EXPECT_NEAR(half_width(0.5, layer(1, 2)), 0.976, 0.03 * 0.976);
+    EXPECT_LT(half_width(1, layer(2, 1)), 0.7 * half_width(2, layer(2, 1)));
   }
 } // namespace

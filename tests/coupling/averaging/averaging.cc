@@ -9,7 +9,6 @@
 
 namespace
 {
-  using namespace diptych::coupling;
   using namespace diptych::coupling::synthetic;
 
   // |sum over cells - sum over carriers| of every column, relative to the sum of the absolute values over carriers.

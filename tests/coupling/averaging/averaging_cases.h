@@ -2,11 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "coupling/averaging/averaging.h"
 #include "discrete/choices.h"
 #include "tests/coupling/synthetic_samples.h"

@@ -1,8 +1,5 @@
 // diptych: tests of averaging for cases with a known answer
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cmath>
-#include <stdexcept>
-
 #include "coupling/averaging/averaging.h"
 #include "coupling/averaging/periodic.h"
 #include "tests/coupling/averaging/averaging_cases.h"
@@ -10,7 +7,6 @@
 
 namespace
 {
-  using namespace diptych::coupling;
   using namespace diptych::coupling::synthetic;
 
   // Grains on every node and in the middle of every edge of a grid.

@@ -1,11 +1,6 @@
 // diptych: tests of the nodal identity at every node for samples that extend beyond the mesh
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/collar.h"
-
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "coupling/averaging/periodic.h"
 #include "discrete/panel/make_snapshot.h"
 #include "discrete/samples/sample_preparation.h"

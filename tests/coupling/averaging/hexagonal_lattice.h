@@ -2,13 +2,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <vector>
-
 #include <Eigen/Core>
 
 #include "coupling/probes/grain_network.h"
+#include "tests/common.h"
 
 namespace diptych::coupling::synthetic
 {

@@ -1,11 +1,6 @@
 // diptych: tests of the power cells of discs
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/power_cells.h"
-
-#include <cmath>
-#include <map>
-#include <stdexcept>
-
 #include "coupling/averaging/disc_part.h"
 #include "tests/coupling/averaging/averaging_cases.h"
 #include "tests/coupling/averaging/hexagonal_lattice.h"

@@ -1,11 +1,6 @@
 // diptych: tests of the stress of a periodic sample on cells
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/periodic.h"
-
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "tests/coupling/synthetic_samples.h"
 
 namespace

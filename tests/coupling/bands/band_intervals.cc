@@ -2,12 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/bands/band_detection.h"
 #include "coupling/bands/band_intervals.h"
-
-#include <array>
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "coupling/bands/band_calibration.h"
 #include "tests/coupling/synthetic_samples.h"
 
@@ -161,17 +155,17 @@ namespace
   {
     const auto field = noisy_field(oblique, 9, 0.05, 3);
     const Band band  = find_bands(field, frame).bands[0];
-    const auto holds = [](const Interval &interval, const double value) {
-      EXPECT_EQ(interval.value, value);
-      EXPECT_LT(interval.low, value);
-      EXPECT_GT(interval.high, value);
-    };
-    holds(band.interval.angle_deg, band.angle_deg);
-    holds(band.interval.half_width, band.half_width);
-    holds(band.interval.width_10_90, band.width_10_90);
-    holds(band.interval.offset, band.offset);
-    holds(band.interval.jump, band.jump);
-    holds(band.interval.dilation_deg, band.dilation_deg);
+    for (const auto &[interval, value] : {std::pair(band.interval.angle_deg, band.angle_deg),
+                                          {band.interval.half_width, band.half_width},
+                                          {band.interval.width_10_90, band.width_10_90},
+                                          {band.interval.offset, band.offset},
+                                          {band.interval.jump, band.jump},
+                                          {band.interval.dilation_deg, band.dilation_deg}})
+      {
+        EXPECT_EQ(interval.value, value);
+        EXPECT_LT(interval.low, value);
+        EXPECT_GT(interval.high, value);
+      }
   }
 
   // For small noise everything is linear: twice the noise gives twice the interval. The width enters by its logarithm.

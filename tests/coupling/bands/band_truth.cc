@@ -2,11 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/bands/band_detection.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <Eigen/LU>
-#include <gtest/gtest.h>
 
 #include "tests/coupling/synthetic_samples.h"
 

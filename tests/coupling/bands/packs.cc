@@ -1,15 +1,11 @@
 // diptych: tests of the conditions for two packs, and of remainders of a smooth field that a tanh fits
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cmath>
-
 #include "coupling/bands/band_detection.h"
 #include "coupling/bands/packs.h"
 #include "tests/coupling/synthetic_samples.h"
-#include "tests/files.h"
 
 namespace
 {
-  using namespace diptych::coupling;
   using namespace diptych::coupling::synthetic;
   using diptych::tests::expect_words;
 

@@ -1,7 +1,5 @@
 // diptych: tests that every written number and array is described, and every described one is written
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <fstream>
-#include <set>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -16,7 +14,6 @@
 
 namespace
 {
-  using namespace diptych::coupling;
   using namespace diptych::coupling::synthetic;
   using nlohmann::json;
 

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <cmath>
-
 #include "coupling/comparison/comparison.h"
 #include "tests/coupling/synthetic_samples.h"
 

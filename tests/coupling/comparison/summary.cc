@@ -1,13 +1,10 @@
 // diptych: tests of counts, extremes and costs of a whole run, and of differences of bands
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <gtest/gtest.h>
-
 #include "coupling/comparison/key_numbers.h"
 #include "tests/coupling/comparison/example_results.h"
 
 namespace
 {
-  using namespace diptych::coupling;
   using namespace diptych::coupling::synthetic;
 
   DiscreteSummary grains_summary(const Scene &scene)

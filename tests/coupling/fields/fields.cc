@@ -1,11 +1,6 @@
 // diptych: tests of the grains' fields on cells between two stages
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/fields/fields.h"
-
-#include <cmath>
-#include <functional>
-#include <stdexcept>
-
 #include "benchmarks/homogenisation/airy_network.h"
 #include "discrete/contacts/internal_moment.h"
 #include "tests/coupling/averaging/averaging_cases.h"
@@ -13,8 +8,6 @@
 
 namespace
 {
-  using namespace diptych;
-  using namespace diptych::coupling;
   using namespace diptych::coupling::synthetic;
 
   // A snapshot of discs at rest with density 1. The given forces are those of the last step and of the window.

@@ -1,13 +1,8 @@
 // diptych: tests of the circular probe in states of known stress
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/probes/circular_probe.h"
-
-#include <numeric>
-#include <stdexcept>
-
 #include "tests/coupling/averaging/hexagonal_lattice.h"
 #include "tests/coupling/synthetic_samples.h"
-#include "tests/files.h"
 
 namespace
 {

@@ -1,9 +1,6 @@
 // diptych: tests of force chains inside and outside a zone, with values of known distribution
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/probes/force_chains.h"
-
-#include <gtest/gtest.h>
-
 #include "tests/coupling/synthetic_samples.h"
 
 namespace

@@ -1,9 +1,6 @@
 // diptych: tests of intervals, dispersion and differences of probes, on samples of known truth
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/probes/probe_statistics.h"
-
-#include <gtest/gtest.h>
-
 #include "coupling/probes/probes.h"
 #include "tests/coupling/averaging/hexagonal_lattice.h"
 #include "tests/coupling/synthetic_samples.h"

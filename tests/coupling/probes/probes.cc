@@ -1,13 +1,8 @@
 // diptych: tests of probes in states of known stress and fabric
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/probes/probes.h"
-
-#include <numeric>
-#include <stdexcept>
-
 #include "tests/coupling/averaging/hexagonal_lattice.h"
 #include "tests/coupling/synthetic_samples.h"
-#include "tests/files.h"
 
 namespace
 {

@@ -1,11 +1,9 @@
 // diptych: what progress prints on a terminal and in a log
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/processes/progress.h"
+#include "tests/common.h"
 
-#include <functional>
 #include <iostream>
-
-#include <gtest/gtest.h>
 
 #include <pty.h>
 #include <sys/wait.h>

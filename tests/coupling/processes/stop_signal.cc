@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <csignal>
 
-#include <gtest/gtest.h>
-
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "coupling/processes/stop_signal.h"
+#include "tests/common.h"
 
 namespace
 {

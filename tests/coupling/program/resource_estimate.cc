@@ -1,9 +1,8 @@
 // diptych: a run that does not fit the machine is refused before it begins
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/program/resource_estimate.h"
-
 #include "coupling/scene/scene_file.h"
-#include "tests/files.h"
+#include "tests/common.h"
 
 namespace
 {

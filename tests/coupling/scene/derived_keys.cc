@@ -1,10 +1,8 @@
 // diptych: keys that follow from others: speed, windows, meshes and the law of the continuum
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cmath>
-
 #include "coupling/scene/scene_file.h"
 #include "discrete/files/text_file.h"
-#include "tests/files.h"
+#include "tests/common.h"
 
 namespace
 {

@@ -3,7 +3,7 @@
 #include "coupling/scene/identity.h"
 #include "coupling/scene/scene_file.h"
 #include "discrete/files/text_file.h"
-#include "tests/files.h"
+#include "tests/common.h"
 
 namespace
 {

@@ -3,7 +3,6 @@
 #include "coupling/store/continuum_checkpoint_file.h"
 
 #include <csignal>
-#include <limits>
 
 #include <sys/resource.h>
 
@@ -13,8 +12,6 @@
 
 namespace
 {
-  using namespace diptych;
-  using namespace diptych::coupling;
   using namespace diptych::coupling::files;
 
   // Every entry another value.

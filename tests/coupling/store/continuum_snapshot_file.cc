@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/store/continuum_snapshot_file.h"
 
-#include <set>
-
 #include <hdf5.h>
 
 #include "discrete/files/table_file.h"
@@ -11,8 +9,6 @@
 
 namespace
 {
-  using namespace diptych;
-  using namespace diptych::coupling;
   using namespace diptych::coupling::files;
 
   TEST(ContinuumSnapshotFile, EveryFieldOfEveryStageComesBackBitByBit)

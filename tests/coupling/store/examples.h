@@ -2,17 +2,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <cmath>
-#include <cstring>
-
 #include "continuum/history.h"
 #include "continuum/snapshot_fields.h"
-#include "discrete/files/text_file.h"
 #include "tests/coupling/synthetic_samples.h"
-#include "tests/files.h"
 
 namespace diptych::coupling::files
 {
+  using namespace diptych;
+  using namespace diptych::coupling;
   namespace fs = std::filesystem;
   using continuum::CellState;
   using continuum::HistoryRow;

@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <fstream>
 #include <thread>
 
 #include <sys/wait.h>
@@ -12,7 +11,7 @@
 
 #include "coupling/processes/child_process.h"
 #include "discrete/files/text_file.h"
-#include "tests/files.h"
+#include "tests/common.h"
 
 namespace
 {

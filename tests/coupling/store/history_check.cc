@@ -1,10 +1,6 @@
 // diptych: a table is that of the snapshots beside it, or it is refused
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/store/history_check.h"
-
-#include <algorithm>
-#include <functional>
-
 #include "continuum/history.h"
 #include "tests/coupling/comparison/example_results.h"
 #include "tests/coupling/store/examples.h"

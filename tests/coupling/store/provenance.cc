@@ -3,12 +3,10 @@
 #include "coupling/scene/scene.h"
 #include "coupling/store/provenance.h"
 
-#include <fstream>
-
 #include <nlohmann/json.hpp>
 
 #include "discrete/files/text_file.h"
-#include "tests/files.h"
+#include "tests/common.h"
 
 namespace
 {

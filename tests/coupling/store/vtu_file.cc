@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/files/vtu_file.h"
 
-#include <map>
 #include <regex>
 
 #include "coupling/store/continuum_snapshot_file.h"
@@ -10,8 +9,6 @@
 
 namespace
 {
-  using namespace diptych;
-  using namespace diptych::coupling;
   using namespace diptych::coupling::files;
   using discrete::VtkCell;
   using discrete::VtuField;

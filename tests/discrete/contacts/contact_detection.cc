@@ -1,12 +1,9 @@
-// diptych: every pair within reach is found, once
+// diptych: every pair within reach is found, once, and the sweep order contains every contact once
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cmath>
-#include <random>
-#include <set>
-
-#include <gtest/gtest.h>
-
 #include "discrete/contacts/contact_detection.h"
+#include "discrete/contacts/contact_order.h"
+#include "tests/common.h"
+#include "tests/discrete/small_scenes.h"
 
 namespace
 {
@@ -109,5 +106,30 @@ namespace
     const Contact w = make_contact(state, 0, 2);
     EXPECT_NEAR(w.gap, 0, 1e-15);
     EXPECT_NEAR((w.point - Eigen::Vector2d(2, 4.5)).norm(), 0, 1e-15);
+  }
+
+  using namespace diptych::tests;
+
+  TEST(SweepOrder, IsAPermutationUpward)
+  {
+    const ShearedSample        sheared  = sheared_sample();
+    const std::vector<Contact> contacts = find_contacts(sheared.state, std::vector<double>(sheared.state.grains.size(), 0.05));
+    const std::vector<int>     order    = sweep_order(contacts, 1.);
+    ASSERT_EQ(order.size(), contacts.size());
+    EXPECT_EQ(std::set<int>(order.begin(), order.end()).size(), contacts.size());
+    for (std::size_t k = 1; k < order.size(); ++k)
+      EXPECT_GT(contacts[order[k]].point.y(), contacts[order[k - 1]].point.y() - 0.1) << "layers are a tenth of the length thick";
+    for (const int row : order)
+      EXPECT_TRUE(row >= 0 && row < int(contacts.size()));
+  }
+
+  // Grains on one line, or a very distant grain, must not require endless layers.
+  TEST(SweepOrder, CopesWithOneLineAndWithFarFlungGrains)
+  {
+    EXPECT_TRUE(sweep_order({}, 1.).empty());
+    std::vector<Contact> contacts(3, Contact{0, 1, 0, {0, 1}, {0, 2}});
+    EXPECT_EQ(sweep_order(contacts, 1.), (std::vector<int>{0, 1, 2}));
+    contacts[0].point.y() = 1e12;
+    EXPECT_EQ(sweep_order(contacts, 1.), (std::vector<int>{1, 2, 0}));
   }
 } // namespace

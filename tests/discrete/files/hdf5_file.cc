@@ -1,7 +1,6 @@
 // diptych: an HDF5 file is whole or absent, and what it holds is not believed before it is checked
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <csignal>
-#include <cstring>
 #include <memory>
 
 #include <sys/resource.h>
@@ -11,7 +10,7 @@
 
 #include "discrete/files/hdf5_file.h"
 #include "discrete/files/text_file.h"
-#include "tests/files.h"
+#include "tests/common.h"
 
 // The library keeps open objects of a file with a turned bit that it has already read (HDF5 1.10); it closes
 // itself the objects that we leave open.

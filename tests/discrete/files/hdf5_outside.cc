@@ -5,7 +5,7 @@
 #include <hdf5.h>
 
 #include "discrete/files/hdf5_file.h"
-#include "tests/files.h"
+#include "tests/common.h"
 
 namespace
 {

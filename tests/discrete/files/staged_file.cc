@@ -1,9 +1,7 @@
 // diptych: a file of stages grows without touching what it holds, and any reader of HDF5 opens it at any time
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <fstream>
-
 #include "discrete/files/staged_file.h"
-#include "tests/files.h"
+#include "tests/common.h"
 
 namespace
 {

@@ -1,7 +1,5 @@
 // diptych: a cell that is periodic in both directions, driven by strains and stresses
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cmath>
-
 #include "discrete/contacts/lattice_motion.h"
 #include "tests/discrete/small_scenes.h"
 

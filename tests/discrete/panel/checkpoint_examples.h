@@ -2,13 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <cstring>
-#include <fstream>
-#include <random>
-
 #include "discrete/panel/checkpoint.h"
 #include "tests/discrete/small_scenes.h"
-#include "tests/files.h"
 
 namespace
 {

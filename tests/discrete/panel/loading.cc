@@ -1,11 +1,7 @@
 // diptych: every mode of loading, every lateral condition, and their history
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cmath>
-
-#include "discrete/files/text_file.h"
 #include "discrete/panel/loading.h"
 #include "tests/discrete/small_scenes.h"
-#include "tests/files.h"
 
 namespace
 {
@@ -284,7 +280,6 @@ namespace
         double sxx = 0;
         for (const HistoryRow &row : course.rows)
           sxx += row.stress(0, 0) / double(course.rows.size());
-        RecordProperty("sxx_" + std::to_string(count), std::to_string(sxx));
         EXPECT_NEAR(sxx, 1, 0.2) << "the force of deep end grains acts inside the outline";
       }
   }
@@ -305,8 +300,6 @@ namespace
             share[k] += row.platen_sliding / double(course.rows.size());
           }
       }
-    RecordProperty("rough", std::to_string(share[0]));
-    RecordProperty("smooth", std::to_string(share[1]));
     EXPECT_LT(share[0], 0.3);
     EXPECT_GT(share[1], share[0] + 0.2);
   }
@@ -353,8 +346,6 @@ namespace
     ASSERT_EQ(penalty.report.status, Status::finished) << penalty.report.message;
     EXPECT_NEAR(penalty.report.axial_strain, 0.015, 1e-12);
     EXPECT_EQ(penalty.snapshots.front().time, 0) << "time of the loading, not of the preload";
-    RecordProperty("nscd", std::to_string(mean_stress_ratio(nscd, 0.005)));
-    RecordProperty("penalty", std::to_string(mean_stress_ratio(penalty, 0.005)));
     EXPECT_NEAR(mean_stress_ratio(penalty, 0.005), mean_stress_ratio(nscd, 0.005), 0.05);
     options.method.method  = Method::compliant;
     const Course compliant = loaded(small_sample(200), loading, options);

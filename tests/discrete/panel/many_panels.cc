@@ -1,14 +1,10 @@
 // diptych: many samples in one process leave no trace in memory or results
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cstring>
-
 #include <malloc.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "discrete/files/text_file.h"
 #include "tests/discrete/small_scenes.h"
-#include "tests/files.h"
 
 namespace
 {

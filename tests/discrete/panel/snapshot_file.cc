@@ -1,19 +1,13 @@
 // diptych: snapshots read back as they were written, and impossible ones are refused
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cmath>
-#include <functional>
-
 #include <hdf5.h>
 
-#include "discrete/files/text_file.h"
 #include "discrete/panel/snapshot_file.h"
 #include "discrete/snapshot_fields.h"
 #include "tests/discrete/panel/checkpoint_examples.h"
 
 namespace
 {
-  using namespace diptych::tests;
-
   std::vector<Snapshot> short_run()
   {
     static const Course course = loaded(small_sample(150), short_loading(), quick_options());

@@ -1,9 +1,5 @@
 // diptych: dissipation of single pairs over a window: closed forms, and agreement with the ledger
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
 #include "tests/discrete/small_scenes.h"
 
 namespace
@@ -24,8 +20,7 @@ namespace
 
   StepSetting on_the_floor(const double step)
   {
-    StepSetting setting         = exact_setting(step);
-    setting.stepping.gravity_y  = -g;
+    StepSetting setting         = exact_setting(step, -g);
     setting.law.platen_friction = mu;
     return setting;
   }

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <cmath>
-#include <fstream>
 #include <iostream>
 
 #include "discrete/contacts/natural_map.h"
@@ -11,7 +9,7 @@
 #include "discrete/problem_files/fclib.h"
 #include "discrete/files/hdf5_file.h"
 #include "discrete/files/text_file.h"
-#include "tests/files.h"
+#include "tests/common.h"
 
 namespace
 {

@@ -1,12 +1,8 @@
 // diptych: radii follow their distribution, by number and by mass
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
 #include "discrete/samples/radius_distribution.h"
 #include "discrete/files/text_file.h"
-#include "tests/files.h"
+#include "tests/common.h"
 
 namespace
 {

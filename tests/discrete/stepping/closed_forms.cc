@@ -1,7 +1,5 @@
 // diptych: single discs, pairs and rows whose motion is known in closed form
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cmath>
-
 #include "discrete/contacts/internal_moment.h"
 #include "discrete/stepping/time_stepping.h"
 #include "tests/discrete/small_scenes.h"
@@ -17,9 +15,8 @@ namespace
          {std::tuple{1, ContactSolver::nsgs, 1e-14}, {8, ContactSolver::nsgs, 1e-12}, {8, ContactSolver::psor, 1e-12}})
       {
         const double g = 9.81, step = 0.01;
-        StepSetting  setting       = exact_setting(step);
-        setting.solver.solver      = solver;
-        setting.stepping.gravity_y = -g;
+        StepSetting  setting  = exact_setting(step, -g);
+        setting.solver.solver = solver;
         State state;
         state.walls = {{{0, 0}, {0, 1}}};
         for (int k = 0; k < n; ++k)
@@ -40,25 +37,15 @@ namespace
   TEST(ClosedForm, DiscOnAnInclineRestsRollsOrSlides)
   {
     const double g = 9.81, step = 0.001, radius = 0.5;
-    const int    n_steps = 50;
-    for (const Slope &s : {Slope{0.2, 0.2},
-                           {0.5, 0.2},
-                           {0.54, 0.2},
-                           {0.6, 0.2},
-                           {0.9, 0.2}, // atan(0.6) = 0.5404
-                           {0.19, 0.5, 0.2},
-                           {0.21, 0.5, 0.2},
-                           {0.9, 0.5, 0.1},
-                           {1., 0.5, 0.1},
-                           {0.35, 0.3, 0.4}})
+    const int    n_steps  = 50;
+    const Slope  slopes[] = {{0.2, 0.2},       {0.5, 0.2},      {0.54, 0.2},    {0.6, 0.2},      {0.9, 0.2}, {0.19, 0.5, 0.2},
+                             {0.21, 0.5, 0.2}, {0.9, 0.5, 0.1}, {1., 0.5, 0.1}, {0.35, 0.3, 0.4}}; // atan(0.6) = 0.5404
+    for (const Slope &s : slopes)
       {
-        const double slope                  = s.angle;
-        StepSetting  setting                = exact_setting(step);
-        setting.stepping.gravity_x          = g * std::sin(slope);
-        setting.stepping.gravity_y          = -g * std::cos(slope);
-        setting.law.platen_friction         = s.friction;
-        setting.law.platen_rolling_friction = s.rolling;
-        State state                         = disc_on_floor({0, 0}, radius);
+        const double slope   = s.angle;
+        StepSetting  setting = exact_setting(step);
+        tilt(setting, s, g);
+        State state = disc_on_floor({0, 0}, radius);
         for (int k = 0; k < n_steps; ++k)
           ASSERT_EQ(advance(state, setting).solve.status, SolveStatus::converged);
         const auto [acceleration, turning] = on_an_incline(s, g, radius);
@@ -72,8 +59,7 @@ namespace
   TEST(ClosedForm, ThrownDiscEndsRollingAtTwoThirdsOfItsSpeed)
   {
     const double g = 10, mu = 0.3, v0 = 3, step = 0.001, slip_time = v0 / (3 * mu * g);
-    StepSetting  setting        = exact_setting(step);
-    setting.stepping.gravity_y  = -g;
+    StepSetting  setting        = exact_setting(step, -g);
     setting.law.platen_friction = mu;
     State  state                = disc_on_floor({v0, 0});
     double time_of_rolling      = NAN;

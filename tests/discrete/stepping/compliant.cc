@@ -1,7 +1,5 @@
 // diptych: implicit compliant contacts in closed form, their limits, ledgers and threads
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cmath>
-
 #include "discrete/stepping/penalty.h"
 #include "tests/discrete/small_scenes.h"
 
@@ -38,20 +36,13 @@ namespace
   TEST(Compliant, DiscOnAnInclineRestsRollsOrSlides)
   {
     const double g = 9.81, radius = 0.5, stiffness = 1e8, step = 0.01;
-    for (const Slope &s : {Slope{0.1, 0.2},
-                           {0.5, 0.2},
-                           {0.9, 0.2}, // atan(0.6) = 0.5404
-                           {0.1, 0.5, 0.2},
-                           {0.5, 0.5, 0.2},
-                           {1., 0.5, 0.1},
-                           {0.4, 0.3, 0.5}})
+    // atan(0.6) = 0.5404
+    for (const Slope &s :
+         {Slope{0.1, 0.2}, {0.5, 0.2}, {0.9, 0.2}, {0.1, 0.5, 0.2}, {0.5, 0.5, 0.2}, {1., 0.5, 0.1}, {0.4, 0.3, 0.5}})
       {
-        State       state                   = disc_on_floor({0, 0}, radius);
-        StepSetting setting                 = compliant_setting(step, stiffness);
-        setting.stepping.gravity_x          = g * std::sin(s.angle);
-        setting.stepping.gravity_y          = -g * std::cos(s.angle);
-        setting.law.platen_friction         = s.friction;
-        setting.law.platen_rolling_friction = s.rolling;
+        State       state   = disc_on_floor({0, 0}, radius);
+        StepSetting setting = compliant_setting(step, stiffness);
+        tilt(setting, s, g);
         for (int k = 0; k < 20; ++k)
           expect_ledgers(advance(state, setting), 1e-12);
         const auto [acceleration, turning] = on_an_incline(s, g, radius);

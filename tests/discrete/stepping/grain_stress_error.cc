@@ -1,6 +1,5 @@
 // diptych: estimated and true error of grain stress
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <algorithm>
 #include <iostream>
 
 #include "discrete/stepping/grain_stress_error.h"

@@ -1,7 +1,5 @@
 // diptych: the hexagonal lattice of equal discs, at rest and at failure
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cmath>
-
 #include "discrete/bodies/outline.h"
 #include "tests/discrete/small_scenes.h"
 
@@ -165,7 +163,6 @@ namespace
         for (const int rows : {3, 5, 9})
           {
             const double ratio = stress_ratio_of_driven_lattice(friction, 6, rows);
-            RecordProperty("mu_" + std::to_string(int(10 * friction)) + "_rows_" + std::to_string(rows), std::to_string(ratio));
             EXPECT_NEAR(ratio / rowe(friction, rows), 1, 3e-3) << "mu " << friction << ", rows " << rows;
             EXPECT_NEAR(ratio / limit - 1, 2 / std::tan(M_PI / 3) / (rows - 1), 5e-3) << "a correction of order 1/n";
           }

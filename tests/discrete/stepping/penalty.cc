@@ -54,25 +54,16 @@ namespace
   TEST(Penalty, DiscOnAnInclineRestsRollsOrSlidesUpToTheSwingOfItsSprings)
   {
     const double g = 9.81, radius = 0.5, stiffness = 1e7;
-    for (const Slope &s : {Slope{0.1, 0.2},
-                           {0.2, 0.2},
-                           {0.5, 0.2},
-                           {0.6, 0.2},
-                           {0.9, 0.2}, // atan(0.6) = 0.5404
-                           {0.1, 0.5, 0.2},
-                           {0.5, 0.5, 0.2},
-                           {1., 0.5, 0.1},
-                           {0.4, 0.3, 0.5}})
+    const Slope  slopes[] = {{0.1, 0.2},      {0.2, 0.2},      {0.5, 0.2},     {0.6, 0.2},     {0.9, 0.2},
+                             {0.1, 0.5, 0.2}, {0.5, 0.5, 0.2}, {1., 0.5, 0.1}, {0.4, 0.3, 0.5}}; // atan(0.6) = 0.5404
+    for (const Slope &s : slopes)
       {
         const double slope = s.angle;
         State        state = disc_on_floor({0, 0}, radius);
         const double mass = state.grains.mass[0], time = 0.05;
         const int    n_steps = int(time / penalty_step(state.grains, stiffness, 0.1)) + 1;
         Penalty      penalty(time / n_steps, stiffness);
-        penalty.setting.stepping.gravity_x          = g * std::sin(slope);
-        penalty.setting.stepping.gravity_y          = -g * std::cos(slope);
-        penalty.setting.law.platen_friction         = s.friction;
-        penalty.setting.law.platen_rolling_friction = s.rolling;
+        tilt(penalty.setting, s, g);
         state.grains.position[0].y() -= mass * g * std::cos(slope) / stiffness; // at rest on its spring
         for (int k = 0; k < n_steps; ++k)
           ASSERT_EQ(penalty.advance(state).solve.status, SolveStatus::converged);

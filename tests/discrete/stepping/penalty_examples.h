@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <cmath>
-#include <random>
-
 #include <Eigen/Eigenvalues>
 
 #include "discrete/stepping/penalty.h"

@@ -1,8 +1,5 @@
 // diptych: periodic sides: rows across the edge, free and driven widths, images
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cmath>
-#include <random>
-
 #include "discrete/stepping/step_problem.h"
 #include "tests/discrete/small_scenes.h"
 

@@ -1,7 +1,5 @@
 // diptych: grains that are part of a fixed or a free platen
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cmath>
-
 #include "tests/discrete/small_scenes.h"
 
 namespace

@@ -1,7 +1,5 @@
 // diptych: removal of penetrations with friction, and the first guess of a step
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cmath>
-
 #include "discrete/contacts/contact_law.h"
 #include "discrete/stepping/position_correction.h"
 #include "discrete/stepping/step_problem.h"

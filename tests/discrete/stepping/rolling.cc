@@ -1,7 +1,5 @@
 // diptych: rolling resistance of single discs and pairs in closed form
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cmath>
-
 #include "tests/discrete/stepping/penalty_examples.h"
 
 namespace
@@ -151,8 +149,7 @@ namespace
     for (const bool platen_first : {true, false})
       {
         const double step            = 0.01;
-        StepSetting  setting         = exact_setting(step);
-        setting.stepping.gravity_y   = -g;
+        StepSetting  setting         = exact_setting(step, -g);
         setting.law.rolling_friction = mu_r;
         State state                  = disc_on_floor({0, 0});
         add_grain(state.grains, {0, 1.5}, 0.5, 1.);

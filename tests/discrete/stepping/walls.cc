@@ -1,7 +1,5 @@
 // diptych: driven and free walls, fixed grains, friction by pair, gravity
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cmath>
-
 #include "tests/discrete/small_scenes.h"
 
 namespace
@@ -132,14 +130,13 @@ namespace
     const int    n_steps = 628; // two periods
     for (const double ratio : {0.9, 2.})
       {
-        StepSetting setting        = exact_setting(step);
-        setting.stepping.gravity_y = -g;
-        setting.solver.tolerance   = 1e-13; // near take-off the force is a small difference of large terms
-        const TimeTable velocity   = shaking(ratio * g / (frequency * frequency), frequency, step, n_steps);
-        State           state      = disc_on_floor({0, velocity.value[0]});
-        state.walls[0].velocity    = {0, velocity.value[0]};
-        state.walls[0].drive_y     = PrescribedVelocity{velocity};
-        double take_off            = NAN;
+        StepSetting setting      = exact_setting(step, -g);
+        setting.solver.tolerance = 1e-13; // near take-off the force is a small difference of large terms
+        const TimeTable velocity = shaking(ratio * g / (frequency * frequency), frequency, step, n_steps);
+        State           state    = disc_on_floor({0, velocity.value[0]});
+        state.walls[0].velocity  = {0, velocity.value[0]};
+        state.walls[0].drive_y   = PrescribedVelocity{velocity};
+        double take_off          = NAN;
         for (int k = 0; k < n_steps && std::isnan(take_off); ++k)
           {
             const StepResult result = advance(state, setting);
@@ -167,9 +164,8 @@ namespace
   TEST(FixedGrains, CarryADiscInTheirSaddle)
   {
     const double a = 0.8, R = 0.6, r = 0.5, g = 9.81, step = 0.01, cosine = std::sqrt(1 - a * a / (R + r) / (R + r));
-    StepSetting  setting       = exact_setting(step);
-    setting.stepping.gravity_y = -g;
-    State state;
+    StepSetting  setting = exact_setting(step, -g);
+    State        state;
     add_grain(state.grains, {-a, 0}, R, 1.);
     add_grain(state.grains, {a, 0}, R, 1.);
     add_grain(state.grains, {0, (R + r) * cosine}, r, 2.);
@@ -192,10 +188,9 @@ namespace
       for (const double step : {1e-3, 2.5e-4})
         {
           const double R = 1, r = 0.5, start = 0.3;
-          StepSetting  setting       = exact_setting(step);
-          setting.solver.tolerance   = 1e-6; // impulses approach zero where it leaves, i.e. round-off of m v
-          setting.stepping.gravity_y = -10;
-          setting.law.friction       = rough ? 1000. : 0.;
+          StepSetting  setting     = exact_setting(step, -10);
+          setting.solver.tolerance = 1e-6; // impulses approach zero where it leaves, i.e. round-off of m v
+          setting.law.friction     = rough ? 1000. : 0.;
           State state;
           add_grain(state.grains, {0, 0}, R, 1.);
           add_grain(state.grains, {(R + r) * std::sin(start), (R + r) * std::cos(start)}, r, 1.);
@@ -218,8 +213,7 @@ namespace
   // Grains fall on fixed grains, one of which moves and spins. It keeps its motion, and the ledgers close in every step.
   TEST(FixedGrains, KeepTheirMotionAndTheLedgers)
   {
-    StepSetting setting            = exact_setting(0.01);
-    setting.stepping.gravity_y     = -10;
+    StepSetting setting            = exact_setting(0.01, -10);
     setting.law                    = same_friction(0.3);
     setting.law.normal_restitution = 0.5, setting.law.tangential_restitution = 0.2;
     setting.solver.tolerance = 1e-12;

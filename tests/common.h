@@ -1,9 +1,20 @@
-// diptych: files that live as long as a test, and what a refusal says
+// diptych: what every C++ test uses: the library, files that live as long as a test, and what a refusal says
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <random>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
