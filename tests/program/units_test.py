@@ -1,5 +1,6 @@
 # diptych: files beside a scene are found from anywhere, and results do not depend on the units
 # SPDX-License-Identifier: LGPL-2.1-or-later
+import json
 import os
 
 from running import finished, Folder, history, QUICK, setting, SMALL, temporary, write
@@ -15,19 +16,9 @@ class Places(Folder):
         rows = "".join(f"{x},{y},0.5\n" for x in range(12) for y in (0.5, 1.5))
         write(os.path.join(self.work, "data", "grains.csv"), "x,y,r\n" + rows)
         write(os.path.join(self.work, "data", "speed.csv"), "time,velocity\n0,0\n5,-0.001\n")
-        scene = write(os.path.join(self.work, "mine.prm"), """subsection sample
-  set file = data/grains.csv
-end
-subsection loading
-  set mode = time
-  set duration = 1
-  set stage_time = 1
-end
-subsection discrete
-  set drive_upper_y = velocity data/speed.csv
-  set step = 0.1
-end
-""")
+        scene = write(os.path.join(self.work, "mine.json"), json.dumps({
+            "sample": {"file": "data/grains.csv"}, "loading": {"mode": "time", "duration": 1, "stage_time": 1},
+            "discrete": {"drive_upper_y": "velocity data/speed.csv", "step": 0.1}}))
         again = self.folder + "_again"
         for path, folder in ((scene, self.folder), (self.path("scene.prm"), again)):  # the echo holds whole paths
             self.expect(0, ["discrete", path, "--output", folder, "--quiet"], cwd="/")

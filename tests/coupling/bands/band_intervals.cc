@@ -10,21 +10,21 @@ namespace
   using namespace diptych::coupling;
   using synthetic::Truth;
 
-  const SampleFrame frame   = synthetic::frame_52_75();
+  const SampleFrame tall    = synthetic::frame_52_75();
   const Truth       oblique = {-46, 6, 2, 0.9, 8};
 
   DisplacementField noisy_field(const Truth &truth, const double length, const double noise, const std::uint64_t seed)
   {
-    auto field = synthetic::grain_field(frame, {truth}, 0, seed);
-    synthetic::add_correlated_noise(field, frame, length, noise, seed + 1000);
+    auto field = synthetic::grain_field(tall, {truth}, 0, seed);
+    synthetic::add_correlated_noise(field, tall, length, noise, seed + 1000);
     return field;
   }
 
   BandFitOptions sample()
   {
     BandFitOptions options;
-    options.width  = frame.width;
-    options.height = frame.height;
+    options.width  = tall.width;
+    options.height = tall.height;
     return options;
   }
 
@@ -56,7 +56,7 @@ namespace
     std::array<double, 5> squares = {}, lengths = {};
     for (int k = 0; k < n; ++k)
       {
-        const BandData                data      = synthetic::band_data(noisy_field(oblique, k % 2 ? 8 : 10, 0.05, k), frame);
+        const BandData                data      = synthetic::band_data(noisy_field(oblique, k % 2 ? 8 : 10, 0.05, k), tall);
         const BandIntervals           band      = band_intervals(data, fitted(data, oblique), sample(), {10, 120, 1}, always)[0];
         const std::array<Interval, 5> intervals = {{band.angle_deg, band.half_width, band.offset, band.jump, band.dilation_deg}};
         for (int q = 0; q < 5; ++q)
@@ -76,7 +76,7 @@ namespace
   // Interval lengths of full refits to the same draws, with all points and newly found Huber weights.
   std::array<double, 3> full_lengths(const BandData &data, const BandFit &fit, const BootstrapOptions &bootstrap)
   {
-    const double                       x = 0.5 * frame.width, y = 0.5 * frame.height;
+    const double                       x = 0.5 * tall.width, y = 0.5 * tall.height;
     const Tiles                        tiles = tiles_over({{-x, -y}, {x, y}}, 0, bootstrap.block);
     std::array<std::vector<double>, 3> deviation;
     for (const std::vector<int> &drawn : resampled_blocks(tiles.count(), bootstrap))
@@ -110,7 +110,7 @@ namespace
     std::array<double, 3> ratio = {};
     for (const std::uint64_t seed : {7, 8, 9})
       {
-        const BandData              data      = synthetic::band_data(noisy_field(oblique, 9, 0.03, seed), frame);
+        const BandData              data      = synthetic::band_data(noisy_field(oblique, 9, 0.03, seed), tall);
         const BandFit               fit       = fitted(data, oblique);
         const BootstrapOptions      bootstrap = {10, 100, 3};
         const BandIntervals         cheap     = band_intervals(data, fit, sample(), bootstrap, always)[0];
@@ -126,7 +126,7 @@ namespace
   // A fit without misfit is the same for every draw.
   TEST(BandIntervals, VanishWithoutNoise)
   {
-    const BandReport report = find_bands(synthetic::grain_field(frame, {oblique}, 0, 1), frame);
+    const BandReport report = find_bands(synthetic::grain_field(tall, {oblique}, 0, 1), tall);
     ASSERT_EQ(report.bands.size(), 1u);
     const BandIntervals &band = report.bands[0].interval;
     EXPECT_EQ(band.resamples, 200);
@@ -142,8 +142,8 @@ namespace
   TEST(BandIntervals, AreAFunctionOfTheSeed)
   {
     const auto field = noisy_field(oblique, 9, 0.05, 3);
-    const Band a = find_bands(field, frame, {}, 5).bands[0], b = find_bands(field, frame, {}, 5).bands[0],
-               c = find_bands(field, frame, {}, 6).bands[0];
+    const Band a = find_bands(field, tall, {}, 5).bands[0], b = find_bands(field, tall, {}, 5).bands[0],
+               c = find_bands(field, tall, {}, 6).bands[0];
     EXPECT_EQ(a.interval.half_width.low, b.interval.half_width.low);
     EXPECT_EQ(a.interval.dilation_deg.high, b.interval.dilation_deg.high);
     EXPECT_NE(a.interval.half_width.low, c.interval.half_width.low);
@@ -154,7 +154,7 @@ namespace
   TEST(BandIntervals, HoldTheReportedNumbers)
   {
     const auto field = noisy_field(oblique, 9, 0.05, 3);
-    const Band band  = find_bands(field, frame).bands[0];
+    const Band band  = find_bands(field, tall).bands[0];
     for (const auto &[interval, value] : {std::pair(band.interval.angle_deg, band.angle_deg),
                                           {band.interval.half_width, band.half_width},
                                           {band.interval.width_10_90, band.width_10_90},
@@ -171,7 +171,7 @@ namespace
   // For small noise everything is linear: twice the noise gives twice the interval. The width enters by its logarithm.
   TEST(BandIntervals, GrowWithTheNoise)
   {
-    const auto of = [](const double noise) { return find_bands(noisy_field(oblique, 9, noise, 3), frame).bands[0].interval; };
+    const auto of = [](const double noise) { return find_bands(noisy_field(oblique, 9, noise, 3), tall).bands[0].interval; };
     const BandIntervals small = of(0.015), large = of(0.03);
     EXPECT_NEAR(length(large.angle_deg) / length(small.angle_deg), 2, 0.2);
     EXPECT_NEAR(std::log(large.half_width.high / large.half_width.low) / std::log(small.half_width.high / small.half_width.low),
@@ -183,7 +183,7 @@ namespace
   TEST(BandIntervals, UnitsDoNotMatter)
   {
     auto        field  = noisy_field(oblique, 9, 0.05, 3);
-    SampleFrame sample = frame;
+    SampleFrame sample = tall;
     const Band  large  = find_bands(field, sample).bands[0];
     for (auto &x : field.position)
       x *= 0.01;
@@ -209,7 +209,7 @@ namespace
   {
     for (const std::uint64_t seed : {1, 2, 3})
       {
-        const Band band = find_bands(noisy_field({90, 4, 3, 0.8, 0}, 9, 0.03, seed), frame).bands[0];
+        const Band band = find_bands(noisy_field({90, 4, 3, 0.8, 0}, 9, 0.03, seed), tall).bands[0];
         EXPECT_NEAR(std::remainder(band.angle_deg - 90, 180), 0, 3);
         EXPECT_LT(band.interval.angle_deg.low, band.angle_deg);
         EXPECT_GT(band.interval.angle_deg.high, band.angle_deg);
@@ -222,7 +222,7 @@ namespace
   TEST(BandIntervals, AreUnknownIfResamplesLoseTheBand)
   {
     const Truth         wide  = {-46, 20, 0, 0.9, 0};
-    const BandData      data  = synthetic::band_data(noisy_field(wide, 10, 0.04, 9), frame);
+    const BandData      data  = synthetic::band_data(noisy_field(wide, 10, 0.04, 9), tall);
     const BandFit       fit   = fitted(data, wide);
     const double        bound = largest_half_width(sample(), fit.shape[0].angle);
     const auto          holds = [&](const BandFit &refit, std::size_t) { return refit.shape[0].half_width < 0.999 * bound; };
@@ -241,7 +241,7 @@ namespace
     none.resamples               = 0;
     one_block.correlation_length = 60;
     for (const BandOptions &options : {none, one_block})
-      for (const Band &band : find_bands(field, frame, options).bands)
+      for (const Band &band : find_bands(field, tall, options).bands)
         {
           EXPECT_EQ(band.interval.resamples, 0);
           EXPECT_TRUE(std::isnan(band.interval.lost_share));
@@ -254,7 +254,7 @@ namespace
   // Blocks of one correlation length miss a part of the covariance for any number of blocks, so all factors are above 1.
   TEST(BandIntervals, BlocksAloneAreTooNarrow)
   {
-    const BandData data    = synthetic::band_data(noisy_field(oblique, 9, 0.05, 3), frame);
+    const BandData data    = synthetic::band_data(noisy_field(oblique, 9, 0.05, 3), tall);
     const Tiles    tiles   = tiles_over({{-26, -37.5}, {26, 37.5}}, 0, 10);
     const auto     factors = bootstrap_factors(data, fitted(data, oblique), tiles, {10, 200, 1});
     for (const double factor : factors[0])

@@ -123,7 +123,9 @@ namespace
             EXPECT_NEAR(window.grain_shear[i] / peak, 1, 0.25); // the fit over 2.5 d includes the curvature
           }
         if (std::abs(across) > 25)
-          EXPECT_LT(window.grain_shear[i] / peak, 1e-4);
+          {
+            EXPECT_LT(window.grain_shear[i] / peak, 1e-4);
+          }
       }
   }
 

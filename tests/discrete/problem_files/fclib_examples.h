@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <iostream>
-
 #include "discrete/contacts/natural_map.h"
 #include "discrete/contacts/contact_law.h"
 #include "discrete/problem_files/fclib.h"
