@@ -123,7 +123,8 @@ class Folder(unittest.TestCase):
             self.assertIn(text, result.stderr)
         self.assertNotIn("Traceback", result.stderr)
         left = [name for name in listing(self.work) if name.endswith((".part", ".lock"))]
-        self.assertEqual([name for name in left if not re.search(r"\.\d/", name)], [])  # a killed run is set aside whole
+        # a killed run is set aside whole
+        self.assertEqual([name for name in left if not re.search(r"\.\d/", name)], [])
 
     def started_until(self, is_reached, *words, **options):
         """A program that still runs when something is reached."""
