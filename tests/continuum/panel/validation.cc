@@ -266,7 +266,7 @@ namespace
     Options options           = with_steps(with({}, Platens::rough, Kinematics::small_strain), 1e-3);
     options.law               = LawKind::gradient_drucker_prager;
     LawOptions &law           = options.material;
-    law.hardening             = HardeningKind::table;
+    law.hardening             = kind_of<TableHardening>;
     law.table_strain          = {0, 0.1};
     law.table_friction_angle  = {0, 0};
     law.table_dilatancy_angle = {0, 0};
