@@ -71,7 +71,7 @@ namespace
   TEST_F(Provenance, TheRecordOfARunIsRead)
   {
     (void)recorded(folder);
-    discrete::Report facts;
+    diptych::discrete::Report facts;
     facts.finished = true, facts.step = 0.25;
     record_facts(folder, facts);
     EXPECT_EQ(recorded_scene(folder), "mine");
@@ -83,7 +83,7 @@ namespace
   {
     (void)recorded(folder);
     std::ofstream(folder / "discrete.csv") << "a\n";
-    record_facts(folder, discrete::Report());
+    record_facts(folder, diptych::discrete::Report());
     EXPECT_NO_THROW(check_files(folder));
     std::ofstream(folder / "discrete.csv") << "b\n";
     EXPECT_THROW(check_files(folder), std::invalid_argument);
