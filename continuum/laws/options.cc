@@ -41,8 +41,10 @@ namespace diptych::continuum
   bool follows_solid_fraction(const HardeningKind hardening)
   {
     bool follows = false;
-    Hardenings::with_type(hardening,
-                          [&](auto *chosen) { follows = std::is_base_of_v<CriticalStateHardening, TypeOf<decltype(chosen)>>; });
+    Hardenings::with_type(hardening, [&](auto *chosen) {
+      using Chosen = TypeOf<decltype(chosen)>;
+      follows      = std::is_base_of_v<CriticalStateHardening, Chosen>;
+    });
     return follows;
   }
 

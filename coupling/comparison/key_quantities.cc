@@ -6,32 +6,37 @@
 
 namespace diptych::coupling
 {
-  double peak_stress_ratio(const Scene &scene, const HistoryTable &h)
+  QuantityBasis basis_of(const Scene &scene)
   {
-    return peak_of_running_mean(h, "stress_ratio", averaging_width(scene)).value;
+    return {averaging_width(scene), scene.loading.mode == discrete::LoadingMode::time,
+            scene.loading.pressure * scene.sample.mean_diameter};
   }
 
-  double early_strength(const Scene &scene, const HistoryTable &h)
+  double peak_stress_ratio(const QuantityBasis &basis, const HistoryTable &h)
   {
-    return scene.loading.mode == discrete::LoadingMode::time ? NAN : ratio_of_means(h, 0, early_strain);
+    return peak_of_running_mean(h, "stress_ratio", basis.averaging_width).value;
   }
 
-  double strength(const Scene &scene, const HistoryTable &h)
+  double early_strength(const QuantityBasis &basis, const HistoryTable &h)
   {
-    return scene.loading.mode == discrete::LoadingMode::time ? NAN
-                                                             : ratio_of_means(h, early_strain, column(h, "progress").back());
+    return basis.is_timed ? NAN : ratio_of_means(h, 0, early_strain);
   }
 
-  double platen_force(const Scene &scene, const HistoryTable &h)
+  double strength(const QuantityBasis &basis, const HistoryTable &h)
+  {
+    return basis.is_timed ? NAN : ratio_of_means(h, early_strain, column(h, "progress").back());
+  }
+
+  double platen_force(const QuantityBasis &basis, const HistoryTable &h)
   {
     const double end = column(h, "progress").back();
-    if (scene.loading.mode == discrete::LoadingMode::time || !is_beyond(end, early_strain))
+    if (basis.is_timed || !is_beyond(end, early_strain))
       return NAN;
     const auto mean = [&](const char *name) { return mean_over_progress(h, name, early_strain, end); };
-    return (mean("lower_fy") - mean("upper_fy")) / 2 / (scene.loading.pressure * scene.sample.mean_diameter);
+    return (mean("lower_fy") - mean("upper_fy")) / 2 / basis.force;
   }
 
-  double final_volume(const Scene &, const HistoryTable &h)
+  double final_volume(const QuantityBasis &, const HistoryTable &h)
   {
     return column(h, "volumetric_strain").back();
   }
@@ -48,10 +53,11 @@ namespace diptych::coupling
 
   PanelValues panel_values(const Scene &scene, const HistoryTable &h)
   {
-    PanelValues values;
+    const QuantityBasis basis = basis_of(scene);
+    PanelValues         values;
     for (const KeyQuantity &q : key_quantities)
       if (q.of_panel)
-        values[q.key] = q.of_panel(scene, h);
+        values[q.key] = q.of_panel(basis, h);
     return values;
   }
 } // namespace diptych::coupling

@@ -32,15 +32,24 @@ namespace diptych::coupling
     Difference  of;
   };
 
+  // Parts of a scene on which the formulas depend.
+  struct QuantityBasis
+  {
+    double averaging_width; // of running means, in progress
+    bool   is_timed;        // the progress is time
+    double force;           // P d [pressure * length]
+  };
+  QuantityBasis basis_of(const Scene &scene);
+
   // Formulas. Strengths are T/S of a loading along strain: early up to this strain, which depends on the start and on the
   // solver's accuracy, or the rest. They and the platen force [P d, mean of both platens] are NaN if the history ends before, or
   // along time. d: mean diameter.
   constexpr double early_strain = 0.003;
-  double           peak_stress_ratio(const Scene &scene, const HistoryTable &history);
-  double           early_strength(const Scene &scene, const HistoryTable &history);
-  double           strength(const Scene &scene, const HistoryTable &history);
-  double           platen_force(const Scene &scene, const HistoryTable &history);
-  double           final_volume(const Scene &scene, const HistoryTable &history);
+  double           peak_stress_ratio(const QuantityBasis &basis, const HistoryTable &history);
+  double           early_strength(const QuantityBasis &basis, const HistoryTable &history);
+  double           strength(const QuantityBasis &basis, const HistoryTable &history);
+  double           platen_force(const QuantityBasis &basis, const HistoryTable &history);
+  double           final_volume(const QuantityBasis &basis, const HistoryTable &history);
   Interval         angle_of(const BandValues &band, double d);
   Interval         width_of(const BandValues &band, double d); // [d]
 
@@ -49,7 +58,7 @@ namespace diptych::coupling
     const char *key; // as in discrete_summary and continuum_summary; of a band: band_ and its key in windows/PANEL/bands
     const char *name, *unit, *meaning;
     Margin      margin;
-    double (*of_panel)(const Scene &, const HistoryTable &); // null: it is that of a band
+    double (*of_panel)(const QuantityBasis &, const HistoryTable &); // null: it is that of a band
     Interval (*of_band)(const BandValues &, double d);
   };
   // The only list: summaries, ensembles, studies, validation and pages take what stands here.
