@@ -52,6 +52,7 @@ namespace diptych::continuum
           unused.push_back({key, because});
     };
     const bool plastic = traits(o.law).is_plastic || o.law == LawKind::library, weak = plastic && o.weak_spot_strain > 0;
+    unless(o.platens == Platens::frictional, "platens = " + name_of(o.platens), {"platen_friction", "platen_slip_length"});
     unless(is_cosserat(o), "law = " + name_of(o.law), {"platen_rotation"});
     unless(o.mesh.kind == MeshOption::Kind::rectangle, "mesh = " + text_of(o.mesh),
            {"rectangle_width", "rectangle_height", "platen_width"});

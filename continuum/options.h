@@ -35,12 +35,14 @@ namespace diptych::continuum
 
   enum class Platens
   {
-    rough, // both components of the displacement follow the platen
-    smooth // only the vertical component follows the platen
+    rough,     // both components of the displacement follow the platen
+    smooth,    // only the vertical component follows the platen
+    frictional // as smooth, but friction resists the slip along platens and rigid side walls
   };
   constexpr auto choices(Platens)
   {
-    return std::array{std::pair{Platens::rough, "rough"}, std::pair{Platens::smooth, "smooth"}};
+    return std::array{std::pair{Platens::rough, "rough"}, std::pair{Platens::smooth, "smooth"},
+                      std::pair{Platens::frictional, "frictional"}};
   }
 
   enum class PlatenRotation
@@ -113,6 +115,8 @@ namespace diptych::continuum
     Displacement   element               = Displacement::automatic;
     Kinematics     geometry              = Kinematics::updated;
     Platens        platens               = Platens::rough;
+    double         platen_friction       = 0.18;
+    double         platen_slip_length    = 12.6;
     PlatenRotation platen_rotation       = PlatenRotation::free;
     InitialStress  initial_stress        = InitialStress::isotropic;
     MeshOption     mesh                  = {};
@@ -149,7 +153,14 @@ namespace diptych::continuum
             "laws need q2 and use a bilinear field beside it");
     visitor("geometry", o.geometry, "-",
             "updated: nodes move and stress rotates with the material after every step; small_strain: neither");
-    visitor("platens", o.platens, "-", "rough: both displacement components follow the platen; smooth: only the vertical one");
+    visitor("platens", o.platens, "-",
+            "rough: both displacement components follow the platen; smooth: only the vertical one; frictional: as smooth, but "
+            "friction resists the slip along platens and rigid side walls");
+    visitor("platen_friction", o.platen_friction, "-", {0., 1e6},
+            "platens = frictional: largest ratio of shear to normal stress on platens and rigid side walls");
+    visitor("platen_slip_length", o.platen_slip_length, "mean diameters", {0., 1e6},
+            "platens = frictional: the ratio is platen_friction tanh(v / (platen_friction platen_slip_length)) for a slip v per "
+            "unit strain; 0: Coulomb");
     visitor("platen_rotation", o.platen_rotation, "-",
             "Cosserat laws: free: no couple acts on the rotations at the platens; held: these rotations are zero");
     visitor("initial_stress", o.initial_stress, "-",

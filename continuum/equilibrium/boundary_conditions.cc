@@ -57,11 +57,13 @@ namespace diptych::continuum
       drive_platen(platen, grip.rough);
     if (const auto *rigid = std::get_if<RigidSides>(&loading.lateral))
       add_rigid_sides(mesh, *rigid);
-    else if (const auto *periodic = std::get_if<PeriodicSides>(&loading.lateral))
+    if (grip.slides)
+      find_sliding_nodes(mesh);
+    if (const auto *periodic = std::get_if<PeriodicSides>(&loading.lateral))
       add_periodic_sides(mesh, *periodic, grip.rough);
     if (grip.holds_rotation)
       hold_rotations();
-    if (!grip.rough && !std::holds_alternative<RigidSides>(loading.lateral))
+    if (!grip.rough && !grip.slides && !std::holds_alternative<RigidSides>(loading.lateral))
       pin_sideways();
     build(mesh);
   }
@@ -99,6 +101,23 @@ namespace diptych::continuum
           for (const auto dof : dofs)
             add_rule({dof, {}, drive.value ? &drive.value : nullptr});
       }
+  }
+
+  // Where a platen and a wall meet, neither slides. A periodic side is a tie, not a wall.
+  void BoundaryConditions::find_sliding_nodes(const Discretisation &mesh)
+  {
+    for (const unsigned int platen : {0u, 1u})
+      for (const Node &node : platen_nodes[platen])
+        {
+          const auto &motion = loading.platens[platen][0].value;
+          if (!is_ruled(node.dofs[0]))
+            sliding.push_back({node.dofs[0], node.dofs[1], platen == 0 ? 1. : -1., motion ? &motion : nullptr});
+        }
+    if (std::holds_alternative<RigidSides>(loading.lateral))
+      for (const unsigned int side : {left_side, right_side})
+        for (const Node &node : mesh.boundary_nodes(side))
+          if (!is_ruled(node.dofs[1]))
+            sliding.push_back({node.dofs[1], node.dofs[0], side == left_side ? 1. : -1.});
   }
 
   void BoundaryConditions::hold_rotations()

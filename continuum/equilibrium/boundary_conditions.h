@@ -16,6 +16,7 @@ namespace diptych::continuum
   struct PlatenGrip
   {
     bool rough          = true;  // both displacement components follow the platen; otherwise only the vertical one
+    bool slides         = false; // friction acts on nodes that slide along a platen or a rigid side wall
     bool holds_rotation = false; // Cosserat rotations on the platen are zero
   };
 
@@ -29,6 +30,14 @@ namespace diptych::continuum
   SideContact side_contact(const Discretisation             &mesh,
                            const std::vector<double>        &displacement,
                            const std::array<PlatenPlane, 2> &planes);
+
+  // A node that slides along a platen or a rigid side wall.
+  struct SlidingNode
+  {
+    dealii::types::global_dof_index      tangential, normal; // dofs of displacement
+    double                               inwards = 1;        // sign of the inward normal on its axis
+    const std::function<double(double)> *wall    = nullptr;  // tangential displacement of the wall; nullptr: at rest
+  };
 
   // Constraints on displacement and rotation. A platen or rigid wall prescribes displacement components of its nodes. If it
   // moves freely under a force, its nodes are tied to the first of them, which carries the force. Where platen and side meet,
@@ -57,6 +66,9 @@ namespace diptych::continuum
     // Nodes of the lower and the upper platen on all processes, including those in side contact.
     const std::array<std::vector<Node>, 2> &platens() const { return platen_nodes; }
 
+    // On all processes; empty without friction.
+    const std::vector<SlidingNode> &sliding_nodes() const { return sliding; }
+
   private:
     // The displacement of a dof, or its excess over that of its master, as a function of the progress.
     struct Rule
@@ -69,6 +81,7 @@ namespace diptych::continuum
     void drive_platen(unsigned int platen, bool rough);
     void hold_rotations();
     void pin_sideways();
+    void find_sliding_nodes(const Discretisation &mesh);
     void add_rigid_sides(const Discretisation &mesh, const RigidSides &sides);
     void add_periodic_sides(const Discretisation &mesh, const PeriodicSides &sides, bool rough);
     void move_together(const std::vector<dealii::types::global_dof_index> &dofs);
@@ -79,6 +92,7 @@ namespace diptych::continuum
     Loading                                                                loading;
     std::function<double(double)>                                          widening; // of rigid or periodic sides
     std::array<std::vector<Node>, 2>                                       platen_nodes;
+    std::vector<SlidingNode>                                               sliding;
     std::vector<Rule>                                                      rules;
     std::vector<dealii::types::global_dof_index>                           governed; // dofs with a rule or a tie, sorted
     std::vector<std::pair<dealii::types::global_dof_index, const Drive *>> forced;   // first dof of a tied platen

@@ -35,6 +35,9 @@ namespace diptych::continuum
       return options.element == Displacement::q1_bbar ? ElementKind::q1_mean_dilation : ElementKind::q2;
     }
 
+    // Elastic slip under friction, in units of length. Smaller values change no digit of a result, but need more iterations.
+    constexpr double stick_slip = 1e-6;
+
     bool same_nodes(const SideContact &a, const SideContact &b)
     {
       const auto same = [](const Node &m, const Node &n) { return m.dofs == n.dofs; };
@@ -90,7 +93,10 @@ namespace diptych::continuum
   {
     in_side_contact = contact;
     conditions      = std::make_unique<BoundaryConditions>(
-      mesh, loading, PlatenGrip{options.platens == Platens::rough, options.platen_rotation == PlatenRotation::held}, contact);
+      mesh, loading,
+      PlatenGrip{options.platens == Platens::rough, options.platens == Platens::frictional && options.platen_friction > 0,
+                 options.platen_rotation == PlatenRotation::held},
+      contact);
     call(check_stop);
     tangent.reinit(mesh, conditions->correction(), check_stop);
     ++structure_version;
@@ -188,6 +194,8 @@ namespace diptych::continuum
       find_loads(); // they stay those of the initial shape
     step_constraints.clear();
     step_constraints.copy_from(conditions->increment(state.progress, to));
+    friction.begin_step({options.platen_friction, options.platen_slip_length * units.length, stick_slip * units.length},
+                        conditions->sliding_nodes(), state.progress, to);
     applied = zero_vector();
     for (const auto &[dof, force] : conditions->applied_forces(to))
       if (mesh.owned.is_element(dof))
@@ -239,6 +247,8 @@ namespace diptych::continuum
     for (std::size_t i = 0; i < force.size(); ++i)
       force[i] -= external[i];
     nodal_force = assembled(mesh, force);
+    if (!conditions->sliding_nodes().empty())
+      friction.add_force(mesh, trial_increment, relevant_values(nodal_force), force);
     condense(mesh, conditions->correction(), force);
     rhs = assembled(mesh, force);
     rhs -= applied;
@@ -267,8 +277,9 @@ namespace diptych::continuum
     return increments[point].tangent(update.state.stress, update.tangent + 1e-3 * elastic);
   }
 
-  DistributedVector BoundaryValueProblem::linearised_residual(const DistributedVector &increment) const
+  DistributedVector BoundaryValueProblem::linearised_residual(const DistributedVector &increment)
   {
+    (void)evaluate(zero_vector());
     const auto          values = relevant_values(increment);
     std::vector<double> force(external.size(), 0.);
     with_element(mesh.kind, [&](const auto chosen) {
@@ -286,10 +297,15 @@ namespace diptych::continuum
           scatter<Element>(mesh.cells[c], f, force);
         }
     });
+    for (std::size_t i = 0; i < force.size(); ++i)
+      force[i] += internal[i] - external[i];
+    if (!conditions->sliding_nodes().empty())
+      friction.stick(mesh, relevant_values(nodal_force));
+    friction.add_resistance(values, force);
     condense(mesh, conditions->correction(), force);
     auto result = assembled(mesh, force);
+    result -= applied;
     result *= -1;
-    result += rhs;
     return result;
   }
 
@@ -308,9 +324,12 @@ namespace diptych::continuum
             add_stiffness<Element>(mesh.reference, current.cells[c], q, point_tangent(c * Element::n_points + q), K);
           for (; edge != mesh.edges.end() && edge->cell == c; ++edge)
             add_side_stiffness(*edge, Element::n_nodes > 4, -pressure, row_length<Element>, K.data());
+          friction.add_to<Element>(K, mesh.cells[c]);
           tangent.add<Element>(c, K);
         }
     });
+    for (const auto &one : friction.stiffness())
+      tangent.add(one.dof, one.value);
     tangent.finish();
     return tangent.matrix();
   }
@@ -348,6 +367,7 @@ namespace diptych::continuum
     state.displacement = trial_displacement();
     state.progress     = step_end;
     state.platen_force = {trial_platen_force(false), trial_platen_force(true)};
+    state.friction_work += Utilities::MPI::sum(friction.work(), mesh.communicator());
     move_nodes();
   }
 

@@ -13,6 +13,7 @@
 #include "continuum/elements/nodal_vectors.h"
 #include "continuum/options.h"
 #include "continuum/equilibrium/tangent_matrix.h"
+#include "continuum/equilibrium/wall_friction.h"
 
 namespace diptych::continuum
 {
@@ -42,6 +43,7 @@ namespace diptych::continuum
     std::vector<MaterialState>     points;
     std::vector<Localisation>      localisation;
     std::array<Eigen::Vector2d, 2> platen_force{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}; // lower, upper; on the sample
+    double                         friction_work = 0; // dissipated along the walls since the start [pressure * length^2]
   };
 
   // sum over cells of int B^T sigma dA = side pressure + weight + reactions. `geometry = updated` states it on the shape at the
@@ -76,8 +78,9 @@ namespace diptych::continuum
     // Trial state: committed state + increment. Calls the law at every point.
     Imbalance evaluate(const DistributedVector &increment);
 
-    // Right-hand side -(residual + K * increment) with the tangents of the last evaluate(), for the first predictor.
-    DistributedVector linearised_residual(const DistributedVector &increment) const;
+    // Right-hand side -(residual + K * increment) of the committed state, for the first predictor. Walls hold the nodes that
+    // slide along them. assemble_tangent() then gives K.
+    DistributedVector linearised_residual(const DistributedVector &increment);
 
     // -(residual) of the trial state, zero on constrained components.
     const DistributedVector &negative_residual() const { return rhs; }
@@ -156,6 +159,7 @@ namespace diptych::continuum
     Geometry                            current; // shape for equilibrium
     Geometry                            moved;   // small strain: shape after the committed displacement
     TangentMatrix                       tangent;
+    WallFriction                        friction;
 
     CommittedState              state;
     double                      step_end = 0, step_share = 1;

@@ -154,10 +154,10 @@ namespace diptych::continuum
         return increment;
       }
     follow_structure();
-    (void)problem.evaluate(problem.zero_vector());
     auto increment = problem.zero_vector(), correction = problem.zero_vector();
     problem.impose(increment);
-    if (solver.solve(problem.assemble_tangent(), correction, problem.linearised_residual(increment)))
+    const auto rhs = problem.linearised_residual(increment);
+    if (solver.solve(problem.assemble_tangent(), correction, rhs))
       {
         problem.correction_constraints().distribute(correction);
         increment += correction;

@@ -94,6 +94,13 @@ namespace diptych::continuum
     constraints->distribute_local_to_global(full, dofs, sparse);
   }
 
+  void TangentMatrix::add(const types::global_dof_index dof, const double stiffness)
+  {
+    FullMatrix<double> full(1, 1);
+    full(0, 0) = stiffness;
+    constraints->distribute_local_to_global(full, {dof}, sparse);
+  }
+
   // Rows of constrained dofs contain only a diagonal of the size of the other entries, so their solution is zero.
   void TangentMatrix::finish()
   {

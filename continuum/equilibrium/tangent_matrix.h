@@ -24,6 +24,7 @@ namespace diptych::continuum
 
     void                          clear();
     template <class Element> void add(std::size_t cell, const ElementMatrix<Element> &K);
+    void                          add(dealii::types::global_dof_index dof, double stiffness); // on the diagonal
     void                          finish(); // must be called before the matrix is read
 
     const dealii::TrilinosWrappers::SparseMatrix &matrix() const { return sparse; }

@@ -31,10 +31,16 @@ namespace
     width.lateral       = PeriodicSides{std::nullopt};
     plane.lateral       = PeriodicSides{0.};
     plane.platens[1][1] = force(-15);
-    return {{"pressure", pressure, Platens::rough, false},   {"rigid", rigid, Platens::smooth, false},
-            {"periodic", periodic, Platens::rough, false},   {"free width", width, Platens::smooth, false},
-            {"free platen", plane, Platens::rough, false},   {"hanging", pressure, Platens::rough, true},
-            {"hanging, rigid", rigid, Platens::smooth, true}};
+    return {{"pressure", pressure, Platens::rough, false},
+            {"rigid", rigid, Platens::smooth, false},
+            {"periodic", periodic, Platens::rough, false},
+            {"free width", width, Platens::smooth, false},
+            {"free platen", plane, Platens::rough, false},
+            {"hanging", pressure, Platens::rough, true},
+            {"hanging, rigid", rigid, Platens::smooth, true},
+            {"frictional", pressure, Platens::frictional, false},
+            {"frictional, rigid", rigid, Platens::frictional, false},
+            {"frictional, periodic", periodic, Platens::frictional, false}};
   }
 
   struct Comparison
@@ -134,7 +140,7 @@ namespace
               mesh.triangulation.execute_coarsening_and_refinement();
               mesh.distribute();
             }
-          const BoundaryConditions conditions(mesh, scene.loading, {scene.platens == Platens::rough, true});
+          const BoundaryConditions conditions(mesh, scene.loading, {scene.platens == Platens::rough, false, true});
           const auto              &constraints = conditions.correction();
           TangentMatrix            tangent;
           tangent.reinit(mesh, constraints);
