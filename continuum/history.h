@@ -29,6 +29,7 @@ namespace diptych::continuum
     double          viscous_share                 = 0; // overstress / shear strength, mean over the yielding area
     double          max_equivalent_plastic_strain = 0;
     double          dissipation                   = 0; // plastic work since the start [pressure * length^2]
+    double          friction_work                 = 0; // dissipated along the walls since the start [pressure * length^2]
     double          least_acoustic_determinant    = 1; // relative to the elastic one
     double          localisation_angle            = 0; // of the line with the least determinant [degrees from the horizontal]
     double          point_cpu_s = 0, assembly_cpu_s = 0, solve_cpu_s = 0, geometry_cpu_s = 0; // on the first process
@@ -92,6 +93,7 @@ namespace diptych::continuum
     visit("progress", r.progress, "strain or time", "loading variable: axial strain, shear strain or time");
     visit("unstable_share", r.unstable_share, "-",
           "share of the area where the second-order work of the step is negative and plastic flow contracts");
+    visit("friction_work", r.friction_work, "pressure length^2", "work of friction along platens and rigid side walls");
     visit("walk", r.loading_variable, "-", "column that progress equals: axial_strain, shear_strain or time");
   }
 } // namespace diptych::continuum

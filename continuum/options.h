@@ -158,7 +158,7 @@ namespace diptych::continuum
             "friction resists the slip along platens and rigid side walls");
     visitor("platen_friction", o.platen_friction, "-", {0., 1e6},
             "platens = frictional: largest ratio of shear to normal stress on platens and rigid side walls");
-    visitor("platen_slip_length", o.platen_slip_length, "mean diameters", {0., 1e6},
+    visitor("platen_slip_length", o.platen_slip_length, "mean diameters", {0., 1e12},
             "platens = frictional: the ratio is platen_friction tanh(v / (platen_friction platen_slip_length)) for a slip v per "
             "unit strain; 0: Coulomb");
     visitor("platen_rotation", o.platen_rotation, "-",

@@ -309,7 +309,7 @@ namespace diptych::continuum
     return result;
   }
 
-  const TrilinosWrappers::SparseMatrix &BoundaryValueProblem::assemble_tangent()
+  const TrilinosWrappers::SparseMatrix &BoundaryValueProblem::assemble_tangent(const double caution)
   {
     const Stopwatch watch{phase.assembly};
     const double    pressure = moves() ? step_share * side_pressure() : 0;
@@ -329,7 +329,7 @@ namespace diptych::continuum
         }
     });
     for (const auto &one : friction.stiffness())
-      tangent.add(one.dof, one.value);
+      tangent.add(one.dof, one.tangent + caution * (one.secant - one.tangent));
     tangent.finish();
     return tangent.matrix();
   }

@@ -85,8 +85,9 @@ namespace diptych::continuum
     // -(residual) of the trial state, zero on constrained components.
     const DistributedVector &negative_residual() const { return rhs; }
 
-    // Consistent tangent of the trial state. Prescribed components are eliminated.
-    const dealii::TrilinosWrappers::SparseMatrix &assemble_tangent();
+    // Consistent tangent of the trial state. Prescribed components are eliminated. `caution` 0 to 1 replaces that share of the
+    // tangent of friction by its secant.
+    const dealii::TrilinosWrappers::SparseMatrix &assemble_tangent(double caution = 0);
     const dealii::TrilinosWrappers::SparseMatrix &tangent_matrix() const { return tangent.matrix(); } // as last assembled
     const dealii::AffineConstraints<double>      &correction_constraints() const { return conditions->correction(); }
 

@@ -203,7 +203,8 @@ namespace diptych::continuum
           ++c;
         }
     restored.state.localisation.assign(restored.state.points.size(), {});
-    restored.state.platen_force = problem.committed().platen_force;
+    restored.state.platen_force  = problem.committed().platen_force;
+    restored.state.friction_work = problem.committed().friction_work;
     return restored;
   }
 } // namespace diptych::continuum

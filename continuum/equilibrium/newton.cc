@@ -82,7 +82,7 @@ namespace diptych::continuum
             report.stopped = true;
             report.message = "stopped on request";
           }
-        else if (!solver.solve(problem.assemble_tangent(), correction, problem.negative_residual()))
+        else if (!solver.solve(problem.assemble_tangent(std::min(1., report.residual)), correction, problem.negative_residual()))
           report.message = "the linear system could not be solved";
         if (report.converged || !report.message.empty())
           return report;

@@ -42,7 +42,9 @@ namespace diptych::continuum
         return;
       force[t] += ratio * normal;
       dissipated += ratio * normal * slip;
-      by_slip.push_back({node.tangential, t, normal * (law.friction - ratio * ratio / law.friction) / scale, wall});
+      const double elastic = law.friction * normal / scale;
+      by_slip.push_back({node.tangential, t, elastic * (1 - std::pow(ratio / law.friction, 2)),
+                         slip != 0 ? ratio * normal / slip : elastic, wall});
     });
   }
 
@@ -52,13 +54,13 @@ namespace diptych::continuum
     by_slip.clear();
     each_pressed_node(mesh, reaction, [&](const SlidingNode &node, const unsigned int t, const double normal, const double wall) {
       if (mesh.owned.is_element(node.tangential))
-        by_slip.push_back({node.tangential, t, normal * law.friction / scale, wall});
+        by_slip.push_back({node.tangential, t, normal * law.friction / scale, normal * law.friction / scale, wall});
     });
   }
 
   void WallFriction::add_resistance(const std::vector<double> &increment, std::vector<double> &force) const
   {
     for (const Stiffness &one : by_slip)
-      force[one.local] += one.value * (increment[one.local] - one.wall);
+      force[one.local] += one.tangent * (increment[one.local] - one.wall);
   }
 } // namespace diptych::continuum

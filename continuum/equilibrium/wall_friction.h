@@ -42,13 +42,14 @@ namespace diptych::continuum
     // Tangent by an element: the friction grows with the normal reaction. Elements with a hanging node miss its share.
     template <class Element> void add_to(ElementMatrix<Element> &K, const Cell &cell) const;
 
-    // Tangent by the slip, at nodes of this process.
+    // Tangent by the slip, at nodes of this process. The secant is safer while Newton's method is far from its solution: with the
+    // tangent alone a sample that slides along all its walls has no stiffness at all.
     struct Stiffness
     {
       dealii::types::global_dof_index dof;
-      unsigned int                    local; // the same among the relevant dofs
-      double                          value; // [pressure]
-      double                          wall;  // displacement of the wall in this step [length]
+      unsigned int                    local;           // the same among the relevant dofs
+      double                          tangent, secant; // d force / d slip, force / slip [pressure]
+      double                          wall;            // displacement of the wall in this step [length]
     };
     const std::vector<Stiffness> &stiffness() const { return by_slip; }
 

@@ -24,6 +24,7 @@ namespace diptych::continuum
     double                         progress = 0, step = 0, last_step = 0;
     bool                           motion_is_smooth = false;
     std::array<Eigen::Vector2d, 2> platen_force{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}; // on the sample
+    double                         friction_work = 0;                                              // [pressure * length^2]
     std::optional<double>          localisation_progress, localisation_angle;
     int    steps = 0, cut_backs = 0, newton_iterations = 0, refinements = 0, linear_iterations = 0, factorisations = 0;
     double point_cpu_s = 0, assembly_cpu_s = 0, geometry_cpu_s = 0, solve_cpu_s = 0;
@@ -48,6 +49,7 @@ namespace diptych::continuum
     visit("motion_is_smooth", c.motion_is_smooth);
     visit("lower_platen_force", c.platen_force[0]);
     visit("upper_platen_force", c.platen_force[1]);
+    visit("friction_work", c.friction_work);
     visit("localisation_progress", c.localisation_progress);
     visit("localisation_angle", c.localisation_angle);
     visit("steps", c.steps);

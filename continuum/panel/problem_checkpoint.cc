@@ -96,6 +96,7 @@ namespace diptych::continuum
     c.last_step         = state.last_step;
     c.motion_is_smooth  = state.is_smooth;
     c.platen_force      = problem.committed().platen_force;
+    c.friction_work     = problem.committed().friction_work;
     c.steps             = state.count.steps;
     c.cut_backs         = state.count.cut_backs;
     c.newton_iterations = state.count.newton_iterations;
@@ -141,9 +142,10 @@ namespace diptych::continuum
         for (row += record_length(problem); row < end; row += 2)
           localisation.push_back({row[0], row[1]});
       }
-    auto restored               = read_records(problem, records, c.progress);
-    restored.state.localisation = std::move(localisation);
-    restored.state.platen_force = c.platen_force;
+    auto restored                = read_records(problem, records, c.progress);
+    restored.state.localisation  = std::move(localisation);
+    restored.state.platen_force  = c.platen_force;
+    restored.state.friction_work = c.friction_work;
     problem.adopt(std::move(restored.state));
     problem.go_on_counting({c.point_cpu_s, c.assembly_cpu_s, c.geometry_cpu_s});
 

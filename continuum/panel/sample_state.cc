@@ -361,6 +361,7 @@ namespace diptych::continuum
     row.stress_ratio       = stress_ratio(row.mean_stress);
     row.lower_platen_force = problem.platen_force(false);
     row.upper_platen_force = problem.platen_force(true);
+    row.friction_work      = problem.committed().friction_work;
     row.n_cells            = int(mesh.triangulation.n_global_active_cells());
     row.n_unknowns         = int(mesh.dof_handler.n_dofs());
     row.newton_iterations  = count.newton_iterations;

@@ -173,7 +173,7 @@ namespace diptych::coupling
     {
       for (const DriveKey &key : {drives[2][0], drives[2][1], drives[3][1]})
         if (!key.is_auto() && constant_velocity(key) != 0.)
-          refuse(key.key, key.text(), "side walls are smooth, and only the right one moves, horizontally");
+          refuse(key.key, key.text(), "only the right side wall moves, and only horizontally");
       const DriveKey &right = drives[3][0];
       if (!right.is_auto() && !constant_velocity(right))
         refuse(right.key, right.text(), "give a constant velocity, or the pressure (discrete/side_motion)");
@@ -190,6 +190,18 @@ namespace diptych::coupling
                "periodic sides (discrete/lateral) must match node by node; use continuum/refinement = uniform");
       if (o.platens == continuum::Platens::smooth && (mode == LoadingMode::shear || mode == LoadingMode::plane_shear))
         refuse("loading/mode", discrete::name_of(mode), "smooth platens cannot shear the sample; use continuum/platens = rough");
+    }
+
+    void check_friction(const continuum::Options &o, const WallDrives &drives, const LoadingMode mode)
+    {
+      if (o.platens != continuum::Platens::frictional)
+        return;
+      if (mode == LoadingMode::time && o.platen_slip_length > 0)
+        refuse("continuum/platen_slip_length", text_of(o.platen_slip_length),
+               "loading/mode = time has no strain to which the slip could refer; use 0 (Coulomb)");
+      for (const DriveKey &key : {drives[0][0], drives[1][0]})
+        if (!key.is_auto() && std::holds_alternative<AppliedForce>(discrete::read_drive(key.key, key.option)))
+          refuse(key.key, key.text(), "the motion of a frictional platen (continuum/platens) must be given");
     }
 
     // edge: of the elements before refinement [length].
@@ -308,6 +320,7 @@ namespace diptych::coupling
     check_sides(lateral, scene.continuum, scene.loading.mode);
     check_platen_drives(drives, scene.loading.mode, smooth, lateral.lateral);
     check_side_drives(drives);
+    check_friction(scene.continuum, drives, scene.loading.mode);
     check_mesh_key(scene);
     check_load_steps(scene.loading, scene.continuum.max_step);
   }

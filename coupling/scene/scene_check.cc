@@ -123,14 +123,14 @@ namespace diptych::coupling
     {
       const auto  &contacts = scene.discrete.law;
       const double platens = contacts.platen_friction, grains = contacts.friction;
-      const bool   rough = scene.continuum.platens == continuum::Platens::rough;
+      const auto   kind = scene.continuum.platens;
       if (scene.discrete.method.method == discrete::Method::imported || scene.sample.rough_platens)
         return std::nullopt;
-      if (rough && platens < grains)
+      if (kind == continuum::Platens::rough && platens < grains)
         return "the platens are rough in the continuum (continuum/platens = rough), but grains slide along them: "
                "discrete/platen_friction = " +
                text_of(platens) + " is below discrete/friction = " + text_of(grains);
-      if (!rough && platens > 0.1)
+      if (kind == continuum::Platens::smooth && platens > 0.1)
         return "the platens are smooth in the continuum (continuum/platens = smooth), but hold the grains: "
                "discrete/platen_friction = " +
                text_of(platens);
