@@ -51,10 +51,9 @@ namespace diptych::coupling
     return times(1 / d, band.width_10_90);
   }
 
-  PanelValues panel_values(const Scene &scene, const HistoryTable &h)
+  PanelValues panel_values(const QuantityBasis &basis, const HistoryTable &h)
   {
-    const QuantityBasis basis = basis_of(scene);
-    PanelValues         values;
+    PanelValues values;
     for (const KeyQuantity &q : key_quantities)
       if (q.of_panel)
         values[q.key] = q.of_panel(basis, h);

@@ -78,7 +78,7 @@ namespace diptych::coupling
 
   // Values of one panel by the keys of its quantities.
   using PanelValues = std::map<std::string, double>;
-  PanelValues   panel_values(const Scene &scene, const HistoryTable &history);
+  PanelValues   panel_values(const QuantityBasis &basis, const HistoryTable &history);
   inline double value_of(const PanelValues &values, const KeyQuantity &q) // NaN: no panel
   {
     const auto found = values.find(q.key);

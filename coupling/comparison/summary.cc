@@ -55,8 +55,8 @@ namespace diptych::coupling
 
   PanelNumbers panel_numbers(const Scene &scene, const HistoryTable &h)
   {
-    return {panel_values(scene, h), peak_of_running_mean(h, "stress_ratio", averaging_width(scene)),
-            early_strength(basis_of(scene), h)};
+    const QuantityBasis basis = basis_of(scene);
+    return {panel_values(basis, h), peak_of_running_mean(h, "stress_ratio", basis.averaging_width), early_strength(basis, h)};
   }
 
   DiscreteSummary summary_of(const Scene              &scene,

@@ -51,7 +51,7 @@ namespace diptych::python
     m.def("key_quantities", &quantities);
     m.def("origin_of_law", &coupling::origin_of_law);
     m.def("panel_values", [](const coupling::Scene &scene, const std::map<std::string, Numbers> &columns) {
-      return coupling::panel_values(scene, table_of(columns));
+      return coupling::panel_values(coupling::basis_of(scene), table_of(columns));
     });
     m.def("stress_ratio_of_means", [](const std::map<std::string, Numbers> &columns, const double from, const double to) {
       return coupling::ratio_of_means(table_of(columns), from, to);
