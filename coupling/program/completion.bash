@@ -22,7 +22,8 @@ _diptych()
     words=$("$program" explain | awk '/^[a-z]/ {section = $1} /^  [a-z]/ {print section "/" $1 "="}')
   else
     help=$("$program" "$command" --help 2>/dev/null)
-    words=$(sed -n "s/^  \(-h,\)\{0,1\}$before [^{]*{\([^}]*\)}.*/\2/p" <<<"$help" | tr , ' ')
+    [ "${before#-}" = "$before" ] ||
+      words=$(sed -n "s/^  \(-h,\)\{0,1\}$before [^{]*{\([^}]*\)}.*/\2/p" <<<"$help" | tr , ' ')
     if [ -z "$words" ] && [ "${word#-}" != "$word" ]; then
       words=$(sed -n 's/^  \(-h,\)\{0,1\}\(--[a-z-]*\).*/\2/p' <<<"$help")
     elif [ -z "$words" ]; then

@@ -228,13 +228,15 @@ class CommandLine(Folder):
                                (["solve", "--solver", ""], "psor"),
                                (["solve", "--form", "lo"], "local"), (["explain", "samp"], "sample"),
                                (["explain", "res"], "results"),
-                               (["completion", ""], "bash"), (["study", "scene.prm", "--va"], "--vary"),
+                               (["completion", ""], "bash"), (["study", "/tmp/scene.prm", "--va"], "--vary"),
                                (["study", "--panels", "d"], "discrete"),
                                (["run", "--set", "discrete/fric"], "discrete/friction="),
                                (["run", "--set", "continuum/law", "=", "mo"], "mohr_coulomb"),
                                (["run", "--set", "discrete/lateral", "="], "periodic")):
             quoted = " ".join(f"'{word}'" for word in [PROGRAM, *words])
             line = f"source {script}; COMP_WORDS=({quoted}); COMP_CWORD={len(words)}; _diptych; echo ${{COMPREPLY[@]}}"
-            told = subprocess.run(["bash", "-c", line], capture_output=True, text=True, check=True).stdout.split()
+            result = subprocess.run(["bash", "-c", line], capture_output=True, text=True, check=True)
+            told = result.stdout.split()
+            self.assertEqual(result.stderr, "", words)
             self.assertIn(offered, told, words)
             self.assertLess(len(told), 20, words)
