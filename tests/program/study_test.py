@@ -12,7 +12,8 @@ import unittest
 import pandas
 
 import browser
-from running import bits, content, diptych, finished, Folder, listing, read_json, SOURCE, start, temporary, write
+from running import (bits, content, diptych, finished, Folder, listing, read_json, setting, SOURCE, start, temporary,
+                     write)
 
 # 150 grains between smooth rigid walls: a run takes a fifth of a second.
 STUDY = {
@@ -239,15 +240,15 @@ class Failures(Study):
 class Effects(Folder):
     """Two frictions on two samples, both panels."""
 
-    SCENE = ("subsection sample\n  set grains = 150\nend\nsubsection loading\n  set inertial_number = 1e-3\n  set "
+    SCENE = ("subsection sample\n  set grains = 300\nend\nsubsection loading\n  set inertial_number = 1e-3\n  set "
              "axial_strain = 0.01\nend\nsubsection comparison\n  set window_edges = 0, 0.01\nend\n")
 
     @classmethod
     def setUpClass(cls):
         work = temporary(cls)
         cls.scene, cls.done = write(os.path.join(work, "tiny.prm"), cls.SCENE), os.path.join(work, "done")
-        cls.process = finished("study", cls.scene, "--vary", "discrete/friction=0.1,0.6", "--seeds", "1-2", "--output",
-                               cls.done)
+        cls.process = finished("study", cls.scene, "--vary", "discrete/friction=0.1,0.6", "--seeds", "1-2",
+                               *setting(sample_grains=150), "--output", cls.done)
 
     def test_means_follow_from_the_summaries_of_the_runs(self):
         table, record = pandas.read_csv(os.path.join(self.done, "effects.csv")), read_json(self.done, "study.json")
@@ -283,7 +284,7 @@ class Effects(Folder):
                                 ([self.scene, "--vary", "discrete/friction=1,-2"],
                                  "discrete/friction = '-2' is not allowed; give a number from 0"),
                                 ([self.scene, "--vary", "discrete/friction=1,1.0"],
-                                 "values of discrete/friction: '1' stands there twice"),
+                                 "values of discrete/friction: '1' is listed twice"),
                                 ([self.scene, "--vary", "sample/seed=1,2", "--seeds", "1-2"], "sample/seed = 1"),
                                 ([self.scene, "--vary", "loading/axial_strain=0.013"], "every point is refused")]:
             with self.subTest(words=words[1:]):

@@ -76,7 +76,9 @@ def study_of_words(line: argparse.Namespace) -> tuple[Study, str]:
     record = {"scene": os.path.abspath(file), "command": _COMMANDS[line.panels],
               "set": {} if line.panels in ("discrete", "continuum") else _WITHOUT_COARSE_MESH,
               "axes": [_axis(text) for text in line.vary], **({"seeds": line.seeds} if line.seeds else {})}
-    return study_of(Part("--vary", {}, record), name_of(file, "scene"), overrides), json.dumps(record, indent=1) + "\n"
+    study = study_of(Part("--vary", {}, record), name_of(file, "scene"), overrides)
+    record["set"] = {**record["set"], **{f"{one.section}/{one.key}": one.value for one in overrides}}
+    return study, json.dumps(record, indent=1) + "\n"
 
 
 def _check_panels(file: str, line: argparse.Namespace, overrides: list[Any]) -> None:
