@@ -183,7 +183,7 @@ def _target(part: Part) -> Target:
         target.seeds = part.seeds("seeds")
     if part.has("curve"):
         if part.has("results"):
-            part.refuse(" stands instead of grains; leave out results", "curve")
+            part.refuse(" replaces grains; leave out results", "curve")
         target.curve = part.existing_file("curve")
     if part.has("before"):
         fragment = part.existing_file("before")
@@ -260,7 +260,7 @@ def _check_curves(root: Part, targets: Sequence[Target], parameters: Sequence[Pa
             part.refuse(": parameters of the grains are fitted to a measured curve; a target needs scene, curve and "
                         "seeds")
         if sections == {"continuum"} and target.curve and target.seeds:
-            part.refuse(" stands instead of grains; leave out seeds, or name parameters of the grains as discrete/KEY",
+            part.refuse(" replaces grains; leave out seeds, or name parameters of the grains as discrete/KEY",
                         "curve")
 
 

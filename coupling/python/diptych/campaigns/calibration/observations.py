@@ -1,6 +1,6 @@
 # diptych: observables of a calibration, from histories, snapshots and measured curves
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A measured curve stands instead of grains. One outline serves all samples of a path."""
+"""A measured curve may replace the grains of a path. One outline serves all samples of a path."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field

@@ -137,7 +137,7 @@ class Part:
         """Refuses a name that the entries of a list have twice. of: the key whose values they are."""
         for name, count in Counter(names).items():
             if count > 1:
-                self.refuse(f"{f' of {of}' if of else ''}: '{name}' stands there twice", key)
+                self.refuse(f"{f' of {of}' if of else ''}: '{name}' is listed twice", key)
 
     def has(self, key: str) -> bool:
         return isinstance(self.value, dict) and key in self.value
