@@ -212,7 +212,12 @@ namespace diptych::coupling
     const auto &material = scene.continuum.material;
     if (continuum::traits(scene.continuum.law).is_plastic)
       c.theory = theory_lines(material.friction_angle_peak, material.dilatancy_angle_peak);
-    c.discrete  = summary_of(scene, results.discrete, results.discrete.snapshots[n - 1], c.discrete_history);
+    c.discrete = summary_of(scene, results.discrete, results.discrete.snapshots[n - 1], c.discrete_history);
+    if (scene.loading.mode != discrete::LoadingMode::time)
+      {
+        c.discrete.platens             = platen_friction(results.discrete.snapshots, settings.is_mirror_symmetric);
+        c.discrete.platens.slip_length = times(1 / scene.sample.mean_diameter, c.discrete.platens.slip_length);
+      }
     c.continuum = summary_of(scene, results.continuum, c.continuum_history);
     c.cost      = summary_of(results.phases);
     return c;

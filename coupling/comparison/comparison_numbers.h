@@ -127,6 +127,12 @@ namespace diptych::coupling
       s.balance.mean);
     v({"platen_difference_largest", "-", "largest difference of the platen forces, relative to their mean size"},
       s.balance.largest);
+    v({"platen_friction", "-",
+       "largest ratio of shear to normal stress along a platen, fitted to traction and slip; the interval is that of this "
+       "sample"},
+      s.platens.friction);
+    v({"platen_slip_length_d", "mean diameters", "slip length of that fit (continuum/platen_slip_length)"},
+      s.platens.slip_length);
     list_numbers(s.facts, v);
   }
 

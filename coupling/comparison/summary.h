@@ -8,6 +8,7 @@
 
 #include "coupling/comparison/key_quantities.h"
 #include "coupling/comparison/platen_balance.h"
+#include "coupling/probes/platen_slip.h"
 #include "coupling/scene/scene.h"
 #include "coupling/statistics/history_table.h"
 #include "coupling/store/results.h"
@@ -37,6 +38,7 @@ namespace diptych::coupling
     double           kinetic_energy_ratio_median = NAN, kinetic_energy_ratio_largest = NAN;
     double           contacts = NAN, coordination_number = NAN, rattlers = NAN; // at the end
     PlatenBalance    balance;
+    PlatenFriction   platens; // lengths in mean diameters; NaN along time
     discrete::Report facts;
   };
 
