@@ -170,7 +170,7 @@ namespace
               Eigen::Matrix2d m;
               m << expected.uniform(k, 0), expected.uniform(k, 1), expected.uniform(k, 2), expected.uniform(k, 3);
               m = (turn * m * turn.transpose()).eval();
-              expected.uniform.row(k) << m(0, 0), m(0, 1), m(1, 0), m(1, 1);
+              expected.uniform.row(k).head(4) << m(0, 0), m(0, 1), m(1, 0), m(1, 1);
             }
           EXPECT_LT(difference(expected, sums), 1e-10);
         });
