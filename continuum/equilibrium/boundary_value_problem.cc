@@ -35,7 +35,7 @@ namespace diptych::continuum
       return options.element == Displacement::q1_bbar ? ElementKind::q1_mean_dilation : ElementKind::q2;
     }
 
-    // Elastic slip under friction, in units of length. Smaller values change no digit of a result, but need more iterations.
+    // Elastic slip of one step under friction, in units of length.
     constexpr double stick_slip = 1e-6;
 
     bool same_nodes(const SideContact &a, const SideContact &b)

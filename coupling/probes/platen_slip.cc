@@ -91,7 +91,7 @@ namespace diptych::coupling
                                        const PlatenFrame                &frame,
                                        const int                         n_parts)
   {
-    std::vector<PlatenPart> parts(std::max(n_parts, 1));
+    std::vector<PlatenPart> parts(static_cast<std::size_t>(n_parts));
     const double            left = frame.is_mirror_symmetric ? 0 : -1;
     const auto              add  = [&](const PlatenContact &c, const double turn) {
       const double place  = turn * (c.x - frame.middle) / frame.half_width;

@@ -43,7 +43,7 @@ namespace
       }
   }
 
-  // Of 40 intervals of 95 %, fewer than 34 hold the truth in 1 of 100 such tests.
+  // Of 40 intervals of 95 %, fewer than 35 hold the truth in 1 of 100 such tests.
   TEST(PlatenSlip, IntervalsHoldTheTruth)
   {
     int held = 0;
@@ -56,7 +56,7 @@ namespace
         const Interval friction = platen_friction(windows).friction;
         held += friction.low < mu && mu < friction.high;
       }
-    EXPECT_GE(held, 34);
+    EXPECT_GE(held, 35);
   }
 
   // One contact to the right of the middle below and one to the left above are the same place, turned by half a turn.
