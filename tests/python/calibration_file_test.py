@@ -45,7 +45,7 @@ def test_a_file_with_a_curve_is_read(tmp_path, capfd):
     told = capfd.readouterr().err
     assert "no row lies in the bin from 0.012 to 0.018" in told and told.count("warning") == 1
     (tmp_path / "c.json").write_text(text % (QUICK, ', "seeds": "1"'))
-    with pytest.raises(diptych.SceneError, match="instead of grains"):
+    with pytest.raises(diptych.SceneError, match="replaces grains"):
         read_calibration(str(tmp_path / "c.json"))
 
 

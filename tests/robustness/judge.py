@@ -71,8 +71,8 @@ def digest(root):
                 found[place] = "-> " + os.readlink(path) if is_link else "folder" if os.path.isdir(
                     path) else hashlib.blake2b(read(path), digest_size=16).hexdigest()
             except FileNotFoundError:
-                if not LOCK.search(name):  # a worker of a killed run removes its lock while it ends
-                    raise
+                if not LOCK.search(name) and not name.endswith(".part"):
+                    raise  # a worker of a killed run removes its lock and renames its last file while it ends
     return found
 
 
