@@ -83,6 +83,9 @@ namespace diptych::python
   {
     m.def("integrate", &integrate);
     m.def("named_path", &named_path);
+    m.def("follows_solid_fraction", [](const std::string &hardening) {
+      return continuum::follows_solid_fraction(choice_of<continuum::HardeningKind>(hardening, "continuum/hardening"));
+    });
     m.def("point_columns", &column_meanings<continuum::MaterialPointRow>);
   }
 } // namespace diptych::python

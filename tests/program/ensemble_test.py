@@ -153,14 +153,15 @@ class Statistics(Ensemble):
                          quantity(self.three, "discrete_summary peak_stress_ratio")["values"])
 
     def test_an_ensemble_of_an_earlier_version_is_read_and_not_continued(self):
-        """Its members are in seed_K, and ensemble.json names no folders."""
+        """Its members are in seed_K, and ensemble.json names no folders, keys and windows."""
         shutil.copytree(self.three, self.folder)
         record = read(self.folder)
         for seed, folder in zip(record["seeds"], record.pop("folders")):
             os.rename(self.path(folder), self.path(f"seed_{seed}"))
             os.rename(self.path(folder + ".log"), self.path(f"seed_{seed}.log"))
         shutil.rmtree(self.path("runs"))
-        write(self.path("ensemble.json"), json.dumps(record))
+        bare = [{key: one[key] for key in one if key not in ("key", "window")} for one in record["verdicts"]]
+        write(self.path("ensemble.json"), json.dumps({**record, "verdicts": bare}))
         facts = read(self.folder, "provenance.json")
         write(self.path("provenance.json"), json.dumps({key: facts[key] for key in facts if key != "ensemble_files"}))
         for words in (["report", self.folder], ["compare", self.folder, *setting(output_report="true")]):

@@ -274,6 +274,9 @@ class Effects(Folder):
         result = self.expect(0, ["study", file, "--output", self.folder, "--resume"])
         self.assertIn("4 of 4 runs are finished", result.stdout)
         self.expect_same_files(self.done, "study.json")
+        other = shutil.copy(file, os.path.join(self.work, "other.json"))
+        self.expect(2, ["study", other, "--output", self.folder, "--resume"], "is of the study 'tiny', not 'other'")
+        self.expect_same_files(self.done, "study.json")
 
     def test_wrong_words_are_refused_with_key_value_and_range(self):
         file = write(os.path.join(self.work, "file.json"), json.dumps(STUDY))

@@ -42,6 +42,17 @@ def read_json(path: str, format: int | None = None) -> Any:
 
 
 def read_ensemble(folder: str, format: int | None = None) -> Any:
-    """ensemble.json of a folder. One without `folders` is of an earlier version: its members are in seed_K."""
+    """ensemble.json of a folder. One without `folders` is of an earlier version: its members are in seed_K, and only
+    the name of a quantity tells its key and window."""
     record = read_json(os.path.join(folder, "ensemble.json"), format)
-    return {"folders": [f"seed_{seed}" for seed in record["seeds"]], **record}
+    if "folders" not in record:
+        record["folders"] = [f"seed_{seed}" for seed in record["seeds"]]
+        for verdict in record["verdicts"]:
+            window, band, key = verdict["quantity"].rpartition(" band ")
+            verdict |= {"key": ("band_" if band else "") + key, "window": window}
+    return record
+
+
+def member_folders(record: Any) -> dict[int, str]:
+    """The result folders of an ensemble's members by seed, relative to its own. record: of read_ensemble()."""
+    return dict(zip(record["seeds"], record["folders"]))

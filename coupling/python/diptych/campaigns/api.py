@@ -14,7 +14,7 @@ from typing import Any, Self, TypeVar
 import pandas as pd
 
 from ..errors import NotConverged, SceneError, Stopped
-from ..files import read_ensemble
+from ..files import member_folders, read_ensemble
 from ..scenes import SceneLike, changes, text_of
 from .commands import do
 from .runs.engine import stop_signals
@@ -112,8 +112,8 @@ class Campaign(CampaignResult):
         """An ensemble: the result folder of each seed, for diptych.load()."""
         if "verdicts" not in self.numbers:
             raise AttributeError("a study has no members; the column folder of .table names its runs")
-        record = read_ensemble(self.folder)
-        return {seed: os.path.join(self.folder, one) for seed, one in zip(record["seeds"], record["folders"])}
+        folders = member_folders(read_ensemble(self.folder))
+        return {seed: os.path.join(self.folder, one) for seed, one in folders.items()}
 
     @property
     def verdicts(self) -> pd.DataFrame:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from matplotlib.figure import Figure
 
-from ..files import read_ensemble, read_json
+from ..files import member_folders, read_ensemble, read_json
 from .charts import profiles
 from .charts.style import FAINT, INK, PANEL_COLOURS, PANEL_LINES, PANEL_MARKS, chart, ruled, svg
 from .data.files import open_arrays, read_provenance, read_text, scene_value
@@ -80,7 +80,7 @@ def load(folder):
     record = read_ensemble(folder, 1)
     arrays, provenance = (os.path.join(folder, name) for name in ("ensemble.h5", "provenance.json"))
     members = (os.path.join(folder, member, "comparison.json")
-               for seed, member in zip(record["seeds"], record["folders"]) if seed in record["done"])
+               for seed, member in member_folders(record).items() if seed in record["done"])
     member = next((read_json(path) for path in members if os.path.isfile(path)), {})
     results = Ensemble(folder=folder, record=record, quantities={q["name"]: q for q in record["quantities"]},
                        numbers=Descriptions(member.get("numbers")),

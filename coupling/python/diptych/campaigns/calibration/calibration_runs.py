@@ -155,7 +155,7 @@ class CalibrationRuns:
         here.extend(point)
         material = path.scene.dict()["continuum"]
         hardening = next((one.value for one in reversed(point) if one.key == "hardening"), material["hardening"])
-        if hardening in ("critical_state", "kinematic") and material["solid_fraction_start"] == "auto":
+        if material["solid_fraction_start"] == "auto" and continuum("calibrate").follows_solid_fraction(hardening):
             # the mean density: the meshes here have no grains
             add("continuum", solid_fraction_start=outline.solid_fraction)
         return here

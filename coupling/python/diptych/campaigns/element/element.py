@@ -11,6 +11,7 @@ from typing import Any
 import pandas as pd
 
 from ... import _diptych
+from ...compiled import continuum
 from ...entries import describe
 from ...errors import NotConverged, SceneError, Stopped
 from .curves import BINS, key_numbers, observed, rms_differences, table_of
@@ -19,8 +20,6 @@ from ..runs.folders import Folder, Runs, SceneRun, draw, write_json, write_text
 from ..runs.histories import panel_table
 from ..runs.input_file import Setting, read_seeds, settings_of
 from ..studies.points import on_sample, scene_run
-
-FOLLOW_DENSITY = ("critical_state", "kinematic")  # kinds of hardening that know the solid fraction
 
 describe("element.json", """\
 format: version of this file's format
@@ -82,7 +81,7 @@ def _done(runs: Runs, wanted: Sequence[SceneRun], options: Options) -> list[str]
 def _law_settings(settings: Sequence[Setting], scene: Any, tables: Sequence[pd.DataFrame]) -> list[Setting]:
     """With the mean solid fraction of the samples, if the law needs one and the scene leaves it to the grains."""
     law = scene.dict()["continuum"]
-    if law["hardening"] not in FOLLOW_DENSITY or law["solid_fraction_start"] != "auto":
+    if law["solid_fraction_start"] != "auto" or not continuum("element").follows_solid_fraction(law["hardening"]):
         return list(settings)
     start = sum(float(table["solid_fraction"].iloc[0]) for table in tables) / len(tables)
     return [*settings, Setting("continuum", "solid_fraction_start", repr(start), "the grains")]

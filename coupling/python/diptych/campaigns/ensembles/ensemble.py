@@ -18,7 +18,7 @@ import pandas as pd
 from ... import _diptych
 from ...compiled import continuum
 from ...errors import NotConverged, SceneError, Stopped
-from ...files import read_ensemble
+from ...files import member_folders, read_ensemble
 from . import summary as summaries
 from . import validation
 from ..runs.engine import Options, Outcome, say
@@ -79,10 +79,10 @@ def _verdicts(margins: dict[str, float], members: Sequence[Member], quantities: 
         found, row = validation.validated(kind, (first, second), parts, len(responses.draws))
         verdict = found.verdict(margin)
         rows.append({"key": key, "quantity": name, **row, "unit": unit, "verdict": verdict})
-        verdicts.append({"key": key, "quantity": name, "unit": "-" if kind == "relative" else unit, "margin": margin,
-                         "relative": kind == "relative", "difference": found.difference,
-                         "difference_90": found.difference_90,
-                         "n": found.n, "verdict": verdict, "discrete": first, "continuum": second})
+        verdicts.append({"key": key, "window": window, "quantity": name,
+                         "unit": "-" if kind == "relative" else unit, "margin": margin, "relative": kind == "relative",
+                         "difference": found.difference, "difference_90": found.difference_90, "n": found.n,
+                         "verdict": verdict, "discrete": first, "continuum": second})
     return verdicts, rows
 
 
@@ -119,7 +119,7 @@ def _write_curves(directory: str, scene: Any, folders: dict[int, str]) -> None:
 
 def _done(scene: Any, record: dict[str, Any]) -> dict[int, str]:
     """The result folders of the finished members by seed. record: with the entries _ENDS of ensemble.json."""
-    return {seed: os.path.join(scene.directory, folder) for seed, folder in zip(record["seeds"], record["folders"])
+    return {seed: os.path.join(scene.directory, folder) for seed, folder in member_folders(record).items()
             if seed in record["done"]}
 
 

@@ -84,6 +84,7 @@ bands/: number of bands found
     text (text): the same as text
 verdicts/: verdicts on the differences of the panels
     key (text): key of the quantity in summary; that of a band stands in every window
+    window (text): window of a band, as in its name; empty: the panel's whole run
     quantity (text): compared quantity: continuum minus grains, member by member
     unit (text): unit of the quantity
     margin [as in unit]: largest difference that counts as equivalent

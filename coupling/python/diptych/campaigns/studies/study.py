@@ -17,7 +17,8 @@ import pandas as pd
 
 from ... import _diptych
 from ...entries import describe
-from ...errors import NotConverged, Stopped
+from ...errors import NotConverged, SceneError, Stopped
+from ...files import read_json
 from ..runs.engine import Options, complain, say
 from .effects import changes_of, effects_table, text_of_changes, text_of_means, text_of_quantity
 from .evaluation import CLASSES, Results, cost_of, evaluate, orders_of
@@ -284,6 +285,16 @@ def _conclude(study: Study, points: Sequence[Point], record: dict[str, Any], opt
     return f"{n} points: {found}" if found else f"{n} points"
 
 
+def _demand_same_name(directory: str, study: Study, options: Options) -> None:
+    """Points and quantities may change between attempts. Raises SceneError for another study, whose tables are
+    there."""
+    file = os.path.join(directory, "study.json")
+    there = read_json(file)["name"] if options.resume and os.path.exists(file) else study.name
+    if there != study.name:
+        raise SceneError(f"--resume: {file} is of the study '{there}', not '{study.name}'. Give --output with another "
+                         "folder, or --overwrite.")
+
+
 def run_study(line: argparse.Namespace, options: Options) -> None:
     """diptych study FILE. line: target, output, set, set_file, vary, seeds, panels, levels. Raises NotConverged if runs
     are missing, or Stopped."""
@@ -304,6 +315,7 @@ def run_study(line: argparse.Namespace, options: Options) -> None:
                 *{pair for scene in scenes for pair in scene.input_files()}]
 
     with Folder(directory) as folder:
+        _demand_same_name(directory, study, options)
         folder.open_runs("study", line.target, options, inputs, text)
         runs = Runs(directory)
         outcomes = runs.do([run for point in points for run in point.runs], options)

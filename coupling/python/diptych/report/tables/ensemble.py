@@ -4,6 +4,8 @@
 import os
 
 from ...arrays import ends_text
+from ...campaigns.runs.members import number_name
+from ...files import member_folders
 from ..data.panels import PANEL_NAMES
 from .wording import DECIMALS, UNBROKEN, ending, fixed, number, rounded, shown_unit
 
@@ -12,35 +14,27 @@ NUMERICAL = ("grains_step", "mesh", "load_step")  # parts of u_num
 AXIS_UNITS = {"": "", "%": " (%)", "°": " (°)", " d": " (d)"}
 
 
-def place_of(verdict):
-    """("window 0-0.01", "angle_deg") or ("", "peak_stress_ratio")."""
-    key = verdict["key"].removeprefix("band_")
-    return ("" if key == verdict["key"] else verdict["quantity"].removesuffix(f" band {key}"), key)
-
-
 def described_at(verdict):
     """Place of the quantity of a verdict in the list of numbers of a comparison."""
-    place, key = place_of(verdict)
-    return f"windows/discrete/bands/{key}" if place else f"discrete_summary/{key}"
+    key = verdict["key"]
+    return f"windows/discrete/bands/{key.removeprefix('band_')}" if verdict["window"] else f"discrete_summary/{key}"
 
 
 def own_text(results, verdict):
     """("inclination of the band", unit of wording.rounded)."""
     at = described_at(verdict)
-    words = results.numbers.meaning(at).split(",")[0] + (" of the band" if place_of(verdict)[0] else "")
+    words = results.numbers.meaning(at).split(",")[0] + (" of the band" if verdict["window"] else "")
     return words, shown_unit(results.numbers, at)
 
 
 def text_of(results, verdict):
     """"inclination of the band, 0–1 %"."""
-    place, text = place_of(verdict)[0], own_text(results, verdict)[0]
-    return f"{text}, {results.place(place)[1]}" if place else text
+    text, window = own_text(results, verdict)[0], verdict["window"]
+    return f"{text}, {results.place(window)[1]}" if window else text
 
 
 def panel_quantities(results, verdict):
-    place, key = place_of(verdict)
-    names = {p: f"{place} {p} band {key}" if place else f"{p}_summary {key}" for p in PANEL_NAMES}
-    return {p: results.quantities.get(name) for p, name in names.items()}
+    return {p: results.quantities.get(number_name(p, verdict["key"], verdict["window"])) for p in PANEL_NAMES}
 
 
 def with_interval(record, unit):
@@ -111,11 +105,10 @@ def captions(results):
     found = {band["name"]: band["text"] for band in results.record["bands"]}
     rows = []
     for verdict in results.record["verdicts"]:
-        place = place_of(verdict)[0]
         text, unit = own_text(results, verdict)
         caption = text_of(results, verdict)
-        if place:
-            texts = [found.get(f"{place} {panel}", "–") for panel in PANEL_NAMES]
+        if verdict["window"]:
+            texts = [found.get(f"{verdict['window']} {panel}", "–") for panel in PANEL_NAMES]
             caption += ". Bands found, grains: " + "; continuum: ".join(texts)
         rows.append((verdict, text + AXIS_UNITS.get(unit, ""), 100 if unit == "%" else 1, caption + "."))
     return rows
@@ -145,7 +138,7 @@ def members(results):
     place = {seed: k for k, seed in enumerate(record["done"])}
     peaks = [results.quantities.get(f"{p}_summary peak_stress_ratio") for p in PANEL_NAMES]
     rows = []
-    for seed, folder in zip(record["seeds"], record["folders"]):
+    for seed, folder in member_folders(record).items():
         row = {"seed": seed, "log": folder + ".log", "report": None, "values": ["–", "–"]}
         if seed in place:
             row["state"] = "done"
