@@ -56,3 +56,12 @@ def read_ensemble(folder: str, format: int | None = None) -> Any:
 def member_folders(record: Any) -> dict[int, str]:
     """The result folders of an ensemble's members by seed, relative to its own. record: of read_ensemble()."""
     return dict(zip(record["seeds"], record["folders"]))
+
+
+def number_name(panel: str, key: str, window: str = "") -> str:
+    """Name of a compared quantity in ensemble.json. panel: discrete, continuum or continuum_coarse. window: that of a
+    band."""
+    if not window:
+        return f"{panel}_summary {key}"
+    of = f"{panel} {window}" if panel == "continuum_coarse" else f"{window} {panel}"
+    return f"{of} band {key.removeprefix('band_')}"

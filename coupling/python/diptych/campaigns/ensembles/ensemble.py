@@ -18,7 +18,7 @@ import pandas as pd
 from ... import _diptych
 from ...compiled import continuum
 from ...errors import NotConverged, SceneError, Stopped
-from ...files import member_folders, read_ensemble
+from ...files import member_folders, number_name, read_ensemble
 from . import summary as summaries
 from . import validation
 from ..runs.engine import Options, Outcome, say
@@ -28,7 +28,7 @@ from ..runs.histories import panel_table, resampled, running_mean
 from ..runs.input_file import read_seeds, settings_of
 from ..studies.level_runs import add_summary, demand_rule, ensemble_levels, fine_runs, read_levels
 from ..runs.key_numbers import QUANTITIES, summary_of
-from ..runs.members import Member, member_of, number_name
+from ..runs.members import Member, member_of
 from ..runs.statistics import line_statistics, statistics, student_quantile
 
 _PANELS = ("discrete", "continuum")

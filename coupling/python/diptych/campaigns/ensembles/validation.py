@@ -21,13 +21,13 @@ import pandas as pd
 
 from ... import _diptych
 from ...errors import Stopped
-from ...files import read_ensemble
+from ...files import number_name, read_ensemble
 from ..runs.engine import Options
 from ..runs.folders import Runs, SceneRun, run_on
 from ..runs.histories import panel_table
 from ..runs.input_file import Setting
 from ..runs.key_numbers import OF_PANEL, QUANTITIES, panel_values
-from ..runs.members import Member, member_of, number_name
+from ..runs.members import Member, member_of
 from ..runs.statistics import Difference, line_statistics, line_turn, paired, statistics
 
 DRAWS = 12  # of the parameters; their deviation is then known to a fifth

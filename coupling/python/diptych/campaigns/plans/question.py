@@ -12,8 +12,8 @@ import numpy as np
 
 from ... import _diptych
 from ...errors import SceneError
+from ...files import number_name
 from ..runs.input_file import Setting, settings_of
-from ..runs.members import number_name
 from ..studies.study_file import quantity
 
 NAMES = ("peak_stress_ratio", "strength", "final_volumetric_strain", "width_10_90", "angle")

@@ -78,14 +78,6 @@ class Member:
         self.numbers = folded
 
 
-def number_name(panel: str, key: str, window: str = "") -> str:
-    """Name of a compared quantity in a member. panel: discrete, continuum or continuum_coarse; window: of a band."""
-    if not window:
-        return f"{panel}_summary {key}"
-    of = f"{panel} {window}" if panel == "continuum_coarse" else f"{window} {panel}"
-    return f"{of} band {key.removeprefix('band_')}"
-
-
 def member_of(path: str, folded: bool) -> Member:
     """The numbers of a comparison.json. Names: "stage 0.04 discrete probe zone t_over_s", "window 0.02-0.04 continuum
     band angle_deg" (of the strongest band), "discrete_summary peak_stress_ratio". Raises ValueError."""

@@ -4,8 +4,7 @@
 import os
 
 from ...arrays import ends_text
-from ...campaigns.runs.members import number_name
-from ...files import member_folders
+from ...files import member_folders, number_name
 from ..data.panels import PANEL_NAMES
 from .wording import DECIMALS, UNBROKEN, ending, fixed, number, rounded, shown_unit
 
