@@ -16,8 +16,10 @@ namespace diptych::continuum
     int             step               = 0;
     double          axial_strain       = 0;                       // descent of the upper platen / initial height
     double          stress_ratio       = 0;                       // t/s of the mean stress
+    double          width              = 0;                       // area / height [length]
     double          volumetric_strain  = 0;                       // 1 - V/V0, dilation negative
     Eigen::Matrix3d mean_stress        = Eigen::Matrix3d::Zero(); // [pressure]
+    Eigen::Matrix3d core_stress        = Eigen::Matrix3d::Zero(); // symmetric mean over the middle half of the height
     Eigen::Vector2d lower_platen_force = Eigen::Vector2d::Zero(); // [pressure * length]
     Eigen::Vector2d upper_platen_force = Eigen::Vector2d::Zero();
     int             n_cells = 0, n_unknowns = 0;
@@ -94,6 +96,10 @@ namespace diptych::continuum
     visit("unstable_share", r.unstable_share, "-",
           "share of the area where the second-order work of the step is negative and plastic flow contracts");
     visit("friction_work", r.friction_work, "pressure length^2", "work of friction along platens and rigid side walls");
+    visit("core_sxx", r.core_stress(0, 0), "pressure", "mean stress in the middle half of the height, xx component");
+    visit("core_sxy", r.core_stress(0, 1), "pressure", "mean stress there, xy component");
+    visit("core_syy", r.core_stress(1, 1), "pressure", "mean stress there, yy component");
+    visit("width", r.width, "length", "area / height");
     visit("walk", r.loading_variable, "-", "column that progress equals: axial_strain, shear_strain or time");
   }
 } // namespace diptych::continuum

@@ -253,17 +253,30 @@ namespace diptych::continuum
 
     void add_point_sums(const BoundaryValueProblem &problem, HistoryRow &row)
     {
-      const auto &mesh     = problem.discretisation();
-      const auto &state    = problem.committed();
-      const auto &geometry = problem.geometry();
-      double      area = 0, yielding = 0, unreliable = 0, not_intermediate = 0, viscous = 0, dissipation = 0, largest = 0,
-             unstable = 0;
+      const auto  &mesh     = problem.discretisation();
+      const auto  &state    = problem.committed();
+      const auto  &geometry = problem.geometry();
+      const auto   position = positions(mesh, state.displacement);
+      const double bottom   = mesh.origin.y() + problem.platen_travel(false).y(),
+                   height   = mesh.origin.y() + mesh.extent.y() + problem.platen_travel(true).y() - bottom;
+      double area = 0, core_area = 0, yielding = 0, unreliable = 0, not_intermediate = 0, viscous = 0, dissipation = 0,
+             largest = 0, unstable = 0;
       for (std::size_t i = 0; i < state.points.size(); ++i)
         {
           const auto  &point = state.points[i];
-          const double w     = geometry.cells[i / mesh.reference.n_points].points[i % mesh.reference.n_points].area;
+          const auto   cell = i / mesh.reference.n_points, q = i % mesh.reference.n_points;
+          const double w      = geometry.cells[cell].points[q].area;
+          const auto   stress = compression_positive(point, mesh.kind == ElementKind::q2_cosserat);
+          double       y      = -bottom;
+          for (unsigned int node = 0; node < mesh.reference.n_nodes; ++node)
+            y += mesh.reference.shape[q][node] * position[mesh.cells[cell].nodes[node]].y();
           area += w;
-          row.mean_stress += w * compression_positive(point, mesh.kind == ElementKind::q2_cosserat);
+          row.mean_stress += w * stress;
+          if (std::abs(y - 0.5 * height) < 0.25 * height)
+            {
+              core_area += w;
+              row.core_stress += w * stress;
+            }
           not_intermediate += w * zz_is_not_intermediate(point);
           dissipation += w * point.dissipation;
           largest = std::max(largest, point.equivalent_plastic_strain);
@@ -277,6 +290,9 @@ namespace diptych::continuum
         }
       area = sum(area, mesh.communicator());
       sum_up(row.mean_stress, mesh.communicator());
+      sum_up(row.core_stress, mesh.communicator());
+      row.core_stress = (row.core_stress + row.core_stress.transpose()).eval() / 2 /
+                        std::max(sum(core_area, mesh.communicator()), 1e-300);
       row.mean_stress /= area;
       yielding                          = sum(yielding, mesh.communicator());
       row.plastic_share                 = yielding / area;
@@ -286,7 +302,9 @@ namespace diptych::continuum
       row.share_zz_not_intermediate     = sum(not_intermediate, mesh.communicator()) / area;
       row.dissipation                   = sum(dissipation, mesh.communicator());
       row.max_equivalent_plastic_strain = dealii::Utilities::MPI::max(largest, mesh.communicator());
-      row.volumetric_strain             = 1 - sum(problem.moved_geometry().area, mesh.communicator()) / problem.initial_area();
+      const double moved_area           = sum(problem.moved_geometry().area, mesh.communicator());
+      row.volumetric_strain             = 1 - moved_area / problem.initial_area();
+      row.width                         = moved_area / height;
     }
 
     void add_localisation(const BoundaryValueProblem &problem, HistoryRow &row)

@@ -8,13 +8,60 @@ namespace diptych::coupling
 {
   QuantityBasis basis_of(const Scene &scene)
   {
+    const discrete::LateralOptions &sides      = scene.discrete.lateral;
+    const bool                      is_pressed = sides.lateral == discrete::Lateral::end_grains ||
+                            (sides.lateral == discrete::Lateral::rigid_walls &&
+                             sides.side_motion == discrete::SideMotion::pressure);
+    const bool is_biaxial = scene.loading.mode == discrete::LoadingMode::descent && is_pressed;
     return {averaging_width(scene), scene.loading.mode == discrete::LoadingMode::time,
-            scene.loading.pressure * scene.sample.mean_diameter};
+            scene.loading.pressure * scene.sample.mean_diameter, is_biaxial ? scene.loading.pressure : NAN};
+  }
+
+  std::vector<double> nominal_stress_ratio(const QuantityBasis &basis, const HistoryTable &h)
+  {
+    std::vector<double>        ratio(column(h, "progress").size(), NAN);
+    const std::vector<double> &lower = column(h, "lower_fy"), &upper = column(h, "upper_fy"), &width = column(h, "width");
+    for (std::size_t k = 0; k < ratio.size(); ++k)
+      {
+        const double axial = (lower[k] - upper[k]) / 2 / width[k];
+        ratio[k]           = (axial - basis.side_pressure) / (axial + basis.side_pressure);
+      }
+    return ratio;
+  }
+
+  double peak_nominal_stress_ratio(const QuantityBasis &basis, const HistoryTable &h)
+  {
+    const HistoryTable nominal = {{"progress", column(h, "progress")}, {"ratio", nominal_stress_ratio(basis, h)}};
+    return peak_of_running_mean(nominal, "ratio", basis.averaging_width).value;
   }
 
   double peak_stress_ratio(const QuantityBasis &basis, const HistoryTable &h)
   {
     return peak_of_running_mean(h, "stress_ratio", basis.averaging_width).value;
+  }
+
+  // Largest running mean of t/s from columns, with sxx as if the side forces acted on the outline.
+  static double peak_at_outline(const QuantityBasis &basis, const HistoryTable &h, const std::array<const char *, 3> &names)
+  {
+    const std::vector<double> &xx = column(h, names[0]), &xy = column(h, names[1]), &yy = column(h, names[2]);
+    const bool                 is_moved = h.count("side_sxx") && !std::isnan(basis.side_pressure); // not of the continuum
+    HistoryTable               outline  = {{"progress", column(h, "progress")}, {"ratio", {}}};
+    for (std::size_t k = 0; k < xx.size(); ++k)
+      {
+        const double moved = xx[k] + (is_moved ? basis.side_pressure - column(h, "side_sxx")[k] : 0.);
+        outline["ratio"].push_back(std::hypot(moved - yy[k], 2 * xy[k]) / (moved + yy[k]));
+      }
+    return peak_of_running_mean(outline, "ratio", basis.averaging_width).value;
+  }
+
+  double peak_outline_stress_ratio(const QuantityBasis &basis, const HistoryTable &h)
+  {
+    return peak_at_outline(basis, h, {"sxx", "sxy", "syy"});
+  }
+
+  double peak_core_stress_ratio(const QuantityBasis &basis, const HistoryTable &h)
+  {
+    return peak_at_outline(basis, h, {"core_sxx", "core_sxy", "core_syy"});
   }
 
   double early_strength(const QuantityBasis &basis, const HistoryTable &h)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "coupling/bands/band.h"
 #include "coupling/numbers/number_entry.h"
@@ -38,20 +39,25 @@ namespace diptych::coupling
     double averaging_width; // of running means, in progress
     bool   is_timed;        // the progress is time
     double force;           // P d [pressure * length]
+    double side_pressure;   // P; NaN if the sides do not carry it
   };
   QuantityBasis basis_of(const Scene &scene);
 
   // Formulas. Strengths are T/S of a loading along strain: early up to this strain, which depends on the start and on the
   // solver's accuracy, or the rest. They and the platen force [P d, mean of both platens] are NaN if the history ends before, or
   // along time. d: mean diameter.
-  constexpr double early_strain = 0.003;
-  double           peak_stress_ratio(const QuantityBasis &basis, const HistoryTable &history);
-  double           early_strength(const QuantityBasis &basis, const HistoryTable &history);
-  double           strength(const QuantityBasis &basis, const HistoryTable &history);
-  double           platen_force(const QuantityBasis &basis, const HistoryTable &history);
-  double           final_volume(const QuantityBasis &basis, const HistoryTable &history);
-  Interval         angle_of(const BandValues &band, double d);
-  Interval         width_of(const BandValues &band, double d); // [d]
+  constexpr double    early_strain = 0.003;
+  std::vector<double> nominal_stress_ratio(const QuantityBasis &basis, const HistoryTable &history); // as laboratories plot it
+  double              peak_stress_ratio(const QuantityBasis &basis, const HistoryTable &history);
+  double              peak_outline_stress_ratio(const QuantityBasis &basis, const HistoryTable &history);
+  double              peak_core_stress_ratio(const QuantityBasis &basis, const HistoryTable &history);
+  double              peak_nominal_stress_ratio(const QuantityBasis &basis, const HistoryTable &history);
+  double              early_strength(const QuantityBasis &basis, const HistoryTable &history);
+  double              strength(const QuantityBasis &basis, const HistoryTable &history);
+  double              platen_force(const QuantityBasis &basis, const HistoryTable &history);
+  double              final_volume(const QuantityBasis &basis, const HistoryTable &history);
+  Interval            angle_of(const BandValues &band, double d);
+  Interval            width_of(const BandValues &band, double d); // [d]
 
   struct KeyQuantity
   {
@@ -68,6 +74,14 @@ namespace diptych::coupling
   constexpr Margin      of_width         = {"margin_thickness", Difference::relative};
   constexpr KeyQuantity key_quantities[] = {
     {"peak_stress_ratio", "peak t/s", "-", "largest running mean of the stress ratio t/s", of_ratio, peak_stress_ratio, nullptr},
+    {"peak_outline_stress_ratio", "peak t/s with sides at the outline", "-",
+     "largest running mean of t/s, as if the forces on the sides acted on the outline and not on grains inside it", of_ratio,
+     peak_outline_stress_ratio, nullptr},
+    {"peak_core_stress_ratio", "peak t/s of the core", "-", "the same in the middle half of the height", of_ratio,
+     peak_core_stress_ratio, nullptr},
+    {"peak_nominal_stress_ratio", "nominal peak t/s", "-",
+     "largest running mean of (F/W - P) / (F/W + P), as laboratories plot it: platen force F, width W, pressure P on the sides",
+     of_ratio, peak_nominal_stress_ratio, nullptr},
     {"strength", "strength T/S from 0.3 % strain", "-", "strength T/S from 0.3 % strain to the end", of_ratio, strength, nullptr},
     {"platen_force_pd", "platen force from 0.3 % strain", "P d",
      "mean vertical force of the platens from 0.3 % strain to the end", of_ratio, platen_force, nullptr},

@@ -121,4 +121,20 @@ namespace diptych::discrete
       }
     return 0.5 * twice;
   }
+
+  double outline_area(const Outline &outline, const double low, const double high)
+  {
+    const auto below = [&](const std::vector<Eigen::Vector2d> &side) { // integral of x dy
+      double sum = 0;
+      for (std::size_t k = 1; k < side.size(); ++k)
+        {
+          const Eigen::Vector2d &a = side[k - 1], &b = side[k];
+          const double from = std::clamp(a.y(), low, high), to = std::clamp(b.y(), low, high), middle = 0.5 * (from + to);
+          if (from != to)
+            sum += (to - from) * (a.x() + (middle - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+        }
+      return sum;
+    };
+    return below(outline.right) - below(outline.left);
+  }
 } // namespace diptych::discrete

@@ -14,4 +14,5 @@ namespace diptych::discrete
   Outline make_outline(const State &state, double mean_diameter);
 
   double outline_area(const Outline &outline);
+  double outline_area(const Outline &outline, double low, double high); // between two heights
 } // namespace diptych::discrete

@@ -21,12 +21,35 @@ namespace diptych::discrete
     struct MomentSums
     {
       Eigen::Matrix2d total       = Eigen::Matrix2d::Zero();
+      Eigen::Matrix2d core        = Eigen::Matrix2d::Zero(); // of the branches' parts in the middle half of the height
       double          skew_square = 0, square = 0;
     };
 
-    MomentSums sum_moments(const State &state, const StepResult &result, const double step)
+    struct Range
+    {
+      double low, high;
+
+      // Of a line between two heights.
+      double share_of(const double from, const double to) const
+      {
+        const auto [least, most] = std::minmax(from, to);
+        if (most - least < 1e-6 * (high - low))
+          return to > low && to < high ? 1 : 0;
+        return (std::clamp(most, low, high) - std::clamp(least, low, high)) / (most - least);
+      }
+    };
+    Range core_of(const State &state) // empty without platens
+    {
+      if (state.walls.size() < 2)
+        return {0, 0};
+      const double low = state.walls[0].point.y(), high = state.walls[1].point.y();
+      return {low + 0.25 * (high - low), high - 0.25 * (high - low)};
+    }
+
+    MomentSums sum_moments(const State &state, const StepResult &result, const double step, const Range &core)
     {
       const Grains                &g = state.grains;
+      MomentSums                   sums;
       std::vector<Eigen::Matrix2d> moment(g.size(), Eigen::Matrix2d::Zero());
       std::vector<double>          couple(g.size(), 0.); // of rolling resistance; it balances the skew part
       Eigen::RowVector2d           on_platens = Eigen::RowVector2d::Zero();
@@ -41,14 +64,18 @@ namespace diptych::discrete
             if (const int platen = g.platen(body); platen >= 0)
               on_platens += sign * (c.point.y() - state.walls[platen].point.y()) * force.transpose();
             else
-              moment[body] += (g.radius[body] + 0.5 * c.gap) * c.normal * force.transpose();
+              {
+                const double          reach = g.radius[body] + 0.5 * c.gap, end = c.point.y();
+                const Eigen::Matrix2d one = reach * c.normal * force.transpose();
+                moment[body] += one;
+                sums.core += core.share_of(end - sign * reach * c.normal.y(), end) * one;
+              }
             couple[body] += sign * turn;
           };
           add(c.i, -1);
           if (std::size_t(c.j) < g.size())
             add(c.j, 1);
         }
-      MomentSums sums;
       for (std::size_t i = 0; i < g.size(); ++i)
         {
           const Eigen::Matrix2d &m = moment[i];
@@ -62,8 +89,22 @@ namespace diptych::discrete
           sums.total.row(1) += on_platens;
           sums.total(0, 1) = sums.total(1, 0); // platens resist rotation
         }
-      sums.total = (0.5 * (sums.total + sums.total.transpose())).eval();
+      for (Eigen::Matrix2d *sum : {&sums.total, &sums.core})
+        *sum = (0.5 * (*sum + sum->transpose())).eval();
       return sums;
+    }
+
+    // End grains and side walls. Where they carry the pressure P at the outline, it is P.
+    double side_sxx(const State &state, const StepResult &result, const StepSetting &setting, const double area)
+    {
+      const Grains &g      = state.grains;
+      double        moment = 0; // outwards
+      if (std::holds_alternative<EndGrains>(setting.lateral))
+        for (std::size_t i = 0; i < g.size(); ++i)
+          moment += g.position[i].x() * (result.applied_force[i].x() - !g.fixed[i] * g.mass[i] * setting.stepping.gravity_x);
+      for (std::size_t w = 2; w < result.wall_force.size(); ++w)
+        moment += state.walls[w].point.x() * result.wall_force[w].x();
+      return (0. - moment) / area;
     }
 
     double sliding_share(const StepResult &result, const State &state, const StepSetting &setting)
@@ -178,10 +219,12 @@ namespace diptych::discrete
                       const StepSetting &setting,
                       HistoryRow        &row)
   {
-    const double     area    = outline_area(make_outline(state, setting.mean_diameter));
+    const Outline    outline = make_outline(state, setting.mean_diameter);
+    const Range      core    = core_of(state);
+    const double     area    = outline_area(outline);
     const auto       spins   = spin_terms(state.grains);
     const double     spin    = std::accumulate(spins.begin(), spins.end(), 0.);
-    const MomentSums sums    = sum_moments(state, result, setting.step);
+    const MomentSums sums    = sum_moments(state, result, setting.step, core);
     const Strains    strains = strains_of(state, reference);
 
     row.time         = state.time;
@@ -190,7 +233,12 @@ namespace diptych::discrete
     row.stress       = (sums.total - spin * Eigen::Matrix2d::Identity()) / area;
     if (const Lattice *lattice = state.lattice())
       describe_lattice(*lattice, result.lattice, row);
-    row.stress_ratio      = stress_ratio(row.stress);
+    row.stress_ratio = stress_ratio(row.stress);
+    row.core_stress  = row.stress; // a cell is alike everywhere
+    if (core.low < core.high)
+      row.core_stress = sums.core / outline_area(outline, core.low, core.high);
+    row.width             = area / sample_height(state);
+    row.side_sxx          = side_sxx(state, result, setting, area);
     row.volumetric_strain = 1 - area / reference.area;
     row.solid_fraction    = reference.grain_area / area;
     if (!state.walls.empty())

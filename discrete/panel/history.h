@@ -18,7 +18,9 @@ namespace diptych::discrete
     int             step = 0;                                     // steps so far; the halves of a halved step count
     double          time = 0, axial_strain = 0, shear_strain = 0; // descent and travel of the upper platen / initial height
     double          stress_ratio = 0, volumetric_strain = 0, solid_fraction = 0;
+    double          width = 0, side_sxx = 0; // area of the outline / height; part of sxx that the forces at the sides cause
     Eigen::Matrix2d stress      = Eigen::Matrix2d::Zero(); // sum of internal moments / sample area
+    Eigen::Matrix2d core_stress = Eigen::Matrix2d::Zero(); // the same in the middle half of the height
     Eigen::Vector2d lower_force = Eigen::Vector2d::Zero(), upper_force = Eigen::Vector2d::Zero();
     Eigen::Vector2d left_force = Eigen::Vector2d::Zero(), right_force = Eigen::Vector2d::Zero(); // of side walls
     int             contacts       = 0;                                                          // with force
@@ -108,6 +110,13 @@ namespace diptych::discrete
           "cell: stress that drives it, i.e. mean contact stress + inertia of the cell, xx component; 0 for other samples");
     visit("drive_syy", r.drive_stress[1], "pressure", "cell: stress that drives it, yy component; 0 for other samples");
     visit("drive_sxy", r.drive_stress[2], "pressure", "cell: stress that drives it, xy component; 0 for other samples");
+    visit("core_sxx", r.core_stress(0, 0), "pressure", "mean stress in the middle half of the height, xx component");
+    visit("core_sxy", r.core_stress(0, 1), "pressure", "mean stress there, xy component");
+    visit("core_syy", r.core_stress(1, 1), "pressure", "mean stress there, yy component");
+    visit("width", r.width, "length", "area of the outline / height");
+    visit("side_sxx", r.side_sxx, "pressure",
+          "part of the mean sxx that the forces at the sides cause: their moment about a vertical line / area of the outline; 0 "
+          "without them");
   }
 
   struct Reference

@@ -175,6 +175,9 @@ namespace
     const Loading  loading = with_sides(straight_loading(1, {0, -16}, {0.05}), RigidSides());
     const Course   c = finished(mesh, loading, with_steps(with_weak_spot(with({}, Platens::smooth, Kinematics::updated)), 1e-3));
     EXPECT_NEAR(c.end().mean_stress(0, 0), 1, 2e-3);
+    const HistoryRow &row = c.end();
+    EXPECT_NEAR(row.width * row.core_stress(1, 1) / row.lower_platen_force.y(), 1, 2e-3)
+      << "every cut carries the platens' force";
   }
 
   // Walls moved apart: elastic, e_y = eps compressive, e_x = -w eps/W. With M = E (1 - nu)/((1 + nu)(1 - 2 nu)) = 555.556 and

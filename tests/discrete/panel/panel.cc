@@ -1,5 +1,6 @@
 // diptych: a loaded sample: stages, ledgers, determinism, early ends, loadings of too many steps
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/bodies/outline.h"
 #include "discrete/contacts/internal_moment.h"
 #include "discrete/samples/sample_file.h"
 #include "tests/discrete/small_scenes.h"
@@ -28,6 +29,22 @@ namespace
     // A dense sample sheared by 1 % carries a deviator of more than half of the largest one that friction 0.4 allows.
     EXPECT_GT(r.rows.back().stress_ratio, 0.2);
     EXPECT_LT(r.rows.back().stress_ratio, 0.6);
+  }
+
+  // Between smooth platens the forces at the sides cause all of the mean sxx, and every horizontal cut carries the platens'
+  // force. Accelerations disturb both.
+  TEST(Panel, MeanStressesBalanceTheForcesOnTheBoundary)
+  {
+    Options options             = quick_options();
+    options.law.platen_friction = 0;
+    const Course     r          = loaded(small_sample(), short_loading(), options);
+    const HistoryRow row        = r.rows.back();
+    EXPECT_NEAR(row.side_sxx, row.stress(0, 0), 0.01);
+    const Outline &outline = r.snapshots.back().outline;
+    const double   bottom = outline.left.front().y(), height = outline.left.back().y() - bottom;
+    EXPECT_NEAR(row.width, outline_area(outline) / height, 1e-9);
+    const double width = outline_area(outline, bottom + height / 4, bottom + 3 * height / 4) / (height / 2);
+    EXPECT_NEAR(width * row.core_stress(1, 1) / row.lower_force.y(), 1, 0.02);
   }
 
   TEST(Panel, SameSceneAndSeedGiveTheSameBits)

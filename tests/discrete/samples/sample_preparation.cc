@@ -136,6 +136,9 @@ namespace
     EXPECT_NEAR(outline_area(outline), 20 * (10 - 2 * 0.5 * (1 - M_PI / 4)), 0.02 * 200);
     EXPECT_EQ(outline.left.front().y(), 0);
     EXPECT_EQ(outline.right.back().y(), 20);
+    for (const double cut : {-1., 3.3, 12., 20.})
+      EXPECT_NEAR(outline_area(outline, -1e9, cut) + outline_area(outline, cut, 1e9), outline_area(outline), 1e-10);
+    EXPECT_NEAR(outline_area(outline, 6, 7), outline_area(outline) / 20, 0.1) << "up to the scallops";
   }
 
   // Grains that press on a platen without overlap still touch it, whatever the last bits of their positions.

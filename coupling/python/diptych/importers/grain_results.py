@@ -71,7 +71,7 @@ def _unbalanced_force(now: Instant) -> float:
 
 UNKNOWN = ("kinetic_energy_ratio", "friction_dissipation", "impact_dissipation", "external_work", "correction_work",
            "rolling_dissipation", "energy_residual", "momentum_residual", "residual", "skew_moment", "inertial_number",
-           "spin_term_share")
+           "spin_term_share", "core_sxx", "core_sxy", "core_syy", "side_sxx")
 SAME = ("time", "axial_strain", "shear_strain", "progress", "walk")  # as in the snapshot
 WALL_FORCES = [side + "_f" for side in SIDES]
 
@@ -86,7 +86,8 @@ def _row(now: Instant, check: dict[str, Any], s: Any, first_area: float) -> dict
     row = dict.fromkeys(UNKNOWN, math.nan) | {name: getattr(s, name) for name in SAME} | _forces(now, WALL_FORCES)
     row |= {"sxx": sxx, "sxy": sxy, "syx": syx, "syy": syy, "volumetric_strain": 1 - s.area / first_area,
             "stress_ratio": t / mean if np.isfinite(stress).all() and mean > 0 else math.nan,
-            "solid_fraction": total(np.pi * g["radius"] * g["radius"]) / s.area, "contacts": len(c["i"]),
+            "solid_fraction": total(np.pi * g["radius"] * g["radius"]) / s.area,
+            "width": s.area / (now.place[1] - now.place[0]), "contacts": len(c["i"]),
             "kinetic_energy": total(0.5 * g["mass"] * (dot(g["velocity"], g["velocity"]) + turning)),
             "rattlers": int(s.rattler.sum()), "max_penetration": check["largest_overlap"],
             "unbalanced_force": _unbalanced_force(now) if len(c["i"]) else math.nan,
