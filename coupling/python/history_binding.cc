@@ -53,6 +53,10 @@ namespace diptych::python
     m.def("panel_values", [](const coupling::Scene &scene, const std::map<std::string, Numbers> &columns) {
       return coupling::panel_values(coupling::basis_of(scene), table_of(columns));
     });
+    m.def("side_pressure", [](const coupling::Scene &scene) { return coupling::basis_of(scene).side_pressure; });
+    m.def("nominal_stress_ratio", [](const coupling::Scene &scene, const std::map<std::string, Numbers> &columns) {
+      return own(coupling::nominal_stress_ratio(coupling::basis_of(scene), table_of(columns)));
+    });
     m.def("stress_ratio_of_means", [](const std::map<std::string, Numbers> &columns, const double from, const double to) {
       return coupling::ratio_of_means(table_of(columns), from, to);
     });

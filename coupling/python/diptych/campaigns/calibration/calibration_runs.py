@@ -167,7 +167,7 @@ class CalibrationRuns:
         folder = self.runs.path(run)
         if is_element(path.scene):
             return observe_history(path.scene, observables, panel_table(folder, "material_point"))
-        o = observe_history(path.scene, observables, panel_table(folder, "continuum"))
+        o = observe_history(path.scene, observables, panel_table(folder, "continuum"), nominal=bool(path.target.curve))
         return add_bands(o, path.scene, observables, _diptych.read_nodes(folder).snapshots,
                          self.outlines[path.target.name], of_grains=False)
 

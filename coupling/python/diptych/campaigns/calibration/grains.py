@@ -59,7 +59,7 @@ class GrainRuns(CalibrationRuns):
 
         def observed(path: Path, run: SceneRun, failure: str) -> Observation:
             table = None if failure else panel_table(self.runs.path(run), "discrete")
-            o = observe_history(path.scene, path.data.observables, table)
+            o = observe_history(path.scene, path.data.observables, table, nominal=True)
             o.failure = failure
             return o
 

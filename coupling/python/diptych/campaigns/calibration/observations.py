@@ -12,7 +12,7 @@ import pandas as pd
 from ... import _diptych, operators
 from ...arrays import Array, Band
 from ...errors import SceneError
-from ..runs.histories import is_beyond, mean_over, peak_of_running_mean
+from ..runs.histories import is_beyond, mean_over, nominal_stress_ratio, peak_of_running_mean
 from ..runs.input_file import Setting
 from ..runs.key_numbers import bands_between, snapshots_at
 from .calibration_file import CURVE_COLUMNS, OF_BANDS, Target, is_element, read_curve
@@ -68,12 +68,14 @@ class Path:
         return self.scatter or self.data
 
 
-def observe_history(scene: _diptych.Scene, observables: Sequence[Observable],
-                    table: pd.DataFrame | None) -> Observation:
-    """Everything but the bands."""
+def observe_history(scene: _diptych.Scene, observables: Sequence[Observable], table: pd.DataFrame | None, *,
+                    nominal: bool = False) -> Observation:
+    """Everything but the bands. nominal: t/s as laboratories plot it, for a comparison with their curves."""
     o = Observation(values=np.full(len(observables), np.nan))
     if table is None:
         return o
+    if nominal:
+        table = table.assign(stress_ratio=nominal_stress_ratio(scene, table))
     progress, end = table["progress"].to_numpy(), float(table["progress"].iloc[-1])
     columns = {name: table[name].to_numpy() for name in CURVE_COLUMNS if name in table}
     for k, one in enumerate(observables):
@@ -152,4 +154,8 @@ def read_target(target: Target, more: Sequence[Setting] = ()) -> _diptych.Scene:
     if target.curve and scene.loading_variable() != "axial_strain":
         raise SceneError(f"{target.scene}: loading/mode = {mode}: a measured curve needs mode = descent, whose "
                          "progress is the axial strain")
+    if target.curve and np.isnan(_diptych.side_pressure(scene)):
+        raise SceneError(f"{target.scene}: discrete/lateral = {scene.dict()['discrete']['lateral']}: t/s of a measured "
+                         "curve needs sides under the pressure; give end_grains, or rigid_walls with side_motion = "
+                         "pressure")
     return scene

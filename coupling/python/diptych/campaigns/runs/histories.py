@@ -4,6 +4,7 @@
 
 import math
 import os
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -43,6 +44,12 @@ def columns_of(table: pd.DataFrame, *names: str) -> dict[str, np.ndarray]:
 def stress_ratio_of_means(table: pd.DataFrame, begin: float, end: float) -> float:
     """T/S: mean of t over a range of the progress divided by the mean of s; NaN if the history ends before."""
     return _diptych.stress_ratio_of_means(columns_of(table, "progress", "sxx", "sxy", "syx", "syy"), begin, end)
+
+
+def nominal_stress_ratio(scene: Any, table: pd.DataFrame) -> np.ndarray:
+    """t/s of the force on the platens and the pressure on the sides, as laboratories plot it; NaN without that
+    pressure."""
+    return _diptych.nominal_stress_ratio(scene, columns_of(table, "progress", "lower_fy", "upper_fy", "width"))
 
 
 def running_mean(table: pd.DataFrame, name: str, width: float) -> np.ndarray:
