@@ -115,8 +115,8 @@ namespace diptych::continuum
     Displacement   element               = Displacement::automatic;
     Kinematics     geometry              = Kinematics::updated;
     Platens        platens               = Platens::rough;
-    double         platen_friction       = 0.18;
-    double         platen_slip_length    = 12.6;
+    double         platen_friction       = 0.17;
+    double         platen_slip_length    = 13;
     PlatenRotation platen_rotation       = PlatenRotation::free;
     InitialStress  initial_stress        = InitialStress::isotropic;
     MeshOption     mesh                  = {};

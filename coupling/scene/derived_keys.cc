@@ -16,8 +16,8 @@ namespace diptych::coupling
   {
     using Given = std::set<std::string>;
 
-    // The law of dense samples with one friction between the grains. The data hardly determine the modulus; its values are
-    // smoothed.
+    // The law of dense samples with one friction between the grains, from cells without edges, and the friction along flat
+    // platens on which they roll. The data hardly determine the modulus; its values are smoothed.
     struct CalibratedLaw
     {
       double friction;       // discrete/friction [-]
@@ -26,14 +26,16 @@ namespace diptych::coupling
       double residual;       // residual friction angle / peak
       double dilatancy;      // dilatancy angle / friction angle at the start
       double youngs_modulus; // [loading/pressure]
+      double platens;        // platen_friction [-]
+      double slip_length;    // platen_slip_length [mean diameters]
     };
 
-    constexpr std::array<CalibratedLaw, 6> calibrated = {{{0.2, 23.6, 0.64, 0.65, 0.61, 8000},
-                                                          {0.3, 26.4, 0.71, 0.63, 0.625, 11000},
-                                                          {0.4, 28.7, 0.74, 0.54, 0.64, 14000},
-                                                          {0.5, 30.3, 0.77, 0.50, 0.64, 17000},
-                                                          {0.6, 31.6, 0.81, 0.52, 0.645, 20000},
-                                                          {0.8, 34.5, 0.77, 0.43, 0.68, 30000}}};
+    constexpr std::array<CalibratedLaw, 6> calibrated = {{{0.2, 19.4, 0.725, 0.678, 0.648, 4000, 0.12, 22},
+                                                          {0.3, 21.9, 0.782, 0.703, 0.672, 5000, 0.15, 15},
+                                                          {0.4, 23.4, 0.840, 0.656, 0.693, 6500, 0.17, 13},
+                                                          {0.5, 24.9, 0.876, 0.603, 0.702, 8500, 0.185, 9},
+                                                          {0.6, 26.2, 0.890, 0.551, 0.710, 10000, 0.22, 9.5},
+                                                          {0.8, 27.3, 0.930, 0.547, 0.690, 15000, 0.23, 12}}};
 
     using discrete::tidy;
 
@@ -55,7 +57,9 @@ namespace diptych::coupling
               between(&Law::start),
               between(&Law::residual),
               between(&Law::dilatancy),
-              between(&Law::youngs_modulus)};
+              between(&Law::youngs_modulus),
+              between(&Law::platens),
+              between(&Law::slip_length)};
     }
 
     // benchmarks/studies/grains_inertia: 1e-3 is slow enough up to 2000 grains and 4e-4 for 4000. Beyond, the ratio of the
@@ -110,8 +114,20 @@ namespace diptych::coupling
       return std::any_of(keys.begin(), keys.end(), [&](const std::string &key) { return given.count("continuum/" + key) > 0; });
     }
 
-    // True if the default law was calibrated on such grains: friction, grading, preparation, number, sides, speed, platens; no
-    // rolling resistance.
+    // Glued grains, and those that cannot roll, hold the sample like rough platens do. Along a strain only, and not in shear, for
+    // which the interface was not measured.
+    continuum::Platens platens_like_the_grains(const Scene &scene)
+    {
+      const discrete::ContactLawOptions &law = scene.discrete.law;
+      if (scene.loading.mode != discrete::LoadingMode::descent || scene.sample.rough_platens || law.platen_rolling_friction > 0 ||
+          scene.discrete.method.method == discrete::Method::imported ||
+          scene.continuum.mesh.kind != continuum::MeshOption::Kind::outline)
+        return continuum::Platens::rough;
+      return law.platen_friction == 0 ? continuum::Platens::smooth : continuum::Platens::frictional;
+    }
+
+    // True if the default law was calibrated on such grains: friction, grading, preparation, number, sides, speed; no rolling
+    // resistance.
     bool default_law_suits(const Scene &scene)
     {
       const discrete::SampleOptions &o = scene.sample;
@@ -121,12 +137,11 @@ namespace diptych::coupling
                             o.radius_distribution == discrete::RadiusKind::uniform_by_number && o.radius_min >= 0.25 &&
                             o.radius_min <= 0.35 && n >= 1000 && n <= 2500;
       const bool is_like = f >= calibrated.front().friction && f <= calibrated.back().friction &&
-                           scene.discrete.law.platen_friction >= f && scene.discrete.law.rolling_friction == 0 &&
-                           scene.discrete.method.method == discrete::Method::nscd &&
-                           scene.discrete.lateral.lateral == discrete::Lateral::end_grains &&
+                           scene.discrete.law.rolling_friction == 0 && scene.discrete.method.method == discrete::Method::nscd &&
+                           scene.discrete.lateral.lateral != discrete::Lateral::none &&
                            scene.loading.mode == discrete::LoadingMode::descent && inertial_number(scene) <= largest_quasi_static;
-      return is_dense && is_like && c.platens == continuum::Platens::rough &&
-             c.mesh.kind == continuum::MeshOption::Kind::outline && c.element_size <= 2 * c.material.internal_length;
+      return is_dense && is_like && c.mesh.kind == continuum::MeshOption::Kind::outline &&
+             c.element_size <= 2 * c.material.internal_length;
     }
 
     // Empty if nobody fitted the law to such grains.
@@ -169,6 +184,15 @@ namespace diptych::coupling
        [](Scene &s, const Given &) { s.loading.stage_strain = stage_length(s.loading.axial_strain, 0.005); }},
       {"loading/stage_time", "about 1, so that the end is a stage; at most 40 stages",
        [](Scene &s, const Given &) { s.loading.stage_time = stage_length(s.loading.duration, 1); }},
+      {"continuum/platens",
+       "rough; in mode descent with the outline of grains: smooth for discrete/platen_friction = 0, frictional for flat platens "
+       "on "
+       "which grains roll",
+       [](Scene &s, const Given &) { s.continuum.platens = platens_like_the_grains(s); }},
+      {"continuum/platen_friction", by_friction,
+       [](Scene &s, const Given &) { s.continuum.platen_friction = fitting(s).platens; }},
+      {"continuum/platen_slip_length", by_friction,
+       [](Scene &s, const Given &) { s.continuum.platen_slip_length = fitting(s).slip_length; }},
       {"continuum/hardening", "mobilisation",
        [](Scene &s, const Given &) { law(s).hardening = continuum::kind_of<continuum::MobilisationHardening>; }},
       {"continuum/youngs_modulus", by_friction,

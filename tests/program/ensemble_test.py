@@ -101,7 +101,7 @@ class Statistics(Ensemble):
         result = subprocess.run(words, env=ENVIRONMENT, capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(content(self.path("ensemble.json")), content(os.path.join(self.three, "ensemble.json")))
-        self.assertEqual(result.stdout.count("peak t/s"), 1)  # only the first process speaks
+        self.assertEqual(result.stdout.count("volumetric strain at the end"), 1)  # only the first process speaks
         self.assertEqual(read(member_of(self.folder, 2), "comparison.json")["continuum_summary"]["processes"], 1)
 
     def test_other_margins_need_no_run(self):
@@ -277,8 +277,8 @@ class Page(Ensemble):
             self.assertTrue(os.path.getsize(page) > 0)
         links = re.findall(r'(?:href|src)="([^"]+)"', text)
         self.assertEqual([link for link in links if not link.startswith(("data:", "runs/"))], [])
-        # peak, strength, force, volume, angle and width of one window
-        self.assertEqual(len(re.findall(r'<td class="verdict', text)), 6)
+        # four peaks, strength, force, volume, angle and width of one window
+        self.assertEqual(len(re.findall(r'<td class="verdict', text)), 9)
         self.assertIn("two one-sided tests", text)
         self.assertTrue(read(self.folder)["folded"])  # left and right by chance
         images = re.findall(r'<img src="data:[^"]+" alt="([^"]{20,})"', text)

@@ -110,6 +110,20 @@ namespace
     EXPECT_EQ(part.friction_angle_peak, 20);
   }
 
+  TEST(DerivedKeys, PlatensAreThoseOfTheGrains)
+  {
+    using diptych::continuum::Platens;
+    const auto of = [](const Words &overrides) { return scene_with(overrides).continuum; };
+    EXPECT_EQ(of({}).platens, Platens::frictional) << "discs roll along flat platens";
+    EXPECT_EQ(of({"discrete/platen_friction=0"}).platens, Platens::smooth);
+    for (const char *change : {"discrete/platen_rolling_friction=1", "sample/rough_platens=true"})
+      EXPECT_EQ(of({change}).platens, Platens::rough) << change;
+    EXPECT_EQ(of({"discrete/lateral=periodic", "discrete/side_motion=velocity", "loading/mode=shear"}).platens, Platens::rough);
+    EXPECT_EQ(of({"continuum/platens=rough"}).platens, Platens::rough);
+    EXPECT_EQ(of({"discrete/friction=0.4"}).platen_friction, 0.17);
+    EXPECT_GT(of({"discrete/friction=0.6"}).platen_friction, of({"discrete/friction=0.3"}).platen_friction);
+  }
+
   TEST(DerivedKeys, OnlyALawFittedToSuchGrainsNamesItsOrigin)
   {
     const auto origin = [](const Words &overrides) { return scene_with(overrides).comparison.parameters_from; };
@@ -119,8 +133,8 @@ namespace
     EXPECT_NE(origin({"sample/grains=1500", "continuum/max_step=0.001"}), "") << "not a key of the law";
     for (const char *change :
          {"discrete/friction=0.1", "sample/preparation_friction=0.3", "sample/radius_distribution=uniform_by_mass",
-          "sample/grains=600", "loading/inertial_number=0.01", "continuum/platens=smooth", "continuum/element_size=8",
-          "continuum/friction_angle_peak=25", "continuum/law=mohr_coulomb", "discrete/method=penalty"})
+          "sample/grains=600", "loading/inertial_number=0.01", "continuum/element_size=8", "continuum/friction_angle_peak=25",
+          "continuum/law=mohr_coulomb", "discrete/method=penalty"})
       EXPECT_EQ(origin({"sample/grains=1500", change}), "") << change;
     EXPECT_EQ(origin({"discrete/friction=0.1", "comparison/parameters_from=my fit"}), "my fit");
   }
@@ -149,9 +163,9 @@ namespace
     const auto warnings = [](const Words &overrides) { return scene_with(overrides).warnings; };
     EXPECT_TRUE(warnings({}).empty());
     EXPECT_TRUE(warnings({"discrete/platen_friction=0", "continuum/platens=smooth"}).empty());
-    ASSERT_EQ(warnings({"discrete/platen_friction=0"}).size(), 1);
-    EXPECT_NE(warnings({"discrete/platen_friction=0"})[0].find("slide along"), std::string::npos);
+    ASSERT_EQ(warnings({"discrete/platen_friction=0", "continuum/platens=rough"}).size(), 1);
+    EXPECT_NE(warnings({"discrete/platen_friction=0", "continuum/platens=rough"})[0].find("slide along"), std::string::npos);
     EXPECT_EQ(warnings({"continuum/platens=smooth"}).size(), 1);
-    EXPECT_EQ(warnings({"discrete/friction=0.95"}).size(), 1);
+    EXPECT_EQ(warnings({"discrete/friction=0.95", "continuum/platens=rough"}).size(), 1);
   }
 } // namespace

@@ -179,10 +179,11 @@ def _open(folder: Folder, scene: Any, options: Options, inputs: list[tuple[str, 
                              "--output with another folder, or --overwrite.")
         # one of a version with other keys cannot be read: its runs are repeated
         there, here = ((one or scene).identity("member") for one in (_diptych.resolved_scene(file), scene))
-        differs = next((key for key in here if here[key] != there.get(key)), "")
-        if differs:
-            raise SceneError(f"--resume: the scene differs from {file}: {differs} = '{here[differs]}' here, "
-                             f"'{there.get(differs)}' there. Give the same scene, or --overwrite.")
+        differs = [f"{key} = '{here[key]}' here, '{there.get(key)}' there" for key in here
+                   if here[key] != there.get(key)]
+        if differs:  # with the keys that follow from a changed one
+            raise SceneError(f"--resume: the scene differs from {file}: {'; '.join(differs)}. Give the same scene, or "
+                             "--overwrite.")
     folder.open_runs("ensemble", file, options, lambda: inputs, scene.text(), copy="ensemble.prm")
 
 
