@@ -44,11 +44,12 @@ namespace diptych::coupling
   static double peak_at_outline(const QuantityBasis &basis, const HistoryTable &h, const std::array<const char *, 3> &names)
   {
     const std::vector<double> &xx = column(h, names[0]), &xy = column(h, names[1]), &yy = column(h, names[2]);
-    const bool                 is_moved = h.count("side_sxx") && !std::isnan(basis.side_pressure); // not of the continuum
-    HistoryTable               outline  = {{"progress", column(h, "progress")}, {"ratio", {}}};
+    const auto                 found   = h.find("side_sxx"); // the sides of the continuum are the outline
+    const std::vector<double> *side    = found == h.end() || std::isnan(basis.side_pressure) ? nullptr : &found->second;
+    HistoryTable               outline = {{"progress", column(h, "progress")}, {"ratio", {}}};
     for (std::size_t k = 0; k < xx.size(); ++k)
       {
-        const double moved = xx[k] + (is_moved ? basis.side_pressure - column(h, "side_sxx")[k] : 0.);
+        const double moved = xx[k] + (side ? basis.side_pressure - (*side)[k] : 0.);
         outline["ratio"].push_back(std::hypot(moved - yy[k], 2 * xy[k]) / (moved + yy[k]));
       }
     return peak_of_running_mean(outline, "ratio", basis.averaging_width).value;

@@ -185,9 +185,7 @@ namespace diptych::coupling
       {"loading/stage_time", "about 1, so that the end is a stage; at most 40 stages",
        [](Scene &s, const Given &) { s.loading.stage_time = stage_length(s.loading.duration, 1); }},
       {"continuum/platens",
-       "rough; in mode descent with the outline of grains: smooth for discrete/platen_friction = 0, frictional for flat platens "
-       "on "
-       "which grains roll",
+       "rough; in compression of grains with an outline: smooth for discrete/platen_friction = 0, frictional if they can roll",
        [](Scene &s, const Given &) { s.continuum.platens = platens_like_the_grains(s); }},
       {"continuum/platen_friction", by_friction,
        [](Scene &s, const Given &) { s.continuum.platen_friction = fitting(s).platens; }},

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # diptych: the default law of the continuum: its calibrations by friction, and a check on other samples
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""defaults.py calibrate|platens|check [FRICTION...]: prints the rows of the table in coupling/scene/derived_keys.cc,
-the friction along the platens beside them, or what the default law predicts for samples that no calibration has seen.
-PYTHONPATH: build/release/python."""
+"""defaults.py calibrate|platens|check [FRICTION...]
+
+calibrate and platens print the numbers of the table in coupling/scene/derived_keys.cc. check prints what the default
+law predicts for samples that no fit has seen. PYTHONPATH: build/release/python."""
 
 import os
 import sys
