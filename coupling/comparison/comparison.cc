@@ -210,7 +210,8 @@ namespace diptych::coupling
     pieces.next();
     c.resolution         = study_of(c, results.discrete.snapshots[n - 1], scene.comparison);
     const auto &material = scene.continuum.material;
-    if (continuum::traits(scene.continuum.law).is_plastic)
+    const auto  unused   = continuum::unused_keys(scene.continuum);
+    if (std::none_of(unused.begin(), unused.end(), [](const auto &one) { return one.key == "friction_angle_peak"; }))
       c.theory = theory_lines(material.friction_angle_peak, material.dilatancy_angle_peak);
     c.discrete = summary_of(scene, results.discrete, results.discrete.snapshots[n - 1], c.discrete_history);
     if (scene.loading.mode != discrete::LoadingMode::time)

@@ -33,7 +33,7 @@ namespace diptych::coupling
     std::vector<Increment>     windows;
     std::optional<CoarseRun>   coarse;     // empty without a coarse run
     ResolutionStudy            resolution; // of the last stage's grain stress
-    std::optional<TheoryLines> theory;     // from the continuum's peak angles; empty for an elastic law
+    std::optional<TheoryLines> theory;     // from the continuum's peak angles; empty for laws without
     HistoryTable               discrete_history, continuum_history;
     DiscreteSummary            discrete;
     ContinuumSummary           continuum;

@@ -189,10 +189,12 @@ namespace
     EXPECT_EQ(c.coarse->peak.value, c.continuum.numbers.peak.value);
   }
 
-  TEST(Compare, ElasticLawHasNoTheoryLines)
+  TEST(Compare, LawsWithoutPeakAnglesHaveNoTheoryLines)
   {
     ASSERT_TRUE(example().theory.has_value());
-    Scene scene         = example_scene();
+    Scene scene                        = example_scene();
+    scene.continuum.material.hardening = diptych::continuum::kind_of<diptych::continuum::CriticalStateHardening>;
+    EXPECT_FALSE(compare(scene, example_results()).theory.has_value());
     scene.continuum.law = diptych::continuum::LawKind::linear_elastic;
     EXPECT_FALSE(compare(scene, example_results()).theory.has_value());
   }
