@@ -113,7 +113,7 @@ class Refused(Plan):
                 (GRAINS, ["--accuracy", "2%", "--set", "discrete/method=penalty"],
                  ["discrete/method = penalty", "nscd"]),
                 (GRAINS, ["--accuracy", "2%", "--set", "loading/mode=time"], ["loading/mode = time"]),
-                (OBLIQUE, ["--accuracy", "2%", "--for", "continuum.angle"],
+                (OBLIQUE, ["--accuracy", "2%", "--for", "continuum.band_angle_deg"],
                  ["continuum/mesh = rectangle", "comparison"]),
                 (OBLIQUE, ["--accuracy", "2%", "--for", "discrete.strength"], ["sets no key of sample or discrete"]),
                 (GRAINS, [], ["--accuracy is required"])]:

@@ -16,7 +16,7 @@ from diptych.campaigns.calibration.calibration_runs import observe_history
 from diptych.campaigns.calibration.grains import mean_of
 from diptych.campaigns.calibration.noise import Observable
 from diptych.campaigns.ensembles import ensemble
-from diptych.campaigns.runs import histories
+from diptych.campaigns.runs import histories, members
 from diptych.campaigns.runs import statistics
 from diptych.campaigns.ensembles.profiles import profile_arrays
 from diptych.campaigns.runs.input_file import read_seeds
@@ -177,6 +177,12 @@ def test_numbers_are_found_by_their_place_and_only_those_that_have_a_mean():
     assert found["window 0-0.04 discrete band angle_deg"]["unit"] == "degrees"
     assert found["stage 0.04 discrete probe zone t_over_s"]["mean"] == 0.4
     assert found["stage 0.04 difference stress 6 d relative_l2"]["mean"] == 0.2
+    for name, one in found.items():
+        assert members.described(name)[1] == one["unit"], name
+    assert members.described("stage 0.02 discrete force_chains inside mean")[1:] == ("-", False)
+    assert members.described("stage 0.02 discrete probe zone direction_deg")[1:] == ("degrees", True)
+    assert members.described("continuum_coarse window 0-0.01 band angle_deg")[2]
+    assert members.described("window 0-0.04 dscrete band angle_deg") is None
     for word in ("cpu", "ns_per_update", "message", "finished", "strips", "polygon", "axial_strain", "interval"):
         assert not [name for name in found if word in name]
 

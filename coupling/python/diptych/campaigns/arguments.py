@@ -72,9 +72,9 @@ def add_plan(parser: Parser) -> None:
     parser.add_argument("--accuracy", metavar="SHARE", required=True,
                         help="relative, of the means: 2 %% or 0.02; covers errors of the method and the 95 %% interval")
     parser.add_argument("--for", metavar="NAMES", default="",
-                        help="quantities, separated by commas: peak_stress_ratio, strength (both by default), "
-                             "final_volumetric_strain, width_10_90, angle, or a number of comparison.json; for one "
-                             "panel, put discrete. or continuum. before it")
+                        help="keys of quantities, separated by commas: peak_stress_ratio, strength (both by default), "
+                             "platen_force_pd, band_angle_deg and others, or numbers of comparison.json; for one "
+                             "panel, put discrete. or continuum. before a key")
     parser.add_argument("--run", action="store_true", help="also run the planned samples")
     _add_runs(parser, "folder of the plan (default: results/<scene name>_plan)")
 

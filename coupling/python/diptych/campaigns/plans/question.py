@@ -14,9 +14,10 @@ from ... import _diptych
 from ...errors import SceneError
 from ...files import number_name
 from ..runs.input_file import Setting, settings_of
-from ..studies.study_file import quantity
+from ..runs.key_numbers import QUANTITIES
+from ..runs.members import described
+from ..studies.study_file import key_quantity, quantity
 
-NAMES = ("peak_stress_ratio", "strength", "final_volumetric_strain", "width_10_90", "angle")
 PANELS = {"discrete": ("sample", "discrete"), "continuum": ("continuum",)}  # and the sections that ask for them
 
 
@@ -177,41 +178,37 @@ def _panels_of(file: str, scene: _diptych.Scene) -> set[str]:
     return {panel for panel, asked in PANELS.items() if sections & set(asked)} or {"discrete"}
 
 
-def _short(name: str, panel: str, scene: _diptych.Scene) -> dict[str, Any]:
-    """One of NAMES for one panel."""
-    full, keys = f"{panel}.{name}", scene.dict()
-    if name == "peak_stress_ratio":
-        return quantity(full, source=panel, reduction="peak", column="stress_ratio", to=scene.averaging_width(),
-                        step_error="strength")
-    if name == "strength":
-        end, early = scene.stages()[-1], _diptych.EARLY_STRAIN
-        return quantity(full, source=panel, reduction="strength", to=end, step_error="strength",
-                        **{"from": early if end > 2 * early else end / 2})
-    if name == "final_volumetric_strain":
-        return quantity(full, source=panel, column="volumetric_strain", step_error="dilation")
-    low, high = map(_diptych.text_of_number, keys["comparison"]["window_edges"][-2:])
-    key = "band_angle_deg" if name == "angle" else "band_width_10_90_d"
-    return quantity(full, source="comparison", reduction="number", line=name == "angle", step_error="",
-                    column=number_name(panel, key, f"window {low}-{high}"))
+def _key_quantity(key: str, panel: str, scene: _diptych.Scene) -> dict[str, Any]:
+    """A key number of one panel; that of a band from a comparison, because grains alone have none."""
+    of_band = QUANTITIES[key]["is_of_band"]
+    rule = "" if of_band else "dilation" if key == "final_volumetric_strain" else "strength"
+    asked = key_quantity(key, panel) | {"name": f"{panel}.{key}", "step_error": rule}
+    if not of_band:
+        return asked
+    low, high = map(_diptych.text_of_number, scene.dict()["comparison"]["window_edges"][-2:])
+    return asked | {"source": "comparison", "reduction": "number",
+                    "column": number_name(panel, key, f"window {low}-{high}")}
 
 
 def _add(question: Question, word: str, panels: set[str], scene: _diptych.Scene) -> None:
     prefix, _, rest = word.partition(".")
     named = {prefix} if prefix in PANELS and rest else set()
     name = rest if named else word
-    if name in NAMES:
+    if name in QUANTITIES:
         if "discrete" in named - panels:
             raise SceneError(f"--for '{word}': {question.scene} sets no key of sample or discrete")
         for panel in PANELS:
             if panel in (named or panels):
-                question.quantities[panel].append(_short(name, panel, scene))
+                question.quantities[panel].append(_key_quantity(name, panel, scene))
         return
-    of = [panel for panel in PANELS if f" {panel} " in word or word.startswith(panel + "_summary ")]
-    if len(of) != 1:
-        raise SceneError(f"--for '{word}' is unknown; use {', '.join(NAMES)}, with the prefix discrete. or continuum. "
-                         "for one panel, or a number of comparison.json with its name in ensemble.csv")
+    found = described(word)
+    parts = found[0].split("/") if found else []
+    of = [panel for panel in PANELS if {panel, panel + "_summary"} & set(parts)]
+    if not of:
+        raise SceneError(f"--for '{word}' is unknown; use {', '.join(QUANTITIES)}, with the prefix discrete. or "
+                         "continuum. for one panel, or a number of a panel with its name in ensemble.csv")
     question.quantities[of[0]].append(quantity(word, source="comparison", reduction="number", column=word,
-                                               line="angle" in word, step_error=""))
+                                               unit=found[1], line=found[2], step_error=""))
 
 
 def read_question(scene_file: str, accuracy: str, wanted: str, overrides: Sequence[str] = (),

@@ -4,6 +4,7 @@
 
 import functools
 import math
+import re
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -18,6 +19,23 @@ def _described() -> dict[str, tuple[str, str]]:
     """place -> (unit, kind) of the numbers that may be averaged"""
     return {place: (unit, kind) for place, (unit, kind) in _diptych.comparison_numbers().items()
             if kind in ("number", "line")}
+
+
+# What a list of a comparison adds to the names of its numbers.
+_IN_NAMES = {"bands": "band", "windows": r"window \S+-\S+", "stages": r"stage \S+", "stress": r"stress \S.*",
+             **{one: rf"{singular} \S.*" for one, singular in _SINGULAR.items()}}
+
+
+def described(name: str) -> tuple[str, str, bool] | None:
+    """(place, unit, True for the angle of a line) of a number by its name in ensemble.csv; None: no number has it."""
+    for place, (unit, kind) in _described().items():
+        *parts, key = place.removeprefix("continuum_coarse/windows/").split("/")
+        words = " ".join(_IN_NAMES.get(part, part) for part in parts)
+        if place.startswith("continuum_coarse/windows/"):
+            words = f"continuum_coarse {_IN_NAMES['windows']} {words}".rstrip()
+        if re.fullmatch(f"{words} {re.escape(key)}", name):
+            return place, unit, kind == "line"
+    return None
 
 
 @dataclass

@@ -16,6 +16,7 @@ from ..runs.coordinates import COORDINATES, Coordinates, Parameter
 from ..runs.histories import SOURCES
 from ..runs.key_numbers import QUANTITIES
 from ..runs.input_file import Part, Setting, is_number, name_of, value_text
+from ..runs.members import described
 
 COMMANDS = {"discrete": ("discrete",), "continuum": ("continuum",), "run": ("discrete", "continuum"),
             "material-point": ("material_point",)}  # the panels that each command runs
@@ -187,16 +188,11 @@ def _reduction(part: Part) -> dict[str, Any]:
 
 
 def _describe_number(part: Part, name: str) -> dict[str, Any]:
-    """Unit and kind of a number of comparison.json, by the last word of its name."""
-    key, numbers = name.rpartition(" ")[2], _diptych.comparison_numbers()
-    for place, (unit, kind) in numbers.items():
-        if place.rpartition("/")[2] == key:
-            return {"column": name, "unit": unit, "line": kind == "line"}
-    keys = [place.rpartition("/")[2] for place, (_, kind) in numbers.items() if kind in ("number", "line")]
-    nearest = min((one for one in keys if key and one.startswith(key)), key=len,
-                  default=_diptych.nearest_name(key, keys))
-    part.refuse(f" = '{name}': no number of a comparison ends with '{key}'; the nearest is '{nearest}'. Use a name "
-                "from the first column of ensemble.csv, such as 'window 0.01-0.03 discrete band angle_deg'", "number")
+    """Unit and kind of a number of comparison.json."""
+    if found := described(name):
+        return {"column": name, "unit": found[1], "line": found[2]}
+    part.refuse(f" = '{name}': no number of a comparison has such a name. Use one from the first column of "
+                "ensemble.csv, such as 'window 0.01-0.03 discrete band angle_deg'", "number")
 
 
 def _quantity(part: Part, command: str) -> dict[str, Any]:
