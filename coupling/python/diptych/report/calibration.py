@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.integrate import trapezoid
 
+from .._diptych import key_quantities
 from ..arrays import ends_text
 from ..errors import InputError
 from ..files import read_json
@@ -20,8 +21,8 @@ CURVES = {"stress_ratio": ("stress_ratio", "stress ratio t/s", 1),
 KINDS = {"stress_ratio": "t/s", "volumetric_strain": "volume", "ln_width": "ln width",
          "rotation_profile": "rotation profile"}
 MARKS = {"stress_ratio": "o", "volumetric_strain": "s", "ln_width": "D", "rotation_profile": "^"}
-QUANTITIES = {"peak_stress_ratio": "peak t/s", "volumetric_strain": "volumetric strain, last bin",
-              "width_10_90": "width 10–90, last window, d", "angle_deg": "inclination, last window, degrees"}
+QUANTITIES = {**{one["key"]: one["name"] for one in key_quantities()},
+              "volumetric_strain": "volumetric strain, last bin", "width_10_90": "width 10–90, last window, d", "angle_deg": "inclination, last window, degrees"}
 COORDINATES = {"value": "", "logarithm": "", "share_of": "share of ", "drop_from": "drop from "}
 
 

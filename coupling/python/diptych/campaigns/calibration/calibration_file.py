@@ -45,6 +45,7 @@ class Target:
     curve: str = ""  # .csv file
     is_fitted: bool = True  # False: predicted
     before: list[Setting] = field(default_factory=list)  # parameters to compare with; empty: those of the scene
+    kinds: list[str] = field(default_factory=list)  # those that count in a fit; empty: all of the file
 
     def is_same_path(self, other: "Target") -> bool:
         """True if the paths differ in their samples only."""
@@ -167,10 +168,11 @@ def _results(part: Part) -> tuple[list[str], list[int]]:
 
 
 def _target(part: Part) -> Target:
-    part.allow("name", "scene", "set", "seeds", "results", "curve", "use", "before")
+    part.allow("name", "scene", "set", "seeds", "results", "curve", "use", "before", "quantities")
     part.at("name")
     target = Target(name=part.word("name"), scene="", settings=part.settings("set"),
-                    is_fitted=part.choice("use", ("fit", "predict"), "fit") == "fit")
+                    is_fitted=part.choice("use", ("fit", "predict"), "fit") == "fit",
+                    kinds=[value_text(one.value) for one in part.list("quantities")])
     if part.has("results"):
         target.results, target.seeds = _results(part)
         target.scene = target.results[0] + "/scene.prm"
@@ -279,6 +281,10 @@ def read_calibration(file: str, contents: Mapping[str, Any] | None = None) -> Ca
     if not kinds or not set(kinds) <= set(KINDS):
         root.refuse(f" = '{', '.join(kinds)}' is not allowed; use some of {', '.join(KINDS)}", "quantities")
     root.demand_distinct("quantities", kinds)
+    for part, target in zip(root.list("targets"), targets):
+        if not set(target.kinds) <= set(kinds):
+            part.refuse(f" = '{', '.join(target.kinds)}' is not allowed; use some of the file's: {', '.join(kinds)}",
+                        "quantities")
     bins = [part.value for part in root.list("bins")]
     has_bins = not set(kinds) <= set(OF_BANDS)
     ascend = len(bins) > 1 and all(map(is_number, bins)) and bins[0] >= 0 and np.all(np.diff(bins) > 0)

@@ -15,16 +15,18 @@ from ...arrays import Array, Interval, ends_text
 from ..runs.coordinates import Coordinates
 from .noise import Noise, covariance, covariance_of_mean
 from .posterior import Draws
-from .observations import Observation, Path
+from .observations import PEAK, Observation, Path
 from .search import NORMAL, PRIOR, Fit, difference_jacobian
 from .trials import Trials
 from ..runs.folders import write_json, write_text
 from ..runs.input_file import seeds_text
+from ..runs.key_numbers import QUANTITIES
 from ..runs.statistics import Difference, line_statistics, paired, statistics
 
 NORMAL_95 = 1.6448536269514722  # 95 % quantile
 CUT = 0.04  # to a bound, in the unit cube: an interval ends there
 LARGEST_SHARE = 2 / 3  # of the prior deviation that an identified parameter keeps
+STRENGTHS = (PEAK, "peak_nominal_stress_ratio", "peak_core_stress_ratio", "platen_force_pd")
 COLUMNS = ("kind", "from", "to", "count", "mean", "deviation", "deviation_of_mean", "before", "after",
            "parameter_deviation", "half_step", "counts", "discrepancy", "discrepancy_deviation")
 
@@ -122,18 +124,22 @@ def predictions(path: Path, runs: Sequence[Observation], deviations: Array) -> l
         mean, deviation = (line_statistics if kind == "line" else statistics)(grains).mean, np.nan
         test = measured(mean, given, now, kind) if np.isfinite(given) else paired(grains, [now] * len(grains), kind)
         if k is not None and deviations[k] > 0:
-            deviation = deviations[k] * {"peak_stress_ratio": 1 / mean, "width_10_90": now / mean}.get(quantity, 1)
+            deviation = deviations[k] * (1 / peak if quantity in STRENGTHS else now / mean if quantity == "width_10_90"
+                                         else 1)
             test = widened(test, deviation)
         found.append({"quantity": quantity, "data": mean,
                       "before": earlier, "after": now, "difference": test.difference, "margin": margins[margin],
                       "verdict": test.verdict(margins[margin]), "parameter_deviation": deviation})
 
     everything = [before, after, *path.samples]
-    if np.isfinite([s.peak_stress_ratio for s in path.samples]).any():
-        add("peak_stress_ratio", [s.peak_stress_ratio for s in everything], "margin_peak_stress_ratio", "relative",
-            max(of_stress, key=lambda k: after.values[k], default=None),
-            given=max([(path.data.mean[k], path.data.given[k]) for k in of_stress if np.isfinite(path.data.mean[k])],
-                      default=(np.nan, np.nan))[1])
+    peak = statistics([s.numbers.get(PEAK, np.nan) for s in path.samples]).mean
+    for key in STRENGTHS:
+        values = [s.numbers.get(key, np.nan) for s in everything]
+        if np.isfinite(values[2:]).any():
+            given = max([(path.data.mean[k], path.data.given[k]) for k in of_stress if np.isfinite(path.data.mean[k])],
+                        default=(np.nan, np.nan))[1] if key == PEAK else np.nan
+            add(key, values, QUANTITIES[key]["margin"], QUANTITIES[key]["difference"],
+                max(of_stress, key=lambda k: after.values[k], default=None), given=given)
     if "volumetric_strain" in places:
         k = places["volumetric_strain"]
         add("volumetric_strain", [s.values[k] for s in everything], "margin_volumetric_strain", "absolute", k,

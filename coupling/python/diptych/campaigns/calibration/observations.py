@@ -14,12 +14,13 @@ from ...arrays import Array, Band
 from ...errors import SceneError
 from ..runs.histories import is_beyond, mean_over, nominal_stress_ratio, peak_of_running_mean
 from ..runs.input_file import Setting
-from ..runs.key_numbers import bands_between, snapshots_at
+from ..runs.key_numbers import bands_between, panel_values, snapshots_at
 from .calibration_file import CURVE_COLUMNS, OF_BANDS, Target, is_element, read_curve
 from .noise import Data, Observable
 from .profiles import PROFILE, profile
 
 CURVE_POINTS = 120
+PEAK = "peak_stress_ratio"
 NO_CURVE = np.full(CURVE_POINTS, np.nan)
 
 
@@ -28,7 +29,7 @@ class Observation:
     """Results of one run of a panel, or a measured curve."""
 
     values: Array  # (observables), NaN: not reached, or no band
-    peak_stress_ratio: float = np.nan  # largest running mean
+    numbers: dict[str, float] = field(default_factory=dict)  # compared numbers by their keys
     # of the first band of the last window; without its sign if chance decides between left and right
     angle_deg: float = np.nan
     bands: list[Band | None] = field(default_factory=list)  # the first of every window
@@ -81,8 +82,10 @@ def observe_history(scene: _diptych.Scene, observables: Sequence[Observable], ta
     for k, one in enumerate(observables):
         if one.kind in columns and not is_beyond(one.high, end):
             o.values[k] = mean_over(progress, columns[one.kind], one.low, one.high)
-    if "stress_ratio" in columns:
-        o.peak_stress_ratio = peak_of_running_mean(table, "stress_ratio", scene.averaging_width())
+    if "lower_fy" in table and not is_element(scene):
+        o.numbers = panel_values(scene, table)
+    elif "stress_ratio" in columns:
+        o.numbers = {PEAK: peak_of_running_mean(table, "stress_ratio", scene.averaging_width())}
     edges = np.linspace(0, min(end, scene.dict()["loading"]["axial_strain"]), CURVE_POINTS + 1)
     o.progress = 0.5 * (edges[1:] + edges[:-1])
     for name, column in columns.items():

@@ -37,9 +37,9 @@ def _check_target(calibration: Calibration, coordinates: Coordinates, target: Ta
         raise SceneError(f"{target.scene}: continuum/initial_stress = mapped has no place in a calibration: one mesh "
                          "serves all samples")
     place = f"{calibration.file}: target '{target.name}': "
-    law = scene.dict()["continuum"]["law"]
-    if PROFILE in calibration.kinds and not is_element(scene) and not law.startswith("cosserat"):
-        raise SceneError(f"{place}{PROFILE} needs a law with rotations; continuum/law = {law} has none; use ln_width")
+    if PROFILE in calibration.kinds and not is_element(scene) and "platen_rotation" in scene.unused_keys():
+        raise SceneError(f"{place}{PROFILE} needs a law with rotations; continuum/law = "
+                         f"{scene.dict()['continuum']['law']} has none; use ln_width")
     try:
         observables = calibration.observables_of(scene, bool(target.curve))
     except ValueError as error:
@@ -96,6 +96,9 @@ def check_data(calibration: Calibration, paths: Sequence[Path], runs: Calibratio
             path.left_out = runs.unsteady(path, noise)
             record["words"] += [f"left out: {target.name}, {one.kind} from {one.low:.3g} to {one.high:.3g}: {why}"
                                 for one, why in zip(path.data.observables, path.left_out) if why]
+        if target.kinds:
+            path.left_out = [why if one.kind in target.kinds else "its target does not count it"
+                             for one, why in zip(path.data.observables, path.left_out)]
         if PROFILE in calibration.kinds:
             path.left_out = [why or ("the profile shows it" if one.kind == "ln_width" else "")
                              for one, why in zip(path.data.observables, path.left_out)]

@@ -28,6 +28,28 @@ COARSE = 5 / 3  # coarse / own elements
 SMALLEST_COARSE = 4  # mean diameters
 
 
+# The same grains without edges: their strength, dilatancy and modulus are the material's, whatever the platens.
+CELL = {"loading/mode": "path", "loading/path": "drained", "discrete/lateral": "cell", "sample/width_over_height": 1}
+WALLS = {"loading/horizontal_over_vertical": 0, "sample/rough_platens": "false", "discrete/platen_friction": 0,
+         "discrete/wall_friction": 0, "discrete/lateral": "rigid_walls", "discrete/side_motion": "pressure",
+         "continuum/platens": "smooth"}
+
+
+def _targets(own: dict[str, Any], keys: dict[str, Any], has_length: bool) -> list[dict[str, Any]]:
+    """own: the scene's target. Of a compression between platens: cells give the curves, the platen test only the width
+    of its band. Unseen samples, smooth walls and another direction are predicted. Otherwise only the scene counts."""
+    if keys["loading"]["mode"] != "descent" or keys["discrete"]["method"] == "imported":
+        return [own]
+    seeds, settings = read_seeds(own["seeds"]), own["set"]
+    predicted = own | {"seeds": f"{max(seeds) + 1}-{max(seeds) + len(seeds)}", "use": "predict"}
+    turned = {"loading/horizontal_over_vertical": 0 if keys["loading"]["horizontal_over_vertical"] else 1}
+    return [own | {"name": "cells", "set": settings | CELL, "quantities": ["stress_ratio", "volumetric_strain"]},
+            own | ({"quantities": ["ln_width"]} if has_length else {"use": "predict"}),
+            predicted | {"name": "unseen samples"},
+            predicted | {"name": "smooth rigid walls", "set": settings | WALLS},
+            predicted | {"name": "other direction", "set": settings | turned}]
+
+
 def standard_calibration(scene: str, seeds: str, settings: Sequence[Setting]) -> dict[str, Any]:
     """Contents of a calibration file beside the scene file. Parameters that its law does not read are left out, and
     without an internal length the width of the band, too. Raises SceneError."""
@@ -40,12 +62,14 @@ def standard_calibration(scene: str, seeds: str, settings: Sequence[Setting]) ->
         raise SceneError(f"--seeds {seeds}: discrete/file = '{file}' is one sample; give --seeds 1")
     if not is_one and n < 2:
         raise SceneError(f"--seeds {seeds}: the scatter of samples needs at least two seeds, for example --seeds 1-4")
+    has_length = "internal_length" not in unused
+    own = {"name": read.name, "scene": os.path.basename(scene), "seeds": seeds,
+           "set": {f"{one.section}/{one.key}": one.value for one in settings}}
     end, law = keys["loading"]["axial_strain"], {key: keys["continuum"][key] for key in ("law", "geometry")}
     return {
         "title": f"{read.name}, seeds {seeds}",
-        "targets": [{"name": read.name, "scene": os.path.basename(scene), "seeds": seeds,
-                     "set": {f"{one.section}/{one.key}": one.value for one in settings}}],
-        "quantities": ["stress_ratio", "volumetric_strain", *(["ln_width"] if "internal_length" not in unused else [])],
+        "targets": _targets(own, keys, has_length),
+        "quantities": ["stress_ratio", "volumetric_strain", *(["ln_width"] if has_length else [])],
         "bins": [float(f"{end * share:.4g}") for share in EDGES],
         "set": {f"continuum/{key}": value for key, value in {**law, **SET}.items() if key not in unused},
         "parameters": [p for p in PARAMETERS if p["key"] not in unused],
