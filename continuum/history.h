@@ -22,6 +22,7 @@ namespace diptych::continuum
     Eigen::Matrix3d core_stress        = Eigen::Matrix3d::Zero(); // symmetric mean over the middle half of the height
     Eigen::Vector2d lower_platen_force = Eigen::Vector2d::Zero(); // [pressure * length]
     Eigen::Vector2d upper_platen_force = Eigen::Vector2d::Zero();
+    double          platen_sxx         = 0; // part of the mean sxx that the platens cause [pressure]
     int             n_cells = 0, n_unknowns = 0;
     int             newton_iterations = 0, linear_iterations = 0, factorisations = 0, cut_backs = 0;
     double          plastic_share                 = 0; // share of the area that yields in this step
@@ -100,6 +101,9 @@ namespace diptych::continuum
     visit("core_sxy", r.core_stress(0, 1), "pressure", "mean stress there, xy component");
     visit("core_syy", r.core_stress(1, 1), "pressure", "mean stress there, yy component");
     visit("width", r.width, "length", "area / height");
+    visit(
+      "platen_sxx", r.platen_sxx, "pressure",
+      "part of the mean sxx that the platens cause: moment of their forces about a vertical line / area; sides cause the rest");
     visit("walk", r.loading_variable, "-", "column that progress equals: axial_strain, shear_strain or time");
   }
 } // namespace diptych::continuum

@@ -59,6 +59,7 @@ namespace diptych::continuum
     std::vector<Eigen::Vector2d> displacement; // since the start [length], n_nodes
     std::vector<double>          rotation;     // Cosserat: omega, anticlockwise since the start [radians], n_nodes; else empty
     std::vector<double>          weight;       // lumped area of a node (sums to the current area)
+    std::vector<Eigen::Vector2d> platen_force; // of a platen on a node in the last step, 0 elsewhere [pressure * length], n_nodes
 
     // Node indices of a cell: four corners counter-clockwise, then the midpoints of edges 0-1, 1-2, 2-3, 3-0, then the centre,
     // as in VTK's biquadratic quad. Nine nodes are interpolated for four-node elements, too.

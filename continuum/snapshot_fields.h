@@ -19,6 +19,7 @@ namespace diptych::continuum
     visit("nodes/displacement", s.displacement, "length", "displacement since the start");
     visit("nodes/rotation", s.rotation, "rad", "Cosserat rotation since the start; Cosserat laws only");
     visit("nodes/weight", s.weight, "length^2", "lumped area; the sum is the current area");
+    visit("nodes/platen_force", s.platen_force, "pressure length", "force of a platen on the node; 0 elsewhere");
   }
 
   template <class AnyCell, class Visit> void visit_cell_fields(AnyCell &c, Visit &&visit)

@@ -122,6 +122,7 @@ namespace diptych::continuum
     const std::vector<char> &last_instability() const { return unstable; }
     double                   progress() const { return state.progress; }
     const Eigen::Vector2d   &platen_force(bool upper) const { return state.platen_force[upper]; } // on the sample
+    std::vector<double>      platen_node_forces() const; // on the relevant dofs in the last step, 0 off the platens; collective
     Eigen::Vector2d          platen_travel(bool upper) const;               // since the start [length]; collective
     double                   initial_area() const { return area_at_start; } // of the whole sample [length^2]
     const PhaseSeconds      &seconds() const { return phase; }

@@ -133,13 +133,14 @@ namespace diptych::continuum
       std::array<double, 3> key;
       Eigen::Vector2d       position, displacement;
       double                rotation = 0, weight = 0;
+      Eigen::Vector2d       platen_force = Eigen::Vector2d::Zero();
     };
-    constexpr unsigned int entry_length = 9;
+    constexpr unsigned int entry_length = 11;
 
     void append(std::vector<double> &message, const NodeEntry &n)
     {
       message.insert(message.end(), {n.key[0], n.key[1], n.key[2], n.position.x(), n.position.y(), n.displacement.x(),
-                                     n.displacement.y(), n.rotation, n.weight});
+                                     n.displacement.y(), n.rotation, n.weight, n.platen_force.x(), n.platen_force.y()});
     }
 
     // Calls visit(number) for every number of a state, in the order of its fields.
@@ -159,7 +160,10 @@ namespace diptych::continuum
     constexpr unsigned int between[9][2] = {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {0, 2}, {1, 3}, {0, 1}, {2, 3}, {0, 3}};
 
     // The nine nodes of a cell in deal.II's order. Nodes that a four-node element lacks are interpolated.
-    std::array<NodeEntry, 9> cell_nodes(const BoundaryValueProblem &problem, const Shape &shape, const std::size_t c)
+    std::array<NodeEntry, 9> cell_nodes(const BoundaryValueProblem &problem,
+                                        const Shape                &shape,
+                                        const std::vector<double>  &platen_forces,
+                                        const std::size_t           c)
     {
       const auto              &mesh  = problem.discretisation();
       const auto              &cell  = mesh.cells[c];
@@ -189,6 +193,8 @@ namespace diptych::continuum
           result[8].position     = mean(&NodeEntry::position);
           result[8].displacement = mean(&NodeEntry::displacement);
         }
+      for (unsigned int node = 0; node < mesh.reference.n_nodes; ++node)
+        result[node].platen_force = {platen_forces[cell.local[2 * node]], platen_forces[cell.local[2 * node + 1]]};
       for (unsigned int q = 0; q < mesh.reference.n_points; ++q)
         for (unsigned int node = 0; node < mesh.reference.n_nodes; ++node)
           result[node].weight += problem.moved_geometry().cells[c].points[q].area * mesh.reference.shape[q][node];
@@ -211,6 +217,7 @@ namespace diptych::continuum
               snapshot.position.emplace_back(message[3], message[4]);
               snapshot.displacement.emplace_back(message[5], message[6]);
               snapshot.weight.push_back(0);
+              snapshot.platen_force.emplace_back(message[9], message[10]);
               if (rotates)
                 snapshot.rotation.push_back(message[7]);
             }
@@ -239,6 +246,20 @@ namespace diptych::continuum
     {
       for (int k = 0; k < 9; ++k)
         matrix.data()[k] = sum(matrix.data()[k], communicator);
+    }
+
+    // On the shape that is in equilibrium.
+    double platen_sxx(const BoundaryValueProblem &problem)
+    {
+      const auto &mesh     = problem.discretisation();
+      const Shape shape    = shape_of(problem);
+      const auto &position = &problem.geometry() == &problem.moved_geometry() ? shape.now : shape.before;
+      const auto  forces   = problem.platen_node_forces();
+      double      moment   = 0;
+      for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
+        if (const auto dof = mesh.nodes[i].dofs[0]; mesh.owned.is_element(dof))
+          moment -= position[i].x() * forces[mesh.relevant.index_within_set(dof)];
+      return sum(moment, mesh.communicator()) / sum(problem.geometry().area, mesh.communicator());
     }
 
     template <class Target> void set_progress(const BoundaryValueProblem &problem, const Loading &loading, Target &target)
@@ -342,12 +363,13 @@ namespace diptych::continuum
 
   Snapshot make_snapshot(const BoundaryValueProblem &problem, const Loading &loading)
   {
-    const auto         &mesh  = problem.discretisation();
-    const Shape         shape = shape_of(problem);
+    const auto         &mesh          = problem.discretisation();
+    const Shape         shape         = shape_of(problem);
+    const auto          platen_forces = problem.platen_node_forces();
     std::vector<double> mine;
     for (std::size_t c = 0; c < mesh.cells.size(); ++c)
       {
-        for (const auto &node : cell_nodes(problem, shape, c))
+        for (const auto &node : cell_nodes(problem, shape, platen_forces, c))
           append(mine, node);
         const CellState state = cell_state(problem, shape, c);
         each_number(state, [&](const double number) { mine.push_back(number); });
@@ -379,6 +401,7 @@ namespace diptych::continuum
     row.stress_ratio       = stress_ratio(row.mean_stress);
     row.lower_platen_force = problem.platen_force(false);
     row.upper_platen_force = problem.platen_force(true);
+    row.platen_sxx         = platen_sxx(problem);
     row.friction_work      = problem.committed().friction_work;
     row.n_cells            = int(mesh.triangulation.n_global_active_cells());
     row.n_unknowns         = int(mesh.dof_handler.n_dofs());

@@ -160,6 +160,23 @@ namespace diptych::coupling
         }
     }
 
+    void compare_platens(const Results &results, const std::size_t n, const bool is_mirror_symmetric, Comparison &c)
+    {
+      std::vector<PlatenParts> grains, nodes;
+      for (std::size_t k = 1; k < n; ++k)
+        {
+          const StagePair pair   = stage_pair(results, k - 1, k);
+          const double    travel = c.stages[k - 1].increment.frame.platen_increment.x();
+          grains.push_back(platen_parts(platen_contacts(pair.grains_from, pair.grains_to, false),
+                                        platen_contacts(pair.grains_from, pair.grains_to, true), is_mirror_symmetric));
+          nodes.push_back(platen_parts(platen_contacts(pair.nodes_from, pair.nodes_to, false, 0),
+                                       platen_contacts(pair.nodes_from, pair.nodes_to, true, travel), is_mirror_symmetric));
+        }
+      c.discrete.platens  = platen_friction(grains);
+      c.discrete_platens  = sum_of(grains);
+      c.continuum_platens = sum_of(nodes);
+    }
+
     std::optional<CoarseRun> coarse_run(const Settings               &settings,
                                         const Results                &results,
                                         const std::vector<Increment> &windows,
@@ -215,12 +232,10 @@ namespace diptych::coupling
       c.theory = theory_lines(material.friction_angle_peak, material.dilatancy_angle_peak);
     c.discrete = summary_of(scene, results.discrete, results.discrete.snapshots[n - 1], c.discrete_history);
     if (scene.loading.mode != discrete::LoadingMode::time)
-      {
-        c.discrete.platens             = platen_friction(results.discrete.snapshots, settings.is_mirror_symmetric);
-        c.discrete.platens.slip_length = times(1 / scene.sample.mean_diameter, c.discrete.platens.slip_length);
-      }
-    c.continuum = summary_of(scene, results.continuum, c.continuum_history);
-    c.cost      = summary_of(results.phases);
+      compare_platens(results, n, settings.is_mirror_symmetric, c);
+    c.discrete.platens.slip_length = times(1 / scene.sample.mean_diameter, c.discrete.platens.slip_length);
+    c.continuum                    = summary_of(scene, results.continuum, c.continuum_history);
+    c.cost                         = summary_of(results.phases);
     return c;
   }
 } // namespace diptych::coupling

@@ -37,6 +37,7 @@ namespace diptych::coupling
     HistoryTable               discrete_history, continuum_history;
     DiscreteSummary            discrete;
     ContinuumSummary           continuum;
+    PlatenParts                discrete_platens, continuum_platens; // over all stages; empty along time
     CostSummary                cost;
   };
 

@@ -181,6 +181,8 @@ namespace diptych::coupling
     const double width = averaging_width(scene);
     list_history_arrays(c.discrete_history, width, IntoGroup{file, "histories/discrete"});
     list_history_arrays(c.continuum_history, width, IntoGroup{file, "histories/continuum"});
+    list_platen_arrays(c.discrete_platens, scene.sample.mean_diameter, IntoGroup{file, "platens/discrete"});
+    list_platen_arrays(c.continuum_platens, scene.sample.mean_diameter, IntoGroup{file, "platens/continuum"});
 
     list_file_attributes(scene.loading, scene.sample.mean_diameter, results.discrete.snapshots.front(), IntoGroup{file, "/"});
     file.finish();

@@ -166,6 +166,23 @@ namespace diptych::coupling
           arrays::rows_of(p.velocity_fluctuation));
   }
 
+  template <class Visit> void list_platen_arrays(const PlatenParts &parts, const double mean_diameter, Visit &&visit)
+  {
+    std::vector<double> place, ratio, slip;
+    for (const PlatenPart &part : parts)
+      {
+        place.push_back(part.place);
+        ratio.push_back(part.normal > 0 ? -part.shear / part.normal : NAN);
+        slip.push_back(part.slip / mean_diameter);
+      }
+    visit(ArrayEntry{"place", "place along the platen", "half widths", "middles of the parts of a platen, from its middle"},
+          place);
+    visit(ArrayEntry{"stress_ratio", "shear / normal stress", "-",
+                     "mean over the stages, to the left on the lower platen; the upper one is turned by half a turn"},
+          ratio);
+    visit(ArrayEntry{"slip", "slip", "mean diameters", "to the right relative to the platen, per unit progress"}, slip);
+  }
+
   template <class Visit> void list_increment_arrays(const Increment &i, const discrete::Snapshot &to, Visit &&visit)
   {
     const MotionUnits unit = motion_units(i);

@@ -98,6 +98,10 @@ namespace diptych::coupling
         v({q.key, q.unit, q.meaning}, value_of(n.compared, q));
     v({"strain_at_peak", "strain or time", "progress at the peak of the stress ratio"}, n.peak.progress);
     v({"early_strength", "-", "strength T/S up to 0.3 % strain: mean of t over mean of s"}, n.early_strength);
+    v({"mean_sxx", "pressure", "mean of sxx from 0.3 % strain to the end"}, n.mean_sxx);
+    v({"sides_sxx", "pressure", "part of it that the forces on the sides cause"}, n.sides_sxx);
+    v({"platens_sxx", "pressure", "part of it that the platens cause; accelerations and spin of grains cause the rest"},
+      n.platens_sxx);
   }
 
   template <class Visitor> void list_numbers(const DiscreteSummary &s, Visitor &v)

@@ -111,6 +111,17 @@ namespace diptych::coupling
     return text;
   }
 
+  std::string sxx_text_of(const Comparison &c, const double pressure)
+  {
+    if (std::isnan(c.discrete.numbers.mean_sxx))
+      return "";
+    std::string text = "mean sxx / P from 0.3 % strain:";
+    for (const auto &[name, n] : {std::pair{" grains ", &c.discrete.numbers}, {", continuum ", &c.continuum.numbers}})
+      text += name + number(n->mean_sxx / pressure) + " (sides " + number(n->sides_sxx / pressure) + ", platens " +
+              number(n->platens_sxx / pressure) + ")";
+    return "\n" + text;
+  }
+
   std::string origin_of_law(const std::string &parameters_from)
   {
     if (!parameters_from.empty())

@@ -57,6 +57,9 @@ namespace diptych::coupling
   std::string csv_of(const std::vector<KeyNumber> &numbers);  // with the columns summary_columns()
   std::string text_of(const std::vector<KeyNumber> &numbers); // a table for a terminal, one line per quantity
 
+  // A line with the mean sxx of both panels / pressure and what causes it; empty unless a pressure acts on the sides.
+  std::string sxx_text_of(const Comparison &c, double pressure);
+
   // Where the parameters of the continuum come from; bold on a terminal if nobody fitted them.
   std::string origin_of_law(const std::string &parameters_from);
 } // namespace diptych::coupling

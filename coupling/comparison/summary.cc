@@ -56,7 +56,18 @@ namespace diptych::coupling
   PanelNumbers panel_numbers(const Scene &scene, const HistoryTable &h)
   {
     const QuantityBasis basis = basis_of(scene);
-    return {panel_values(basis, h), peak_of_running_mean(h, "stress_ratio", basis.averaging_width), early_strength(basis, h)};
+    PanelNumbers        numbers;
+    numbers.compared       = panel_values(basis, h);
+    numbers.peak           = peak_of_running_mean(h, "stress_ratio", basis.averaging_width);
+    numbers.early_strength = early_strength(basis, h);
+    const double end       = column(h, "progress").back();
+    if (std::isnan(basis.side_pressure) || !is_beyond(end, early_strain))
+      return numbers;
+    const auto mean     = [&](const char *name) { return mean_over_progress(h, name, early_strain, end); };
+    numbers.mean_sxx    = mean("sxx");
+    numbers.platens_sxx = mean("platen_sxx");
+    numbers.sides_sxx   = h.count("side_sxx") ? mean("side_sxx") : numbers.mean_sxx - numbers.platens_sxx; // equilibrium
+    return numbers;
   }
 
   DiscreteSummary summary_of(const Scene              &scene,

@@ -20,6 +20,7 @@ namespace diptych::coupling
     PanelValues compared;
     Peak        peak; // of the running mean of t/s
     double      early_strength = NAN;
+    double      mean_sxx = NAN, sides_sxx = NAN, platens_sxx = NAN; // [pressure]; NaN unless a pressure acts on the sides
   };
   PanelNumbers panel_numbers(const Scene &scene, const HistoryTable &history);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupling/fields/node_transfer.h"
 #include "coupling/statistics/student.h"
 
 namespace diptych::coupling
@@ -17,7 +18,7 @@ namespace diptych::coupling
     };
 
     // The best friction for one scale of the slip: with h = tanh(v / scale) the law is linear in it.
-    Fit fit_at(const double scale, const std::vector<PlatenPart> &parts)
+    Fit fit_at(const double scale, const PlatenParts &parts)
     {
       double th = 0, hh = 0, tt = 0;
       for (const PlatenPart &part : parts)
@@ -35,7 +36,7 @@ namespace diptych::coupling
     }
 
     // The scale lies between a hundredth and a hundred times the largest slip. Steps of 10 %, then golden section.
-    Fit fit(const std::vector<PlatenPart> &parts)
+    Fit fit(const PlatenParts &parts)
     {
       double largest = 0;
       for (const PlatenPart &part : parts)
@@ -86,68 +87,84 @@ namespace diptych::coupling
     return contacts;
   }
 
-  std::vector<PlatenPart> platen_parts(const std::vector<PlatenContact> &lower,
-                                       const std::vector<PlatenContact> &upper,
-                                       const PlatenFrame                &frame,
-                                       const int                         n_parts)
+  std::vector<PlatenContact> platen_contacts(const continuum::Snapshot &from,
+                                             const continuum::Snapshot &to,
+                                             const bool                 upper,
+                                             const double               travel)
   {
-    std::vector<PlatenPart> parts(static_cast<std::size_t>(n_parts));
-    const double            left = frame.is_mirror_symmetric ? 0 : -1;
-    const auto              add  = [&](const PlatenContact &c, const double turn) {
-      const double place  = turn * (c.x - frame.middle) / frame.half_width;
-      const double side   = frame.is_mirror_symmetric && place < 0 ? -turn : turn;
-      const double within = ((frame.is_mirror_symmetric ? std::abs(place) : place) - left) / (1 - left);
-      PlatenPart  &part   = parts[std::size_t(std::clamp(int(std::floor(within * n_parts)), 0, n_parts - 1))];
-      part.normal += c.normal;
-      part.shear += side * c.shear;
-      part.slip += side * c.normal * c.slip;
-    };
-    for (const PlatenContact &c : lower)
-      add(c, 1);
-    for (const PlatenContact &c : upper)
-      add(c, -1);
-    for (PlatenPart &part : parts)
-      part.slip /= part.normal > 0 ? part.normal : 1;
+    const std::vector<Eigen::Vector2d> before  = displacement_at_nodes_of(from, to);
+    const double                       inwards = upper ? -1 : 1;
+    std::vector<PlatenContact>         contacts;
+    for (std::size_t k = 0; k < to.platen_force.size(); ++k)
+      if (const Eigen::Vector2d &force = to.platen_force[k]; inwards * force.y() > 0)
+        {
+          const double moved = (to.displacement[k] - before[k]).x() - travel;
+          contacts.push_back({to.position[k].x(), inwards * force.y(), force.x(), moved / (to.progress - from.progress)});
+        }
+    return contacts;
+  }
+
+  PlatenParts platen_parts(const std::vector<PlatenContact> &lower,
+                           const std::vector<PlatenContact> &upper,
+                           const bool                        is_mirror_symmetric,
+                           const int                         n_parts)
+  {
+    PlatenParts  parts(static_cast<std::size_t>(n_parts));
+    const double left = is_mirror_symmetric ? 0 : -1;
+    for (const auto &[contacts, turn] : {std::pair{&lower, 1.}, {&upper, -1.}})
+      {
+        double low = INFINITY, high = -INFINITY;
+        for (const PlatenContact &c : *contacts)
+          {
+            low  = std::min(low, c.x);
+            high = std::max(high, c.x);
+          }
+        for (const PlatenContact &c : *contacts)
+          {
+            const double place  = turn * (2 * c.x - low - high) / std::max(high - low, 1e-300);
+            const double side   = is_mirror_symmetric && place < 0 ? -turn : turn;
+            const double within = ((is_mirror_symmetric ? std::abs(place) : place) - left) / (1 - left);
+            PlatenPart  &part   = parts[std::size_t(std::clamp(int(std::floor(within * n_parts)), 0, n_parts - 1))];
+            part.normal += c.normal;
+            part.shear += side * c.shear;
+            part.slip += side * c.normal * c.slip;
+          }
+      }
+    for (std::size_t k = 0; k < parts.size(); ++k)
+      {
+        parts[k].place = left + (1 - left) * (double(k) + 0.5) / n_parts;
+        parts[k].slip /= parts[k].normal > 0 ? parts[k].normal : 1;
+      }
     return parts;
   }
 
-  PlatenFriction platen_friction(const std::vector<std::vector<PlatenPart>> &windows)
+  PlatenParts sum_of(const std::vector<PlatenParts> &windows)
   {
-    const auto but = [&](const std::size_t left_out) {
-      std::vector<PlatenPart> sum(windows.front().size());
-      for (std::size_t w = 0; w < windows.size(); ++w)
-        for (std::size_t k = 0; k < sum.size() && w != left_out; ++k)
-          {
-            const PlatenPart &part  = windows[w][k];
-            const double      total = sum[k].normal + part.normal;
-            sum[k].slip             = total > 0 ? (sum[k].normal * sum[k].slip + part.normal * part.slip) / total : 0.;
-            sum[k].normal           = total;
-            sum[k].shear += part.shear;
-          }
-      return fit(sum);
-    };
-    const Fit           all = but(windows.size());
+    PlatenParts sum(windows.empty() ? 0 : windows.front().size());
+    for (const PlatenParts &window : windows)
+      for (std::size_t k = 0; k < sum.size(); ++k)
+        {
+          const double total = sum[k].normal + window[k].normal;
+          sum[k].slip        = total > 0 ? (sum[k].normal * sum[k].slip + window[k].normal * window[k].slip) / total : 0.;
+          sum[k].place       = window[k].place;
+          sum[k].normal      = total;
+          sum[k].shear += window[k].shear;
+        }
+    return sum;
+  }
+
+  PlatenFriction platen_friction(const std::vector<PlatenParts> &windows)
+  {
+    const Fit           all = fit(sum_of(windows));
     std::vector<double> friction, slip_length;
     for (std::size_t w = 0; w < windows.size(); ++w)
       {
-        const Fit one = but(w);
-        friction.push_back(one.friction);
-        slip_length.push_back(one.slip_length);
+        std::vector<PlatenParts> others = windows;
+        others.erase(others.begin() + std::ptrdiff_t(w));
+        const Fit without = fit(sum_of(others));
+        friction.push_back(without.friction);
+        slip_length.push_back(without.slip_length);
       }
     return {jackknife(all.friction, friction), jackknife(all.slip_length, slip_length)};
-  }
-
-  PlatenFriction platen_friction(const std::vector<discrete::Snapshot> &snapshots, const bool is_mirror_symmetric)
-  {
-    std::vector<std::vector<PlatenPart>> windows;
-    for (std::size_t k = 1; k < snapshots.size(); ++k)
-      {
-        const discrete::Snapshot &from = snapshots[k - 1], &to = snapshots[k];
-        const double              left  = (to.outline.left.front().x() + to.outline.left.back().x()) / 2;
-        const double              right = (to.outline.right.front().x() + to.outline.right.back().x()) / 2;
-        windows.push_back(platen_parts(platen_contacts(from, to, false), platen_contacts(from, to, true),
-                                       {(left + right) / 2, (right - left) / 2, is_mirror_symmetric}, 10));
-      }
-    return windows.empty() ? PlatenFriction() : platen_friction(windows);
   }
 } // namespace diptych::coupling

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "continuum/snapshot.h"
 #include "coupling/statistics/interval.h"
 #include "discrete/snapshot.h"
 
@@ -21,21 +22,26 @@ namespace diptych::coupling
   // a platen do not count.
   std::vector<PlatenContact> platen_contacts(const discrete::Snapshot &from, const discrete::Snapshot &to, bool upper);
 
-  // Equal parts of both platens together. Turned by half a turn, the upper platen is the lower one.
+  // Nodes: forces at the end of the window. travel: displacement of the platen to the right in the window [length].
+  std::vector<PlatenContact> platen_contacts(const continuum::Snapshot &from,
+                                             const continuum::Snapshot &to,
+                                             bool                       upper,
+                                             double                     travel);
+
+  // Equal parts of both platens together, each between its outermost contacts. Turned by half a turn, the upper platen is the
+  // lower one. In a mirror-symmetric test the left half is the right one, mirrored; parts then count from the middle.
   struct PlatenPart
   {
+    double place  = 0;            // of its middle, from the middle of the platen [half widths]
     double normal = 0, shear = 0; // sums of the forces [pressure * length]
     double slip = 0;              // mean, weighted with the normal forces [length per unit progress]
   };
-  struct PlatenFrame
-  {
-    double middle, half_width;  // of the platens [length]
-    bool   is_mirror_symmetric; // then the left half is the right one, mirrored; parts count from the middle
-  };
-  std::vector<PlatenPart> platen_parts(const std::vector<PlatenContact> &lower,
-                                       const std::vector<PlatenContact> &upper,
-                                       const PlatenFrame                &frame,
-                                       int                               n_parts);
+  using PlatenParts = std::vector<PlatenPart>;
+  PlatenParts platen_parts(const std::vector<PlatenContact> &lower,
+                           const std::vector<PlatenContact> &upper,
+                           bool                              is_mirror_symmetric,
+                           int                               n_parts = 10);
+  PlatenParts sum_of(const std::vector<PlatenParts> &windows);
 
   // shear / normal = -friction tanh(v / (friction slip_length)) for the slip v, as in continuum/platens = frictional.
   struct PlatenFriction
@@ -44,11 +50,8 @@ namespace diptych::coupling
     Interval slip_length; // [length]
   };
 
-  // Fits the law to the means over several windows of the same parts, by least squares weighted with the normal forces. The slip
-  // of few grains is too uncertain for a fit to single windows. Intervals of 95 %: jackknife over the windows (NaN for one). NaN
+  // Fits the law to the means over several windows or samples, by least squares weighted with the normal forces. The slip
+  // of few grains is too uncertain for a fit to single windows. Intervals of 95 %: jackknife over them (NaN for one). NaN
   // if nothing slips.
-  PlatenFriction platen_friction(const std::vector<std::vector<PlatenPart>> &windows);
-
-  // Of the grains, from the windows between successive snapshots, in ten parts of a platen or of its half.
-  PlatenFriction platen_friction(const std::vector<discrete::Snapshot> &snapshots, bool is_mirror_symmetric);
+  PlatenFriction platen_friction(const std::vector<PlatenParts> &windows);
 } // namespace diptych::coupling

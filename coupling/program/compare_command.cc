@@ -65,7 +65,8 @@ namespace diptych::coupling
       c.cost = summary_of(read_run_facts(next).phases);
       write_comparison(next, {scene, c});
       record_files(next, "comparison");
-      text = text_of(key_numbers(c)) + "\n" + origin_of_law(scene.comparison.parameters_from);
+      text = text_of(key_numbers(c)) + sxx_text_of(c, scene.loading.pressure) + "\n" +
+             origin_of_law(scene.comparison.parameters_from);
       progress.finish();
       for (const StageRecord &stage : c.stages)
         if (!(stage.mapping.total_relative_error < largest_error_of_the_total))
@@ -80,8 +81,6 @@ namespace diptych::coupling
     // The scene that a result folder was made with, with overrides for what the comparison may change.
     Scene scene_of_folder(const CommandLine &line)
     {
-      if (!is_result_folder(line.target) && !std::filesystem::exists(scene_prm(line.target)))
-        throw SceneError(line.target + " is not a result folder; diptych run SCENE makes one");
       if (is_study_folder(line.target))
         throw SceneError(line.target + ": holds a study; diptych study with its file and --resume evaluates it again");
       if (is_calibration_folder(line.target))
@@ -146,6 +145,8 @@ namespace diptych::coupling
 
   int compare_again(const CommandLine &line)
   {
+    if (!is_result_folder(line.target) && !std::filesystem::exists(scene_prm(line.target)))
+      throw SceneError(line.target + " is not a result folder; diptych run SCENE makes one");
     if (std::filesystem::exists(import_json(line.target)) && !std::filesystem::exists(continuum_csv(line.target)))
       throw SceneError(line.target + ": holds an imported sample and no continuum yet; diptych run " + line.target +
                        "/scene.prm computes it beside the grains and compares");

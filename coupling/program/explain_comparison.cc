@@ -52,6 +52,7 @@ namespace diptych::coupling
           list_profile_arrays(BandProfile(), AddArrays{group, panel, result});
       list_mesh_arrays(QuadMesh(), AddArrays{windows, "cells/", result});
       list_window_cell_arrays(increment, {}, AddArrays{windows, "cells/", result});
+      list_platen_arrays(PlatenParts(), 1, AddArrays{"comparison.h5, groups platens/discrete and platens/continuum", "", result});
       list_history_arrays(history, 1, AddArrays{"comparison.h5, groups histories/discrete and histories/continuum", "", result});
     }
   } // namespace

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/carriers.h"
 #include "coupling/probes/circular_probe.h"
+#include "coupling/probes/platen_slip.h"
 #include "coupling/probes/probe_statistics.h"
 #include "coupling/probes/probes.h"
 #include "coupling/python/bindings.h"
@@ -144,6 +145,29 @@ namespace diptych::python
       dict["relative_l2"]          = interval(probe.relative_l2);
       return dict;
     }
+
+    // samples: lists of successive snapshots.
+    py::dict platen_friction(const std::vector<py::list> &samples, const bool is_mirror_symmetric, const int n_parts)
+    {
+      std::vector<coupling::PlatenParts> sums;
+      for (const py::list &sample : samples)
+        {
+          std::vector<coupling::PlatenParts> windows;
+          for (std::size_t k = 1; k < sample.size(); ++k)
+            {
+              const auto &from = sample[k - 1].cast<const discrete::Snapshot &>();
+              const auto &to   = sample[k].cast<const discrete::Snapshot &>();
+              windows.push_back(coupling::platen_parts(coupling::platen_contacts(from, to, false),
+                                                       coupling::platen_contacts(from, to, true), is_mirror_symmetric, n_parts));
+            }
+          sums.push_back(coupling::sum_of(windows));
+        }
+      const coupling::PlatenFriction found = coupling::platen_friction(sums);
+      py::dict                       dict;
+      dict["friction"]    = interval(found.friction);
+      dict["slip_length"] = interval(found.slip_length);
+      return dict;
+    }
   } // namespace
 
   void bind_probes(py::module_ &m)
@@ -151,5 +175,6 @@ namespace diptych::python
     m.def("probe_grains", &probe_grains);
     m.def("probe_cells", &probe_cells);
     m.def("probe_circle", &probe_circle);
+    m.def("platen_friction", &platen_friction);
   }
 } // namespace diptych::python

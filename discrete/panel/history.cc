@@ -23,6 +23,7 @@ namespace diptych::discrete
       Eigen::Matrix2d total       = Eigen::Matrix2d::Zero();
       Eigen::Matrix2d core        = Eigen::Matrix2d::Zero(); // of the branches' parts in the middle half of the height
       double          skew_square = 0, square = 0;
+      double          platens_xx = 0; // moment of the forces along the platens about a vertical line
     };
 
     struct Range
@@ -75,6 +76,11 @@ namespace diptych::discrete
           add(c.i, -1);
           if (std::size_t(c.j) < g.size())
             add(c.j, 1);
+          const auto is_platen = [&](const int body) {
+            return std::size_t(body) < g.size() ? g.platen(body) >= 0
+                                                : state.walls[std::size_t(body) - g.size()].kind == WallKind::platen;
+          };
+          sums.platens_xx += (is_platen(c.i) - is_platen(c.j)) * c.point.x() * force.x();
         }
       for (std::size_t i = 0; i < g.size(); ++i)
         {
@@ -239,6 +245,7 @@ namespace diptych::discrete
       row.core_stress = sums.core / outline_area(outline, core.low, core.high);
     row.width             = area / sample_height(state);
     row.side_sxx          = side_sxx(state, result, setting, area);
+    row.platen_sxx        = sums.platens_xx / area;
     row.volumetric_strain = 1 - area / reference.area;
     row.solid_fraction    = reference.grain_area / area;
     if (!state.walls.empty())

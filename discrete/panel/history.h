@@ -18,7 +18,8 @@ namespace diptych::discrete
     int             step = 0;                                     // steps so far; the halves of a halved step count
     double          time = 0, axial_strain = 0, shear_strain = 0; // descent and travel of the upper platen / initial height
     double          stress_ratio = 0, volumetric_strain = 0, solid_fraction = 0;
-    double          width = 0, side_sxx = 0; // area of the outline / height; part of sxx that the forces at the sides cause
+    double          width    = 0;                          // area of the outline / height
+    double          side_sxx = 0, platen_sxx = 0;          // parts of sxx that the forces at sides and platens cause
     Eigen::Matrix2d stress      = Eigen::Matrix2d::Zero(); // sum of internal moments / sample area
     Eigen::Matrix2d core_stress = Eigen::Matrix2d::Zero(); // the same in the middle half of the height
     Eigen::Vector2d lower_force = Eigen::Vector2d::Zero(), upper_force = Eigen::Vector2d::Zero();
@@ -117,6 +118,8 @@ namespace diptych::discrete
     visit("side_sxx", r.side_sxx, "pressure",
           "part of the mean sxx that the forces at the sides cause: their moment about a vertical line / area of the outline; 0 "
           "without them");
+    visit("platen_sxx", r.platen_sxx, "pressure",
+          "part that the platens cause; accelerations and spin cause what is left; meaningless between periodic sides");
   }
 
   struct Reference

@@ -14,6 +14,8 @@ import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 LOADINGS = ("vertical", "oblique")
+SHOWN = ("platen_force_pd", "strength", "peak_outline_stress_ratio", "peak_core_stress_ratio",
+         "peak_nominal_stress_ratio", "final_volumetric_strain")
 RESULTS = "results/defaults"
 FRICTIONS = (0.2, 0.3, 0.4, 0.5, 0.6, 0.8)
 
@@ -50,66 +52,35 @@ def calibrate(friction):
     print("{" + ", ".join(f"{x:.3g}" for x in row) + "}", flush=True)
 
 
-def parts_of(folder, n=5):
-    """Normal force, shear force and slip per unit strain of a sample's flat platens in n parts from the middle to the
-    end, all stages together; (3, n)."""
-    snapshots, sums = diptych.load(folder).discrete.snapshots, np.zeros((3, n))
-    for before, after in zip(snapshots, snapshots[1:]):
-        window, grains = after.window, len(after.radius)
-        for upper in (0, 1):
-            at = window.j == grains + upper
-            grain, force, normal = window.i[at], window.force[at], window.normal[at]
-            x = window.point[at, 0]
-            middle, half = (x.max() + x.min()) / 2, (x.max() - x.min()) / 2
-            load, side = (force * normal).sum(axis=1), np.sign(x - middle)
-            part = np.minimum((np.abs(x - middle) / half * n).astype(int), n - 1)
-            slip = (after.displacement - before.displacement)[grain, 0] / (after.progress - before.progress)
-            for row, value in zip(sums, (load, -side * force[:, 0], side * load * slip)):
-                np.add.at(row, part, value)
-    return sums
-
-
 def platens(friction):
-    """Fits shear / normal = mu tanh(v / (mu L)) to eight samples; standard errors by the jackknife."""
+    """Friction and slip length of the platens from eight samples, in five parts of a half platen; 95 % intervals."""
     scene = {"sample": {"grains": 1500}, "loading": {"inertial_number": 1e-3, "horizontal_over_vertical": 0}}
     study = diptych.study(scene, f"{RESULTS}/platens_{friction}", vary={"discrete/friction": [friction]},
                           panels="discrete", seeds=range(1, 9), resume=True)
-    samples = [parts_of(os.path.join(study.folder, folder)) for folder in study.table["folder"]]
-
-    def fit(kept):
-        normal, shear, slip = sum(kept)
-        ratio, v = shear / normal, slip / normal
-
-        def with_scale(scale):
-            shape = np.tanh(v / scale)
-            mu = (normal * ratio * shape).sum() / (normal * shape**2).sum()
-            return (normal * (ratio - mu * shape)**2).sum(), mu, scale / mu
-        return min(map(with_scale, np.abs(v).max() * np.geomspace(0.01, 100, 2000)))[1:]
-
-    left_out = np.array([fit(samples[:k] + samples[k + 1:]) for k in range(len(samples))])
-    errors = np.sqrt((len(samples) - 1) * left_out.var(axis=0))
-    texts = [f"{value:.3g} +- {error:.2g}" for value, error in zip(fit(samples), errors)]
+    samples = [diptych.load(os.path.join(study.folder, folder)).discrete.snapshots for folder in study.table["folder"]]
+    found = diptych.platen_friction(samples, parts=5)
+    texts = [f"{value:.3g} [{low:.2g}, {high:.2g}]" for value, low, high in (found.friction, found.slip_length)]
     print(f"| {friction} | " + " | ".join(texts) + " |", flush=True)
 
 
+def differences(found):
+    """Texts of the differences continuum - grains of an ensemble: means with standard errors; volume absolute."""
+    rows, texts = {row["key"]: row for row in found.numbers["verdicts"] if not row["window"]}, []
+    for key in SHOWN:
+        grains, law = (np.array(rows[key][panel], dtype=float) for panel in ("discrete", "continuum"))
+        scale, digits = (1, 2) if key == "final_volumetric_strain" else (grains.mean(), 1)
+        error = (law - grains).std(ddof=1) / len(grains)**0.5 / scale
+        texts.append(f"{(law - grains).mean() / scale:+.{digits}%} +- {error:.{digits}%}")
+    return texts
+
+
 def check(friction):
-    """Differences continuum - grains, means of sixteen samples with standard errors; volume absolute."""
-    shown = {"platen_force_pd": "relative", "strength": "relative", "peak_outline_stress_ratio": "relative",
-             "peak_core_stress_ratio": "relative", "peak_nominal_stress_ratio": "relative",
-             "final_volumetric_strain": "absolute"}
+    """Sixteen other samples."""
     for loading in LOADINGS:
         found = diptych.ensemble(f"{HERE}/{loading}.prm", range(17, 33), f"{RESULTS}/check_{friction}_{loading}",
                                  set={"discrete/friction": friction, "comparison/coarse_element_size": 0,
                                       "output/report": False}, resume=True)
-        rows = {row["key"]: row for row in found.numbers["verdicts"] if not row["window"]}
-        texts = []
-        for key, kind in shown.items():
-            grains, law = (np.array(rows[key][panel]) for panel in ("discrete", "continuum"))
-            scale = grains.mean() if kind == "relative" else 1
-            error = (law - grains).std(ddof=1) / len(grains)**0.5 / scale
-            texts.append(f"{(law - grains).mean() / scale:+.1%} +- {error:.1%}" if kind == "relative"
-                         else f"{(law - grains).mean():+.2%} +- {error:.2%}")
-        print(f"| {loading} | {friction} | " + " | ".join(texts) + " |", flush=True)
+        print(f"| {loading} | {friction} | " + " | ".join(differences(found)) + " |", flush=True)
 
 
 if __name__ == "__main__":

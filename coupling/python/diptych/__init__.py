@@ -21,8 +21,8 @@ except ImportError as error:
 from .arrays import Band, BandReport, History, Interval, Mesh, Record, StressMap
 from .errors import NotConverged, SceneError, SceneWarning, Stopped
 from .laws import biaxial, integrate, principal
-from .operators import (contacts, displacement_gradient, find_bands, grid, increment, map_stress, probe, shear_strain,
-                        strips, theory_lines)
+from .operators import (contacts, displacement_gradient, find_bands, grid, increment, map_stress, platen_friction,
+                        probe, shear_strain, strips, theory_lines)
 from .panels import ContinuumPanel, DiscretePanel
 from .problems import solve
 from .results import Comparison, PanelResults, Results, compare, load
@@ -48,7 +48,7 @@ __all__ = [
     "ContinuumSnapshot", "DiscretePanel", "DiscreteSnapshot", "History", "Homogenised", "Interval", "Mesh",
     "NotConverged", "PanelResults", "PlanResult", "Record", "Results", "SceneError", "SceneWarning", "Stopped",
     "StressMap", "__version__", "benchmarks_dir", "biaxial", "calibrate", "compare", "contacts",
-    "displacement_gradient", "ensemble", "find_bands", "grid", "homogenise", "increment", "integrate", "keys", "load",
-    "map_stress", "notebooks_dir", "plan", "principal", "probe", "scene", "shear_strain", "solve", "strips", "study",
-    "theory_lines",
+    "displacement_gradient", "ensemble", "find_bands", "grid", "homogenise", "increment", "integrate", "keys",
+    "load", "map_stress", "notebooks_dir", "plan", "platen_friction", "principal", "probe", "scene", "shear_strain",
+    "solve", "strips", "study", "theory_lines",
 ]

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Stress maps, bands, strips and probes, from snapshots of the panels or from arrays."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -269,6 +269,20 @@ def probe(sample: Any, where: Any, contacts: Any = None, *, angle_deg: float = 0
     result = _diptych.probe_grains(grains, pairs, np.asarray(where, dtype=float), angle_deg, blocks)
     result["interval"] = {name: Interval(*ends) for name, ends in result["interval"].items()}
     return Record(result)
+
+
+def platen_friction(samples: Sequence[Any], *, mirror_symmetric: bool = True, parts: int = 10) -> Record:
+    """The law of continuum/platens = frictional, fitted to slip and shear of grains along flat platens.
+
+    samples           lists of the snapshots of a sample in their order, e.g. load(FOLDER).discrete.snapshots
+    mirror_symmetric  fold the platen at its middle
+    parts             number of parts of a platen, or of its half
+
+    Returns friction [-] and slip_length [length], each (value, low, high): 95 % intervals by a jackknife over the
+    samples. NaN if nothing slips.
+    """
+    found = _diptych.platen_friction([list(sample) for sample in samples], mirror_symmetric, parts)
+    return Record({name: Interval(*ends) for name, ends in found.items()})
 
 
 def theory_lines(friction_deg: float, dilatancy_deg: float) -> tuple[float, float, float]:

@@ -178,6 +178,23 @@ namespace
     const HistoryRow &row = c.end();
     EXPECT_NEAR(row.width * row.core_stress(1, 1) / row.lower_platen_force.y(), 1, 2e-3)
       << "every cut carries the platens' force";
+    EXPECT_NEAR(row.platen_sxx, 0, 1e-6) << "smooth platens";
+  }
+
+  // Pressure on the sides causes P of the mean sxx, rough platens cause the rest. The nodes carry the platens' forces.
+  TEST(BoundaryConditions, PlatensCauseTheStressBeyondThePressure)
+  {
+    for (const Kinematics kinematics : {Kinematics::small_strain, Kinematics::updated})
+      {
+        const Loading loading = straight_loading(1, {0, -16}, {0.02});
+        const Course  c       = finished(rectangle(12, 16, 2.), loading, with_steps(with({}, Platens::rough, kinematics), 1e-3));
+        EXPECT_GT(c.end().platen_sxx, 0.1);
+        EXPECT_NEAR(c.end().mean_stress(0, 0) - c.end().platen_sxx, 1, 1e-3);
+        Eigen::Vector2d lower(0, 0);
+        for (const Eigen::Vector2d &force : c.snapshots.back().platen_force)
+          lower += force.y() > 0 ? force : Eigen::Vector2d(0, 0);
+        EXPECT_NEAR((lower - c.end().lower_platen_force).norm(), 0, 1e-6);
+      }
   }
 
   // Walls moved apart: elastic, e_y = eps compressive, e_x = -w eps/W. With M = E (1 - nu)/((1 + nu)(1 - 2 nu)) = 555.556 and

@@ -13,14 +13,16 @@ namespace
     return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   }
 
-  constexpr int n_columns = 9, first_force = 3;
+  constexpr int n_columns = 10, first_force = 3;
   using Row = std::array<double, n_columns>;
 
   Row numbers(const HistoryRow &row)
   {
-    return {row.axial_strain,           row.stress_ratio,           row.volumetric_strain,      row.upper_platen_force.x(),
-            row.upper_platen_force.y(), row.lower_platen_force.x(), row.lower_platen_force.y(), row.dissipation,
-            double(row.n_cells)};
+    return {row.axial_strain,           row.stress_ratio,
+            row.volumetric_strain,      row.upper_platen_force.x(),
+            row.upper_platen_force.y(), row.lower_platen_force.x(),
+            row.lower_platen_force.y(), row.dissipation,
+            double(row.n_cells),        row.platen_sxx};
   }
 
   // Compares the run of all processes with the run of each of them without the others. `relative`: to the largest value of a
@@ -52,9 +54,12 @@ namespace
       }
     // The snapshot is complete.
     const Snapshot &s    = c.snapshots.back();
-    double          area = 0;
+    double          area = 0, pushed_up = 0;
     for (const double w : s.weight)
       area += w;
+    for (const Eigen::Vector2d &f : s.platen_force)
+      pushed_up += std::max(f.y(), 0.);
+    EXPECT_NEAR(pushed_up, s.lower_platen_force.y(), 1e-6 * s.lower_platen_force.norm());
     EXPECT_NEAR(area, s.area, 1e-9 * s.area);
     EXPECT_EQ(int(s.cells.size()), c.end().n_cells);
     EXPECT_NEAR(1 - c.end().volumetric_strain, s.area / c.snapshots.front().area, 1e-9);
@@ -99,6 +104,15 @@ namespace
     options.element          = Displacement::q1_bbar;
     options.weak_spot_strain = 0.05;
     as_alone(mesh, loading, options, 1e-4);
+  }
+
+  TEST(Parallel, FrictionalPlatens)
+  {
+    Options options            = fixed_steps(LawKind::cosserat_mohr_coulomb);
+    options.platens            = Platens::frictional;
+    options.platen_friction    = 0.2;
+    options.platen_slip_length = 5;
+    as_alone(rectangle(14, 20, 2.), straight_loading(1, {0, -20}, {0, 0.01}), options, 1e-4);
   }
 
   // Stress given on the first process reaches the cells of the others. It grows from left to right and comes to rest.

@@ -100,6 +100,7 @@ namespace diptych::coupling::synthetic
           s.displacement.push_back(example_displacement(x, stage));
           s.position.push_back(x + s.displacement.back());
           s.weight.push_back((r % (2 * rows) == 0 ? 0.5 : 1) * (c % (2 * columns) == 0 ? 0.5 : 1));
+          s.platen_force.emplace_back(0, 0);
         }
     continuum::CellState state;
     state.stress.diagonal() << continuum_over_grains * sigma_xx, continuum_over_grains * sigma_yy, 1;

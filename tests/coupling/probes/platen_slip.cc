@@ -10,8 +10,6 @@ namespace
 
   constexpr double mu = 0.18, L = 12.6;
 
-  const PlatenFrame whole = {0, 20, false}, halves = {0, 20, true};
-
   // Slip grows from the middle to both ends, up to v. Each traction and each slip has an error.
   std::vector<PlatenContact> contacts(const double v, const double noise, std::mt19937_64 &random)
   {
@@ -26,18 +24,18 @@ namespace
     return all;
   }
 
-  std::vector<PlatenPart> window(const double v, const double noise, const PlatenFrame &frame, std::mt19937_64 &random)
+  PlatenParts window(const double v, const double noise, const bool is_mirror_symmetric, std::mt19937_64 &random)
   {
-    return platen_parts(contacts(v, noise, random), contacts(v, noise, random), frame, 20);
+    return platen_parts(contacts(v, noise, random), contacts(v, noise, random), is_mirror_symmetric, 20);
   }
 
   // A part holds two contacts of each platen with almost equal slip; without errors the fit is as good as this allows.
   TEST(PlatenSlip, FitFindsTheLawOfTheContacts)
   {
     std::mt19937_64 random(1);
-    for (const PlatenFrame &frame : {whole, halves})
+    for (const bool symmetric : {false, true})
       {
-        const PlatenFriction found = platen_friction({window(6, 0, frame, random), window(6, 0, frame, random)});
+        const PlatenFriction found = platen_friction({window(6, 0, symmetric, random), window(6, 0, symmetric, random)});
         EXPECT_NEAR(found.friction.value, mu, 0.01 * mu);
         EXPECT_NEAR(found.slip_length.value, L, 0.01 * L);
       }
@@ -49,10 +47,10 @@ namespace
     int held = 0;
     for (unsigned int seed = 0; seed < 40; ++seed)
       {
-        std::mt19937_64                      random(seed);
-        std::vector<std::vector<PlatenPart>> windows;
+        std::mt19937_64          random(seed);
+        std::vector<PlatenParts> windows;
         for (int w = 0; w < 8; ++w)
-          windows.push_back(window(6, 0.1, halves, random));
+          windows.push_back(window(6, 0.1, true, random));
         const Interval friction = platen_friction(windows).friction;
         held += friction.low < mu && mu < friction.high;
       }
@@ -62,7 +60,8 @@ namespace
   // One contact to the right of the middle below and one to the left above are the same place, turned by half a turn.
   TEST(PlatenSlip, UpperPlatenIsTheLowerOneTurned)
   {
-    const std::vector<PlatenPart> parts = platen_parts({{5, 1, -0.2, 3}}, {{-5, 1, 0.2, -3}}, whole, 4);
+    const PlatenParts parts = platen_parts({{5, 1, -0.2, 3}, {-20, 0, 0, 0}, {20, 0, 0, 0}},
+                                           {{-5, 1, 0.2, -3}, {-20, 0, 0, 0}, {20, 0, 0, 0}}, false, 4);
     EXPECT_NEAR(parts[2].normal, 2, 1e-12);
     EXPECT_NEAR(parts[2].shear, -0.4, 1e-12);
     EXPECT_NEAR(parts[2].slip, 3, 1e-12);
@@ -87,10 +86,28 @@ namespace
     EXPECT_EQ(platen_contacts(from, to, true).size(), 1u);
   }
 
+  // Nodes of a platen that moves to the right by 0.03, in 1 % strain. Off the platens there is no force.
+  TEST(PlatenSlip, NodesOfTheContinuumAreContacts)
+  {
+    continuum::Snapshot from, to;
+    from.position     = {{1, 0}, {2, 10}, {3, 5}};
+    from.displacement = {{0, 0}, {0, 0}, {0, 0}};
+    to.position       = {{1.02, 0}, {2.05, 9.99}, {4, 6}};
+    to.displacement   = {{0.02, 0}, {0.05, -0.01}, {1, 1}};
+    to.platen_force   = {{-0.2, 3}, {0.1, -4}, {0, 0}};
+    to.progress       = 0.01;
+    const auto lower = platen_contacts(from, to, false, 0), upper = platen_contacts(from, to, true, 0.03);
+    ASSERT_EQ(lower.size() + upper.size(), 2u);
+    EXPECT_NEAR(lower[0].slip, 2, 1e-12);
+    EXPECT_NEAR(upper[0].slip, 2, 1e-12);
+    EXPECT_NEAR(upper[0].normal, 4, 1e-12);
+    EXPECT_NEAR(upper[0].shear, 0.1, 1e-12);
+  }
+
   // Nothing slips: no law.
   TEST(PlatenSlip, WithoutSlipThereIsNoLaw)
   {
     const std::vector<PlatenContact> still = {{0, 1, 0.1, 0}, {1, 1, 0.1, 0}};
-    EXPECT_TRUE(std::isnan(platen_friction({platen_parts(still, still, whole, 2)}).friction.value));
+    EXPECT_TRUE(std::isnan(platen_friction({platen_parts(still, still, false, 2)}).friction.value));
   }
 } // namespace

@@ -49,6 +49,7 @@ namespace diptych::coupling::files
         s.position.emplace_back(double(k % side) / (2 * n), double(k / side) / (2 * n));
         s.displacement.emplace_back(next(), next());
         s.weight.push_back(next());
+        s.platen_force.emplace_back(next(), next());
         if (cosserat)
           s.rotation.push_back(next());
       }
@@ -104,8 +105,8 @@ namespace diptych::coupling::files
 
   inline void expect_same(const Snapshot &x, const Snapshot &y)
   {
-    const auto &[progress, axial_strain, shear_strain, time, loading_variable, position, displacement, rotation, weight, cells,
-                 states, variables, lower, upper, mean_stress, area] = x;
+    const auto &[progress, axial_strain, shear_strain, time, loading_variable, position, displacement, rotation, weight,
+                 platen_force, cells, states, variables, lower, upper, mean_stress, area] = x;
     EXPECT_TRUE(same_bits(progress, y.progress));
     EXPECT_TRUE(same_bits(axial_strain, y.axial_strain));
     EXPECT_TRUE(same_bits(shear_strain, y.shear_strain));
@@ -115,6 +116,7 @@ namespace diptych::coupling::files
     EXPECT_TRUE(same_bits(displacement, y.displacement));
     EXPECT_TRUE(same_bits(rotation, y.rotation));
     EXPECT_TRUE(same_bits(weight, y.weight));
+    EXPECT_TRUE(same_bits(platen_force, y.platen_force));
     EXPECT_EQ(cells, y.cells);
     EXPECT_TRUE(same_bits(lower, y.lower_platen_force));
     EXPECT_TRUE(same_bits(upper, y.upper_platen_force));

@@ -71,7 +71,8 @@ def _unbalanced_force(now: Instant) -> float:
 
 UNKNOWN = ("kinetic_energy_ratio", "friction_dissipation", "impact_dissipation", "external_work", "correction_work",
            "rolling_dissipation", "energy_residual", "momentum_residual", "residual", "skew_moment", "inertial_number",
-           "spin_term_share", "core_sxx", "core_sxy", "core_syy", "side_sxx")
+           "spin_term_share", "core_sxx", "core_sxy", "core_syy", "side_sxx",
+           "platen_sxx")
 SAME = ("time", "axial_strain", "shear_strain", "progress", "walk")  # as in the snapshot
 WALL_FORCES = [side + "_f" for side in SIDES]
 

@@ -75,12 +75,13 @@ class Result:
     """comparison: the record in d and P, without its list `numbers`. arrays: {path in a group: Description}.
 
     histories: "discrete", "continuum": column -> array in the units of the files; running means of comparison.h5 in d
-    and P.
+    and P. platens: the same of the parts of a platen; {} along time.
     """
 
     comparison: dict
     provenance: dict
     histories: dict
+    platens: dict
     increments: list  # windows first, then stages
     units: Units
     numbers: Descriptions
@@ -136,9 +137,10 @@ def load(folder, next_folder):
         increments = _increments(comparison, file, units, described)
         for panel, columns in histories.items():
             columns.update(_arrays(file[f"histories/{panel}"], units, described))
+        platens = {panel: _arrays(group, units, described) for panel, group in file.get("platens", {}).items()}
     imported = os.path.join(folder, "import.json")
     return Result(comparison=comparison, provenance=read_provenance(path_of("provenance.json")), histories=histories,
-                  increments=increments, units=units, numbers=numbers, arrays=described,
+                  platens=platens, increments=increments, units=units, numbers=numbers, arrays=described,
                   scene_text=read_text(path_of("scene.prm")),
                   imported=read_json(imported) if os.path.exists(imported) else {})
 

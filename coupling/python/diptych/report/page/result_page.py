@@ -3,7 +3,7 @@
 
 from types import SimpleNamespace
 
-from ..charts import chains, circular, histories, probes, profiles, resolution, strips, trends
+from ..charts import chains, circular, histories, platens, probes, profiles, resolution, strips, trends
 from ..charts.style import Pair
 from ..data.result import load
 from . import viewer
@@ -71,7 +71,7 @@ def draw(folder, next_folder=None):
     study = result.part("resolution_study")
     write(next_folder or folder, "result.html",
           comparison=result.comparison, imported=result.imported, parts=parts(result), maps=viewer.data(result),
-          curves=histories.figures(result), solver=histories.solver(result),
+          curves=histories.figures(result) + platens.figures(result), solver=histories.solver(result),
           trends=trends.figures(result), resolution=resolution.figures(study),
           resolution_verdict=paragraph(study.get("verdict")), stages=bands.stages(result),
           mapping=stage.mapping(result), accuracy=accuracy.table(result), first=summary.first(result.comparison),

@@ -29,7 +29,7 @@ ORDER = ("grains", "cells", "unknowns", "element_size_d", "preparation_solid_fra
          "preparation_steps", "preparation_residual", "preparation_unbalanced_force", "initial_height", "platen_speed",
          "mean_inertial_number", "finished", "reached_progress", "reached_axial_strain", "reached_shear_strain",
          "peak_stress_ratio", "peak_outline_stress_ratio", "peak_core_stress_ratio", "peak_nominal_stress_ratio",
-         "strain_at_peak", "early_strength", "strength", "platen_force_pd",
+         "strain_at_peak", "early_strength", "strength", "platen_force_pd", "mean_sxx", "sides_sxx", "platens_sxx",
          "final_volumetric_strain", "max_equivalent_plastic_strain", "internal_length_d", "localisation_strain",
          "localisation_angle_deg", "unstable_share", "viscous_share", "platen_unbalance", "share_zz_not_intermediate",
          "processes", "steps", "step_length", "step", "step_bound", "halved_steps", "cut_backs", "newton_iterations",
