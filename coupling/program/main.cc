@@ -80,9 +80,8 @@ namespace
 
   [[noreturn]] void refuse_without_continuum(const std::string &command)
   {
-    throw SceneError("diptych " + command +
-                     ": this program was built without the continuum; it has discrete, study, solve, report, import, export, "
-                     "explain and new");
+    throw SceneError(command + ": this program was built without the continuum; it has discrete, homogenise, solve, report, " +
+                     "import, export, explain, new, and study, plan and calibrate for grains");
   }
 
   int compare(const CommandLine &)

@@ -56,7 +56,8 @@ namespace diptych::coupling
     {
       if (option.rfind("--", 0) != 0)
         return "";
-      return "; the nearest option is '" + discrete::nearest_name(option.substr(0, option.find('=')), option_names(asked)) + "'";
+      return "; the nearest option is '" + discrete::nearest_name(option.substr(0, option.find('=')), option_names(asked)) + "'" +
+             (asked.get_name() == "run" ? "; with --seeds there are more: diptych run --seeds 1-2 --help" : "");
     }
   } // namespace
 

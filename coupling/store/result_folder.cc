@@ -165,6 +165,9 @@ namespace diptych::coupling
     const bool keeps_results = !is_empty && !opening.overwrite && is_result_folder(directory);
     // require_usable() advises --resume, which another sample does not allow.
     const SceneChanges before = keeps_results ? this->changes() : SceneChanges();
+    if (keeps_results && read_run_facts(directory).hashes.sample.empty())
+      throw SceneError("'" + directory + "' holds results, but not of a single run. Use --output with another folder, or " +
+                       "--overwrite.");
     if (!before.sample.empty())
       throw SceneError("'" + directory + "' holds results of another sample. Different is " + before.sample +
                        ". Use --output with another folder, or --overwrite.");

@@ -266,7 +266,7 @@ class Effects(Folder):
                 self.assertNotIn(word, text)
             self.assertIn("peak t/s", text)
         self.assertIn("<h1>tiny: effect of discrete/friction</h1>", page)
-        self.assertRegex(self.process.stdout, "discrete/friction, (resolved|not resolved): ")
+        self.assertRegex(self.process.stdout, "discrete/friction, changes (beyond|within) the scatter: ")
 
     def test_the_kept_study_file_gives_the_same_and_keeps_the_runs(self):
         shutil.copytree(self.done, self.folder)

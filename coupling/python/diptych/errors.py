@@ -31,7 +31,11 @@ class NotConverged(RuntimeError):
 
 
 class Stopped(RuntimeError):
-    """Work was left on request (Ctrl-C, SIGTERM). Finished runs are kept."""
+    """Work was left on request (Ctrl-C, SIGTERM). Finished runs are kept. again: the command that goes on."""
+
+    def __init__(self, why: str, again: str = "") -> None:
+        super().__init__(f"{why}; to go on: {again}" if again else why)
+        self.why = why
 
 
 class SceneWarning(UserWarning):

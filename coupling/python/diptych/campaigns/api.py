@@ -214,8 +214,7 @@ def _result(kind: type[Result], command: str, contents: Mapping[str, Any] | Path
         try:
             do([command, file, *words])
         except Stopped as stopped:
-            why, _, _ = str(stopped).partition("; to go on")
-            raise Stopped(f"{why}; the same call with resume=True goes on") from None
+            raise Stopped(f"{stopped.why}; the same call with resume=True goes on") from None
         except NotConverged as error:
             raise NotConverged(f"{error}; {kind.__name__}.load('{output}') reads what is there") from None
     return kind.load(output)

@@ -62,6 +62,7 @@ def _refuse_unused(format: str, options: Options) -> None:
 
 def read_frames(format: str, options: Options) -> list[Frame]:
     """The frames that the options choose; those without grains are left out. Raises SceneError."""
+    reader = _reader(format)
     for path in options.files:
         if not os.path.isfile(path):
             raise refused(path, "is not a regular file" if os.path.exists(path) else "there is no such file")
@@ -69,7 +70,7 @@ def read_frames(format: str, options: Options) -> list[Frame]:
         kind, _, names = text.partition("=")
         if kind not in ("particles", "contacts", "walls") or not names:
             raise SceneError(f"--columns {text}: is not KIND=NAME,NAME,..., where KIND is particles, contacts or walls")
-    frames = _reader(format)(options)
+    frames = reader(options)
     add_wall_tables(frames, options)
     for frame in frames:
         frame.grain_file = frame.grain_file or f"import {format}"

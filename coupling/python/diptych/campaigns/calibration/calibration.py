@@ -122,12 +122,12 @@ paths/: fitted and predicted paths
             not use it
         discrepancy_deviation: its standard deviation
     predictions/: single numbers with verdicts
-        quantity (text): peak_stress_ratio, volumetric_strain (last bin), width_10_90 (last window, mean diameters) or \
-            angle_deg
+        quantity (text): peak_stress_ratio, peak_nominal_stress_ratio, peak_core_stress_ratio, platen_force_pd, \
+            volumetric_strain (last bin), width_10_90 (last window, mean diameters) or angle_deg
         data [as the quantity says]: mean of the grains
         before [as the quantity says]: value of the continuum before the calibration
         after [as the quantity says]: value of the calibrated continuum
-        difference (interval) [as the margin says]: continuum minus grains; relative for peak and width
+        difference (interval) [as the margin says]: continuum minus grains; relative for strengths, force and width
         margin [as the quantity says]: largest difference that counts as equivalent
         verdict (text): equivalent, different or cannot tell
         parameter_deviation [as the margin]: part of the deviation of the difference due to the parameters, or to the \
@@ -195,5 +195,7 @@ def run_calibration(line: argparse.Namespace, options: Options) -> None:
             tell(summary(record, runs.cpu_s["discrete" if calibration.of_grains else "continuum"]))
             draw(options, directory, "calibration")
             say(options, f"{directory}/calibrated.prm, calibration.json, calibration.csv")
+    if isinstance(ended, Stopped):
+        raise Stopped(f"{ended}; what was found is kept in {directory}", options.again)
     if ended:
-        raise type(ended)(f"{ended}; what was found is kept in {directory}; to go on: {options.again}")
+        raise NotConverged(f"{ended}; what was found is kept in {directory}; to go on: {options.again}")

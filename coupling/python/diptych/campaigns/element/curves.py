@@ -100,15 +100,14 @@ def _last(values: np.ndarray, average: Callable[[Sequence[float]], Statistics]) 
 def key_numbers(curves: Curves) -> list[dict[str, Any]]:
     """Quantities of element.json: largest t/s, and values in the last parts, with 95 % intervals over the samples."""
     rows = []
-    for quantity in ("largest stress_ratio", *(f"last {name}" for name in QUANTITIES)):
-        when, name = quantity.split()
+    for when, name in (("largest", "stress_ratio"), *(("last", name) for name in QUANTITIES)):
         is_line = QUANTITIES[name] == "degrees"
         average = line_statistics if is_line else statistics
         grains, law = (_largest(values) if when == "largest" else _last(values, average)
                        for values in (curves.grains[name], curves.law.get(name, np.full(BINS, np.nan))))
         difference = paired(grains, np.full(len(grains), law), "line" if is_line else "absolute").difference
-        rows.append({"quantity": quantity, "unit": QUANTITIES[name], "law": float(law), "difference": difference,
-                     "grains": average(grains).interval()})
+        rows.append({"quantity": f"{when} {name}", "unit": QUANTITIES[name], "law": float(law),
+                     "difference": difference, "grains": average(grains).interval()})
     return rows
 
 

@@ -70,7 +70,7 @@ def _run(scene: str, command: str, settings: Sequence[Setting]) -> SceneRun:
 def _done(runs: Runs, wanted: Sequence[SceneRun], options: Options) -> list[str]:
     """Does the runs and returns why each ended early; empty: it did not. Raises SceneError (wrong input) or Stopped."""
     if any(outcome.interrupted for outcome in runs.do(wanted, options).values()):
-        raise Stopped(f"stopped on request; to go on: {options.again}")
+        raise Stopped("stopped on request", options.again)
     ends = [(run, runs.found_end(run)) for run in wanted]
     for run, end in ends:
         if end and end["exit_code"] == WRONG_INPUT:

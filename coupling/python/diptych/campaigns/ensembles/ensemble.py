@@ -238,7 +238,7 @@ def run_ensemble(line: argparse.Namespace, options: Options) -> None:
     kept = f"{len(done)} of {len(seeds)} seeds are done, kept in {directory}"
     lost = f"failed: seed {', '.join(str(one['seed']) for one in ends['failed'])}; " if ends["failed"] else ""
     if ends["interrupted"]:
-        raise Stopped(f"{lost}stopped on request; {kept}; to go on: {options.again}")
+        raise Stopped(f"{lost}stopped on request; {kept}", options.again)
     if lost:
         raise NotConverged(lost + kept)
 

@@ -83,7 +83,7 @@ bands/: number of bands found
     two: number of members with two bands
     text (text): the same as text
 verdicts/: verdicts on the differences of the panels
-    key (text): key of the quantity in summary; that of a band stands in every window
+    key (text): key of the quantity in summary; a band has one verdict per window
     window (text): window of a band, as in its name; empty: the panel's whole run
     quantity (text): compared quantity: continuum minus grains, member by member
     unit (text): unit of the quantity

@@ -179,7 +179,7 @@ def respond(members: Runs, member: SceneRun, scenes: Sequence[Any], is_new: bool
             runs.begin(run)
     outcomes = runs.do(changed, options)
     if any(outcome.interrupted for outcome in outcomes.values()):
-        raise Stopped(f"stopped on request; the seeds are done; to go on: {options.again}")
+        raise Stopped("stopped on request; the seeds are done", options.again)
     found = [{} if outcomes[run.name].exit_code else
              _compared(member_of(runs.path(run, "/comparison.json"), run.scene.is_mirror_symmetric()))
              for run in changed]

@@ -210,7 +210,7 @@ def main_plan(args: argparse.Namespace, options: Options) -> None:
                                if panel.reaches]) and reached
                 write_plan(directory, question, plan)
         except Stopped as stopped:
-            raise Stopped(f"{stopped}; to go on: {options.again}") from None
+            raise Stopped(str(stopped), options.again) from None
     tell(f"{text_of(plan)}\n{directory}/planned.prm, plan.json")
     if not reached:
         raise NotConverged(f"the accuracy of {percent(question.accuracy)} is not reached")

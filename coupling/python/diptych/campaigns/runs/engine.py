@@ -21,13 +21,10 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import timedelta
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ... import _diptych
 from ...errors import NotConverged, Stopped
-
-if TYPE_CHECKING:
-    from .input_file import Setting
 
 DONE, WRONG_INPUT, NOT_CONVERGED, SYSTEM_FAILURE = 0, 2, 3, 4  # exit codes of the program
 KEPT_OPEN: set[int] = set()  # descriptors that workers inherit: locks, which then hold until the last worker has ended
@@ -69,15 +66,13 @@ class Run:
     scene: str  # path of its file
     name: str  # of the scene, for its results
     label: str  # of the run, for messages: "seed 3"
-    settings: "Sequence[Setting]" = ()
     folder: str  # result folder
     log: str  # output and errors are appended to this file
     resume: bool = False
 
     def line(self, threads: int) -> str:
         """The run as a worker reads it."""
-        sets = [word for one in self.settings for word in ("--set", f"{one.section}/{one.key}={one.value}")]
-        text = shlex.join(["diptych", self.command, self.scene, *sets, "--output", self.folder])
+        text = shlex.join(["diptych", self.command, self.scene, "--output", self.folder])
         options = {"file": self.scene, "text": text, "threads": threads, "resume": self.resume}
         return json.dumps({**vars(self), "options": options}) + "\n"
 

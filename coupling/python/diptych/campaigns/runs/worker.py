@@ -20,7 +20,7 @@ def do(run: dict[str, Any], compiled: Any) -> int:
         for stream in (1, 2):
             os.dup2(log, stream)
         os.close(log)
-        scene = _diptych.read_changed_scene(run["scene"], run["settings"], run["command"] == "run")
+        scene = _diptych.read_changed_scene(run["scene"], [], run["command"] == "run")
         return compiled.run(run["command"], scene.in_folder("", run["name"]), run["folder"], run["options"])
     except (ValueError, OSError, RuntimeError, MemoryError) as error:
         code, text = code_and_text(error)

@@ -172,23 +172,26 @@ def text_of_quantity(quantity: dict[str, Any]) -> str:
     return quantity["name"] + ("" if quantity["unit"] == "-" else f" [{quantity['unit']}]") + panel
 
 
+WORDS = {"resolved": "changes beyond the scatter", "not resolved": "changes within the scatter",
+         "unknown": "unknown, since fewer than two samples have a value at every point", "no change": "no change"}
+
+
 def text_of_changes(study: Study, changes: Sequence[dict[str, Any]]) -> list[str]:
-    """ "discrete/friction, not resolved: peak t/s (grains needs about 14 samples)", per verdict and parameter."""
+    """ "discrete/friction, changes within the scatter: peak t/s (grains: about 14 samples needed)", per verdict."""
     if len(study.seeds) < 2:
         return ["one sample has no scatter to compare a change with" +
                 ("" if study.command == "continuum" else "; at least two are needed, such as --seeds 1-4")]
     lines = []
     for family, parameter in dict.fromkeys((change["family"], change["parameter"]) for change in changes):
         mine = [change for change in changes if (change["family"], change["parameter"]) == (family, parameter)]
-        for verdict in ("resolved", "not resolved", "unknown", "no change"):
+        for verdict, words in WORDS.items():
             panels: dict[str, list[str]] = {}
             for change in mine:
                 if change["verdict"] == verdict:
                     panels.setdefault(change["quantity"], []).append(change["panel"] + _needs(change))
             if panels:
                 names = "; ".join(f"{name} ({', '.join(of_name)})" for name, of_name in panels.items())
-                why = ", since fewer than two samples have a value at every point" if verdict == "unknown" else ""
-                lines.append(f"{family}{': ' if family else ''}{parameter}, {verdict}{why}: {names}")
+                lines.append(f"{family}{': ' if family else ''}{parameter}, {words}: {names}")
     return lines
 
 
@@ -197,4 +200,4 @@ def _needs(change: dict[str, Any]) -> str:
         return ""
     n = change["samples_needed"]
     needed = f"about {n:.0f}" if math.isfinite(n) else f"more than {MOST_SAMPLES}"
-    return f" needs {needed} samples"
+    return f": {needed} samples needed"

@@ -114,7 +114,7 @@ def paired_points(runs: Runs, fine: Sequence[Sequence[SceneRun]], cheap: Sequenc
     while True:
         outcomes = runs.do([run for of_point in fine for run in of_point[:pairs]], options)
         if any(outcome.interrupted for outcome in outcomes.values()):
-            raise Stopped(f"stopped on request, finished runs are kept in {runs.directory}; to go on: {options.again}")
+            raise Stopped(f"stopped on request, finished runs are kept in {runs.directory}", options.again)
         results = [[result_of(runs, run, quantities) for run in of_point[:pairs]] for of_point in fine]
         points = [PairedPoint(*both, quantities) for both in zip(cheap, results)]
         if all(math.isnan(point.ratio) for point in points):

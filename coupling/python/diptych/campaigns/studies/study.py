@@ -339,6 +339,8 @@ def run_study(line: argparse.Namespace, options: Options) -> None:
         lost = sum(not all(run.known for run in of_point) for of_point in results)
     if all(run.exit_code for run in read.values()):
         raise NotConverged(f"every run failed, the first with: {next(iter(read.values())).words}")
-    if left or lost:
-        why = f"stopped on request; {left} runs are left" if left else f"{lost} points have runs that the system ended"
-        raise (Stopped if left else NotConverged)(f"{why}, the rest is kept in {directory}; to go on: {options.again}")
+    if left:
+        raise Stopped(f"stopped on request; {left} runs are left, the rest is kept in {directory}", options.again)
+    if lost:
+        raise NotConverged(f"{lost} points have runs that the system ended, the rest is kept in {directory}; to go on: "
+                           f"{options.again}")

@@ -3,11 +3,13 @@
 
 import os
 
+from ..._diptych import key_quantities
 from ...arrays import ends_text
 from ...files import member_folders, number_name
 from ..data.panels import PANEL_NAMES
 from .wording import DECIMALS, UNBROKEN, ending, fixed, number, rounded, shown_unit
 
+NAMES = {one["key"]: one["name"] for one in key_quantities()}
 MOST_CURVES = 200  # members with a drawn curve
 NUMERICAL = ("grains_step", "mesh", "load_step")  # parts of u_num
 AXIS_UNITS = {"": "", "%": " (%)", "°": " (°)", " d": " (d)"}
@@ -21,9 +23,7 @@ def described_at(verdict):
 
 def own_text(results, verdict):
     """("inclination of the band", unit of wording.rounded)."""
-    at = described_at(verdict)
-    words = results.numbers.meaning(at).split(",")[0] + (" of the band" if verdict["window"] else "")
-    return words, shown_unit(results.numbers, at)
+    return NAMES[verdict["key"]], shown_unit(results.numbers, described_at(verdict))
 
 
 def text_of(results, verdict):
@@ -63,10 +63,11 @@ def verdict_rows(results):
 
 def validation_table(results):
     """Errors and their uncertainty in the sense of ASME V&V 20, for quantities with a value in both panels."""
-    rows = []
-    for verdict, one in zip(results.record["verdicts"], results.record.get("validation", [])):
+    rows, verdicts = [], {one["quantity"]: one for one in results.record["verdicts"]}
+    for one in results.record.get("validation", []):
         if not one["n"]:
             continue
+        verdict = verdicts[one["quantity"]]
         unit, missing = own_text(results, verdict)[1], one["not_known"]
         label = text_of(results, verdict) + (f" [{unit.strip()}]" if unit else "")
         factor = 100 if unit == "%" else 1
