@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <stdexcept>
 
 #include <deal.II/dofs/dof_tools.h>
@@ -49,6 +50,7 @@ namespace diptych::continuum
                                          const PlatenGrip  &grip,
                                          const SideContact &side_contact)
       : loading(loading),
+        is_rough(grip.rough),
         platen_nodes{mesh.boundary_nodes(lower_platen), mesh.boundary_nodes(upper_platen)}
   {
     for (const unsigned int platen : {0u, 1u})
@@ -66,6 +68,21 @@ namespace diptych::continuum
     if (!grip.rough && !grip.slides && !std::holds_alternative<RigidSides>(loading.lateral))
       pin_sideways();
     build(mesh);
+  }
+
+  std::vector<double> BoundaryConditions::platen_forces(const Discretisation &mesh, const std::vector<double> &nodal_forces) const
+  {
+    // A node that neither sticks to a platen nor slides along it with friction is held sideways by a side wall.
+    std::set<types::global_dof_index> slides;
+    for (const SlidingNode &node : sliding)
+      slides.insert(node.tangential);
+    std::vector<double> forces(nodal_forces.size(), 0.);
+    for (const auto &platen : platen_nodes)
+      for (const auto &node : platen)
+        for (unsigned int c = 0; c < 2; ++c)
+          if ((c == 1 || is_rough || slides.count(node.dofs[0]) > 0) && mesh.relevant.is_element(node.dofs[c]))
+            forces[mesh.relevant.index_within_set(node.dofs[c])] = nodal_forces[mesh.relevant.index_within_set(node.dofs[c])];
+    return forces;
   }
 
   bool BoundaryConditions::is_ruled(const types::global_dof_index dof) const

@@ -69,6 +69,9 @@ namespace diptych::continuum
     // On all processes; empty without friction.
     const std::vector<SlidingNode> &sliding_nodes() const { return sliding; }
 
+    // The part of the nodal forces that the platens exert. Both on the relevant dofs.
+    std::vector<double> platen_forces(const Discretisation &mesh, const std::vector<double> &nodal_forces) const;
+
   private:
     // The displacement of a dof, or its excess over that of its master, as a function of the progress.
     struct Rule
@@ -90,6 +93,7 @@ namespace diptych::continuum
     void build(Discretisation &mesh);
 
     Loading                                                                loading;
+    bool                                                                   is_rough = true;
     std::function<double(double)>                                          widening; // of rigid or periodic sides
     std::array<std::vector<Node>, 2>                                       platen_nodes;
     std::vector<SlidingNode>                                               sliding;

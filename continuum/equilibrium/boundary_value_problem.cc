@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <set>
 #include <type_traits>
 
 #include "continuum/elements/element_kernels.h"
@@ -382,23 +381,6 @@ namespace diptych::continuum
     for (unsigned int c = 0; c < 2; ++c)
       force[c] = Utilities::MPI::sum(force[c], mesh.communicator());
     return force;
-  }
-
-  std::vector<double> BoundaryValueProblem::platen_node_forces() const
-  {
-    const std::vector<double> all = relevant_values(nodal_force);
-    std::vector<double>       forces(all.size(), 0.);
-    // A node that neither sticks to a platen nor slides along it with friction is held sideways by a side wall.
-    std::set<types::global_dof_index> sliding;
-    for (const SlidingNode &node : conditions->sliding_nodes())
-      sliding.insert(node.tangential);
-    for (const auto &platen : conditions->platens())
-      for (const auto &node : platen)
-        for (unsigned int c = 0; c < 2; ++c)
-          if ((c == 1 || options.platens == Platens::rough || sliding.count(node.dofs[0]) > 0) &&
-              mesh.relevant.is_element(node.dofs[c]))
-            forces[mesh.relevant.index_within_set(node.dofs[c])] = all[mesh.relevant.index_within_set(node.dofs[c])];
-    return forces;
   }
 
   // If nothing is loaded yet, the scale is a billionth of the elastic modulus times the width of the sample.

@@ -122,11 +122,13 @@ namespace diptych::continuum
     const std::vector<char> &last_instability() const { return unstable; }
     double                   progress() const { return state.progress; }
     const Eigen::Vector2d   &platen_force(bool upper) const { return state.platen_force[upper]; } // on the sample
-    std::vector<double>      platen_node_forces() const; // on the relevant dofs in the last step, 0 off the platens; collective
     Eigen::Vector2d          platen_travel(bool upper) const;               // since the start [length]; collective
     double                   initial_area() const { return area_at_start; } // of the whole sample [length^2]
     const PhaseSeconds      &seconds() const { return phase; }
     void                     go_on_counting(const PhaseSeconds &before) { phase = before; }
+
+    // Forces of the platens on the sample in the last step, on the relevant dofs; 0 off the platens. Collective.
+    std::vector<double> platen_node_forces() const { return conditions->platen_forces(mesh, relevant_values(nodal_force)); }
 
     std::vector<double> relevant_values(const DistributedVector &vector) const
     {

@@ -9,6 +9,7 @@
 
 #include "continuum/equilibrium/driver.h"
 #include "continuum/panel/problem_checkpoint.h"
+#include "continuum/panel/point_values.h"
 #include "continuum/panel/sample_state.h"
 #include "continuum/require.h"
 

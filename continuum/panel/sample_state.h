@@ -9,13 +9,6 @@
 
 namespace diptych::continuum
 {
-  // Progress of the loading in all its measures. Collective.
-  struct Progress
-  {
-    double progress = 0, axial_strain = 0, shear_strain = 0, time = 0;
-  };
-  Progress progress_of(const BoundaryValueProblem &problem, const Loading &loading);
-
   // Only these two functions convert the sign. Both are collective; only the result on the first process is valid.
   Snapshot   make_snapshot(const BoundaryValueProblem &problem, const Loading &loading);
   HistoryRow make_history_row(const BoundaryValueProblem &problem, const LoadDriver &driver, const Loading &loading);
