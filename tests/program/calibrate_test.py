@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import os
+import re
 import signal
 import statistics
 import subprocess
@@ -69,7 +70,9 @@ class Results(Calibrate):
         for path in record["paths"]:  # halving the load step moves less than the samples scatter
             for o in path["observables"]:
                 self.assertLess(abs(o["half_step"]), o["deviation"], o)
-            self.assertEqual([p["quantity"] for p in path["predictions"]], ["peak_stress_ratio", "volumetric_strain"])
+            self.assertEqual([p["quantity"] for p in path["predictions"]],
+                             ["peak_stress_ratio", "peak_nominal_stress_ratio", "peak_core_stress_ratio",
+                              "platen_force_pd", "volumetric_strain"])
         with open(self.path("calibration.csv"), encoding="utf-8") as file:
             self.assertEqual(len(list(csv.DictReader(file))), 16)
         # The fragment is what a scene takes, before what --set says.
@@ -119,13 +122,18 @@ class Results(Calibrate):
 
     def test_a_scene_with_seeds_stands_for_a_file(self):
         scene = write(os.path.join(self.work, "mine.prm"), content(QUICK).decode())
-        words = keywords(**TINY, **{"continuum/law": "linear_elastic"})
+        words = keywords(**TINY, **{"continuum/law": "linear_elastic", "continuum/platens": "auto"})
         self.expect(0, ["calibrate", scene, "--seeds", "1-2", *words, "--output", self.folder, "--quiet"])
         asked = read_json(self.folder, "calibration_input.json")
         self.assertEqual([p["key"] for p in asked["parameters"]], ["youngs_modulus"])  # all that this law reads
         self.assertEqual(asked["quantities"], ["stress_ratio", "volumetric_strain"])
         found = content(self.path("calibrated.prm"))
-        self.assertIn("parameters_from = calibrated on mine, seeds 1-2", found.decode())
+        self.assertIn("parameters_from = calibrated on cells of mine, seeds 1-2", found.decode())
+        names = [name for name in listing(self.path("runs")) if name.endswith(".prm")]
+        runs = [content(self.path("runs", name)).decode() for name in names]
+        meshed = [run for run in runs if re.search("set mesh += .*(rect|msh)", run)]
+        platens = {re.search("set platens += (.+)", run)[1] for run in meshed}
+        self.assertEqual(platens, {"frictional", "smooth"})  # as beside the grains
         self.calibrate(asked, "--resume")  # the file beside the scene finds the same from the same runs
         self.assertEqual(content(self.path("calibrated.prm")), found)
 

@@ -150,10 +150,13 @@ class CalibrationRuns:
         elif outline.mesh:
             add("continuum", mesh=outline.mesh)
         add("continuum", initial_step=load_step, max_step=load_step)
+        material = path.scene.dict()["continuum"]
         if not is_point:
             add("comparison", coarse_element_size=0)
+            # the meshes here have no grains, from which the platens would follow
+            add("continuum", **{key: material[key] for key in ("platens", "platen_friction", "platen_slip_length")
+                                if key not in path.scene.unused_keys()})
         here.extend(point)
-        material = path.scene.dict()["continuum"]
         hardening = next((one.value for one in reversed(point) if one.key == "hardening"), material["hardening"])
         if material["solid_fraction_start"] == "auto" and continuum("calibrate").follows_solid_fraction(hardening):
             # the mean density: the meshes here have no grains

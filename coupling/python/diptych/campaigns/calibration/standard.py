@@ -43,7 +43,8 @@ def _targets(own: dict[str, Any], keys: dict[str, Any], has_length: bool) -> lis
     seeds, settings = read_seeds(own["seeds"]), own["set"]
     predicted = own | {"seeds": f"{max(seeds) + 1}-{max(seeds) + len(seeds)}", "use": "predict"}
     turned = {"loading/horizontal_over_vertical": 0 if keys["loading"]["horizontal_over_vertical"] else 1}
-    return [own | {"name": "cells", "set": settings | CELL, "quantities": ["stress_ratio", "volumetric_strain"]},
+    of_cells = {"set": settings | CELL, "quantities": ["stress_ratio", "volumetric_strain"]}
+    return [own | of_cells | {"name": f"cells of {own['name']}"},
             own | ({"quantities": ["ln_width"]} if has_length else {"use": "predict"}),
             predicted | {"name": "unseen samples"},
             predicted | {"name": "smooth rigid walls", "set": settings | WALLS},
