@@ -178,7 +178,8 @@ namespace diptych::coupling
     visit(ArrayEntry{"place", "place along the platen", "half widths", "middles of the parts of a platen, from its middle"},
           place);
     visit(ArrayEntry{"stress_ratio", "shear / normal stress", "-",
-                     "mean over the stages, to the left on the lower platen; the upper one is turned by half a turn"},
+                     "mean over the stages, to the left on the lower platen; the upper one is turned by half a turn; nan where "
+                     "nothing presses"},
           ratio);
     visit(ArrayEntry{"slip", "slip", "mean diameters", "to the right relative to the platen, per unit progress"}, slip);
   }

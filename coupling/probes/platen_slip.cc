@@ -94,9 +94,15 @@ namespace diptych::coupling
   {
     const std::vector<Eigen::Vector2d> before  = displacement_at_nodes_of(from, to);
     const double                       inwards = upper ? -1 : 1;
-    std::vector<PlatenContact>         contacts;
+    double                             low = INFINITY, high = -INFINITY;
+    for (const Eigen::Vector2d &x : to.position)
+      {
+        low  = std::min(low, x.y());
+        high = std::max(high, x.y());
+      }
+    std::vector<PlatenContact> contacts;
     for (std::size_t k = 0; k < to.platen_force.size(); ++k)
-      if (const Eigen::Vector2d &force = to.platen_force[k]; inwards * force.y() > 0)
+      if (const Eigen::Vector2d &force = to.platen_force[k]; force.y() != 0 && (to.position[k].y() > 0.5 * (low + high)) == upper)
         {
           const double moved = (to.displacement[k] - before[k]).x() - travel;
           contacts.push_back({to.position[k].x(), inwards * force.y(), force.x(), moved / (to.progress - from.progress)});

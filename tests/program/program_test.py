@@ -203,7 +203,7 @@ class CommandLine(Folder):
                               (["run", QUICK, "--seed", "3"], "nearest option is '--seeds'"),
                               (["run", QUICK, "--jobs", "2"], "with --seeds there are more"),
                               (["compare", QUICK], "is not a result folder"),
-                              (["import", "lamps", "x", "--output", "y"], "'lamps'", "lammps"),
+                              (["import", "lamps", "x", "--output", "y"], "unknown format", "'lammps'"),
                               (["run", QUICK, "--solver", "psor"], "option of diptych solve"),
                               (["run", "no_such_scene.prm"], "no_such_scene.prm"), (["run", SOURCE], SOURCE, "folder"),
                               (["run", QUICK, "--threads", "none"], "--threads"),

@@ -255,8 +255,8 @@ def test_given_deviations_of_a_curve_decide(peak, volume, verdicts):
     observables = bins("stress_ratio", 0, 0.03) + bins("volumetric_strain", 0, 0.03)
     path = path_of(Target(name="lab", scene="", settings=[], curve="lab.csv"),
                    Data(observables=observables, values=[0.4, -0.003], given=[0.004, 0.0005]))
-    path.samples[0].peak_stress_ratio = 0.4
-    now = Observation(values=np.array([peak, volume]), peak_stress_ratio=peak)
+    path.samples[0].numbers["peak_stress_ratio"] = 0.4
+    now = Observation(values=np.array([peak, volume]), numbers={"peak_stress_ratio": peak})
     found = predictions(path, (now, now), np.zeros(2))
     assert [one["verdict"] for one in found] == verdicts
     assert found[1]["difference"].high == pytest.approx(volume + 0.003 + 1.96 * 0.0005, rel=1e-4)

@@ -27,7 +27,7 @@ LOCK = re.compile(r"(^|[._-])lock$")
 # "FILE NAME" of arrays and columns that may hold nan or inf.
 NO_NUMBER = re.compile(r"""
     discrete[.]h5\ .*(stress_change|stress_error|error_over_residual|left_x|right_x)   # not estimated, or no wall
-  | comparison[.]h5\ (histories/.*_mean|.*(cells|grid|profile)/.*|.*discrete/stress_.*)  # no window, grain or force
+  | comparison[.]h5\ (histories/.*_mean|.*(cells|grid|profile|platens)/.*|.*discrete/stress_.*)  # no window or force
   | (discrete|continuum)[.](csv|h5)\ .*stress_ratio                                    # no stress
   | (ensemble|study)[.]h5\ .*                                                          # curves of different lengths
 """, re.VERBOSE)

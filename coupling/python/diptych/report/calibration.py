@@ -22,7 +22,8 @@ KINDS = {"stress_ratio": "t/s", "volumetric_strain": "volume", "ln_width": "ln w
          "rotation_profile": "rotation profile"}
 MARKS = {"stress_ratio": "o", "volumetric_strain": "s", "ln_width": "D", "rotation_profile": "^"}
 QUANTITIES = {**{one["key"]: one["name"] for one in key_quantities()},
-              "volumetric_strain": "volumetric strain, last bin", "width_10_90": "width 10–90, last window, d", "angle_deg": "inclination, last window, degrees"}
+              "volumetric_strain": "volumetric strain, last bin",
+              "width_10_90": "width 10–90, last window, d", "angle_deg": "inclination, last window, degrees"}
 COORDINATES = {"value": "", "logarithm": "", "share_of": "share of ", "drop_from": "drop from "}
 
 

@@ -3,7 +3,8 @@
 """Two-level means. X[i] is the value of sample i at a cheap setting (long steps), i = 1 ... N. Y[i] is that of the same
 sample at a fine setting, for n of the samples. Both settings have a bias, which is proportional to an expected error e,
 the entry expected_strength_error of provenance.json. The dilation takes the same e: its bias has two parts of opposite
-sign, which both fall with discrete/accuracy nearly as e does, and whose sum would give no ratio. With r = e(fine) / e(cheap) the estimate of the limit is
+sign, which both fall with discrete/accuracy nearly as e does, and whose sum would give no ratio. With r = e(fine) /
+e(cheap) the estimate of the limit is
 
     mean of X over all N  -  w x mean of (X - Y) over the n pairs,     w = 1 / (1 - r).
 

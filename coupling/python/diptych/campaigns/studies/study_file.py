@@ -191,8 +191,12 @@ def _describe_number(part: Part, name: str) -> dict[str, Any]:
     """Unit and kind of a number of comparison.json."""
     if found := described(name):
         return {"column": name, "unit": found[1], "line": found[2]}
-    part.refuse(f" = '{name}': no number of a comparison has such a name. Use one from the first column of "
-                "ensemble.csv, such as 'window 0.01-0.03 discrete band angle_deg'", "number")
+    key, keys = name.rpartition(" ")[2], [place.rpartition("/")[2] for place in _diptych.comparison_numbers()]
+    nearest = min((one for one in keys if key and one.startswith(key)), key=len,
+                  default=_diptych.nearest_name(key, keys))
+    part.refuse(f" = '{name}': no number of a comparison has such a name; the nearest to '{key}' is '{nearest}'. Use a "
+                "name from the first column of ensemble.csv, such as 'window 0.01-0.03 discrete band angle_deg'",
+                "number")
 
 
 def _quantity(part: Part, command: str) -> dict[str, Any]:
