@@ -54,7 +54,7 @@ def profiles(found):
     curves = {}
     for panel in ("discrete", "continuum"):
         rows = []
-        for folder in found.folders:
+        for folder in found.folders.values():
             with h5py.File(os.path.join(folder, "comparison.h5")) as file:
                 place, ratio = (file[f"platens/{panel}/{name}"][()] for name in ("place", "stress_ratio"))
                 rows.append(ratio)

@@ -19,11 +19,12 @@ class Body:
     `edges(middles)` gives for points (k, 2) in the middle of boundary edges: held (k, 2), where a velocity component is
     given; traction (k, 2) on the other components, positive along the axes; platen (k,), where the given vertical
     velocity is -1. Elsewhere a given velocity is 0. `platen_width` is the part of the platen's width that the mesh
-    holds."""
+    holds. With a friction of the platen both velocity components on it are free, but for the law of the interface."""
     points: numpy.ndarray
     triangles: numpy.ndarray
     edges: callable
     platen_width: float
+    friction: float = 0.0
 
     def sides(self):
         """Edges as pairs of points (k, 2) in ascending order; first and second triangle (k,), the second is -1 on the
@@ -49,6 +50,7 @@ class Rectangle:
     """Between platens, width 1, under the lateral pressure P = 1 on its free sides."""
     width_over_height: float
     rough: bool = True
+    friction: float = 0.0  # of platens that are not rough
     pressure = 1.0
     platen_width = 0.5
 
@@ -84,6 +86,7 @@ class Footing:
     strips. The base is rough, the side walls are smooth, the surface beside the strip is free."""
     half_width: float
     depth: float
+    friction = 0.0
     pressure = 0.0
     platen_width = 1.0
     corner = numpy.array((1.0, 0.0))
@@ -130,7 +133,7 @@ def grid_body(shape, n):
     """Grid of n rows with crossed diagonals."""
     x, y = shape.grid(n)
     points = numpy.stack(numpy.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
-    return Body(*crossed(points, quads_of(len(x) - 1, len(y) - 1)), shape.edges, shape.platen_width)
+    return Body(*crossed(points, quads_of(len(x) - 1, len(y) - 1)), shape.edges, shape.platen_width, shape.friction)
 
 
 def ray_ends(shape, n):
@@ -155,4 +158,4 @@ def ray_body(shape, n):
     points, triangles = crossed(points, quads_of(rings - 1, k - 1))
     tips = numpy.column_stack((numpy.full(k - 1, len(points)), numpy.arange(k - 1), numpy.arange(1, k)))
     points, triangles = numpy.concatenate((points, shape.corner[None])), numpy.concatenate((triangles, tips))
-    return Body(points, triangles, shape.edges, shape.platen_width)
+    return Body(points, triangles, shape.edges, shape.platen_width, shape.friction)

@@ -104,7 +104,7 @@ def traction_terms(plane, direction):
 
 
 def lower_problem(body):
-    """A, b and l of the lower bound."""
+    """A, b and l of the lower bound, and the number of contacts of a platen with friction, whose cones come last."""
     gradients, area = body.gradients()
     three, corners = numpy.arange(3), 9 * numpy.arange(len(area))[:, None] + 3 * numpy.arange(3)
     equations, objective = Equations(), numpy.zeros(9 * len(area))
@@ -121,7 +121,7 @@ def lower_problem(body):
     normal *= numpy.sign(outward)[:, None]
     tangent = numpy.column_stack((-normal[:, 1], normal[:, 0]))
     held, traction, platen = body.edges(ends.mean(axis=1))
-    spare = dependent(body, pairs, inside)
+    spare, contacts = dependent(body, pairs, inside), []
     for end in range(2):
         here, there = (9 * triangle + 3 * numpy.argmax(body.triangles[triangle] == pairs[:, [end]], axis=1)
                        for triangle in (one, other))
@@ -130,33 +130,47 @@ def lower_problem(body):
             equations.add(numpy.hstack((here[kept, None] + three, there[kept, None] + three)),
                           numpy.hstack((terms, -terms)), numpy.zeros(len(terms)))
         for axis in range(2):  # given tractions
-            kept = ~inside & ~held[:, axis]
+            kept = ~inside & ~held[:, axis] & ~(platen & (body.friction > 0))
             terms = traction_terms(normal, numpy.broadcast_to(numpy.eye(2)[axis], normal.shape))
             equations.add(here[kept, None] + three, terms[kept], traction[kept, axis])
         under = ~inside & platen
         objective[here[under] + 1] -= length[under] / 2 / body.platen_width
-    return *equations.system(len(objective)), objective
+        contacts.append(here[under] if body.friction > 0 else here[:0])
+    at = numpy.concatenate(contacts)[:, None]
+    cones = len(objective) + 3 * numpy.arange(len(at))[:, None]
+    for stress, cone, scale in ((1, 0, -body.friction), (2, 1, 1)):  # w = (mu N, T, 0), T positive along x
+        equations.add(numpy.hstack((at + stress, cones + cone)), numpy.tile((scale, -1.0), (len(at), 1)),
+                      0 * at.ravel())
+    objective = numpy.concatenate((objective, numpy.zeros(3 * len(at))))
+    return *equations.system(len(objective)), objective, len(at)
 
 
 def lower_bound(body, soil, pressure):
     """Bound of a stress that is admissible to rounding: the solver's stress is first corrected to equilibrium, then
     moved towards the isotropic state of the lateral pressure until no corner violates the yield condition."""
-    A, b, objective = lower_problem(body)
-    stress, _, iterations = largest(objective, A, b, soil)
+    A, b, objective, n_contacts = lower_problem(body)
+    stress, _, iterations = largest(objective, A, b, soil, n_contacts=n_contacts)
     solve = scipy.sparse.linalg.splu((A @ A.T).tocsc()).solve
     for _ in range(2):
         stress += A.T @ solve(b - A @ stress)
-    start = numpy.tile((-pressure, -pressure, 0.0), len(stress) // 3)
-    before, after = soil.margin(start.reshape(-1, 3)), soil.margin(stress.reshape(-1, 3))
+    n_soil = len(stress) // 3 - n_contacts
+
+    def margins(state):
+        of_soil, of_contacts = numpy.split(state.reshape(-1, 3), [n_soil])
+        return numpy.concatenate((soil.margin(of_soil), of_contacts[:, 0] - numpy.hypot(*of_contacts[:, 1:].T)))
+    start = numpy.concatenate((numpy.tile((-pressure, -pressure, 0.0), n_soil),
+                               numpy.tile((body.friction * pressure, 0, 0), n_contacts)))
+    before, after = margins(start), margins(stress)
     share = numpy.where(after < 0, before / (before - numpy.minimum(after, 0)), 1).min() * (1 - 1e-12)
     stress = start + share * (stress - start)
-    assert soil.margin(stress.reshape(-1, 3)).min() >= 0
+    assert margins(stress).min() >= 0
     return Bound(objective @ stress, numpy.abs(A @ stress - b).max(), len(body.triangles), iterations)
 
 
 def quadratic_nodes(body):
     """Nodes (m, 6) of the 6-node triangles, corners first, then the middles of the edges opposite to them; whether a
-    component is held (n, 2); its velocity (n, 2); nodal forces (n, 2) of the given tractions."""
+    component is held (n, 2); its velocity (n, 2); nodal forces (n, 2) of the given tractions; the ends and the middle
+    (k, 3) of the edges of a platen with friction, on which no component is held."""
     pairs, _, other, number = body.sides()
     n_points = len(body.points)
     shape = (n_points + len(pairs), 2)
@@ -165,12 +179,32 @@ def quadratic_nodes(body):
     ends = body.points[pairs[edge]]
     edge_held, traction, platen = body.edges(ends.mean(axis=1))
     length = numpy.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    slides = platen & (body.friction > 0)
+    edge_held = edge_held & ~slides[:, None]
     # Simpson's rule is exact
     for nodes, share in ((pairs[edge, 0], 1 / 6), (pairs[edge, 1], 1 / 6), (n_points + edge, 2 / 3)):
         numpy.logical_or.at(held, nodes, edge_held)
         numpy.add.at(force, nodes, share * length[:, None] * numpy.where(edge_held, 0, traction))
-        velocity[nodes[platen], 1] = -1
-    return numpy.hstack((body.triangles, n_points + number)), held, velocity, force
+        velocity[nodes[platen & ~slides], 1] = -1
+    rubbing = numpy.column_stack((pairs[edge], n_points + edge))[slides]
+    return numpy.hstack((body.triangles, n_points + number)), held, velocity, force, rubbing
+
+
+def contact_columns(rubbing, n_nodes, friction):
+    """Nodal forces (2 n, 3 k) of the cones (mu N, T, 0) at the k control points of the velocity along edges of a
+    platen, power of the platen's velocity -1 (3 k), and k. If a quadratic's control points are in a convex set, so is
+    it: v_middle = (v_a + 2 v_c + v_b) / 4."""
+    points = numpy.unique(rubbing)
+    columns = scipy.sparse.lil_matrix((n_nodes, len(points)))
+    middles = dict(zip(rubbing[:, 2], rubbing))
+    for k, point in enumerate(points):
+        if point in middles:
+            first, last, middle = middles[point]
+            columns[middle, k], columns[first, k], columns[last, k] = 2.0, -0.5, -0.5
+        else:
+            columns[point, k] = 1.0
+    forces = scipy.sparse.kron(columns, [[0, 1, 0], [1 / friction, 0, 0]])
+    return forces.tocsr(), numpy.tile((1 / friction, 0, 0), len(points)), len(points)
 
 
 def strain_rates(body, nodes):
@@ -195,10 +229,14 @@ def strain_rates(body, nodes):
 def upper_bound(body, soil):
     """Bound from the solver's velocities alone: dissipation less the power of the tractions, for a platen that moves by
     1. The dissipation of associated flow is c cot(phi) x the rate of volume."""
-    nodes, held, velocity, force = quadratic_nodes(body)
+    nodes, held, velocity, force, rubbing = quadratic_nodes(body)
     strain, free = strain_rates(body, nodes), ~held.ravel()
-    power = strain @ velocity.ravel() / body.platen_width
-    _, multipliers, iterations = largest(power, strain.T.tocsr()[free], force.ravel()[free], soil, MARGIN)
+    power, internal, n_contacts = strain @ velocity.ravel() / body.platen_width, strain.T.tocsr(), 0
+    if len(rubbing):
+        on_nodes, of_platen, n_contacts = contact_columns(rubbing, len(velocity), body.friction)
+        internal = scipy.sparse.hstack((internal, on_nodes)).tocsr()
+        power = numpy.append(power, of_platen / body.platen_width)
+    _, multipliers, iterations = largest(power, internal[free], force.ravel()[free], soil, MARGIN, n_contacts)
     velocity.ravel()[free] = body.platen_width * multipliers
     integral = strain @ velocity.ravel()
     rate = integral.reshape(-1, 3, 3) / (body.gradients()[1] / 3)[:, None, None]

@@ -52,21 +52,22 @@ def sparse_solver(G):
     return factor
 
 
-def largest(objective, A, b, soil, margin=0.0):
+def largest(objective, A, b, soil, margin=0.0, n_contacts=0):
     """Stress (9 m,) with the largest objective.stress subject to A stress = b and Mohr-Coulomb's condition for each
     three components, the multipliers of the equations, and the number of iterations.
 
     In terms of z = ((2 c cot(phi) - s_xx - s_yy) sin(phi), s_xx - s_yy, 2 s_xy) the condition is z_0 >= |(z_1, z_2)|, a
     cone. The stresses are the variables of cvxopt's dual problem, so its primal variables are the multipliers. The cone
     that holds the strain rates of the multipliers is narrowed by `margin`, which adds at most margin x sum of z_0 to
-    the result."""
+    the result. The last n_contacts triples are no stresses, but the cones (mu N, T, 0) of contacts themselves."""
     n = A.shape[1] // 3
-    volume = -0.5 / soil.sine
-    back = scipy.sparse.kron(scipy.sparse.identity(n), [[volume, 0.5, 0], [volume, -0.5, 0], [0, 0, 0.5]]).tocsr()
-    apex = numpy.tile((soil.apex, soil.apex, 0.0), n)  # stress = apex + back z
+    volume, n_soil = -0.5 / soil.sine, n - n_contacts
+    of_soil = scipy.sparse.kron(scipy.sparse.identity(n_soil), [[volume, 0.5, 0], [volume, -0.5, 0], [0, 0, 0.5]])
+    back = scipy.sparse.block_diag((of_soil, scipy.sparse.identity(3 * n_contacts))).tocsr()
+    apex = numpy.concatenate((numpy.tile((soil.apex, soil.apex, 0.0), n_soil), numpy.zeros(3 * n_contacts)))
     G = (A @ back).T.tocsr()
     strain = -(back.T @ objective)
-    strain[0::3] -= margin
+    strain[0:3 * n_soil:3] -= margin  # stress = apex + back z
     found = cvxopt.solvers.conelp(cvxopt.matrix(A @ apex - b), to_cvxopt(G), cvxopt.matrix(strain),
                                   {"l": 0, "q": [3] * n, "s": []}, kktsolver=sparse_solver(G), options=OPTIONS)
     return apex + back @ numpy.array(found["z"]).ravel(), numpy.array(found["x"]).ravel(), found["iterations"]

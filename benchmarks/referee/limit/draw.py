@@ -87,7 +87,7 @@ def draw(results, path):
     bar = figure.colorbar(cells, ax=right, ticks=range(-3, 1), fraction=0.03, pad=0.01)
     bar.ax.set_yticklabels(["$\\leq 10^{-3}$", "$10^{-2}$", "$10^{-1}$", "1"])
     bar.set_label("rate of dissipation")
-    groups = (("W/H", "phi 20", "rectangles, φ = 20°"), ("W/H", "phi 30", "rectangles, φ = 30°"),
+    groups = (("rectangle", "phi 20", "rectangles, φ = 20°"), ("rectangle", "phi 30", "rectangles, φ = 30°"),
               ("footing", "phi", "strip footings"))
     for k, (word, angle, title) in enumerate(groups):
         axis = figure.add_subplot(grid[1, k])

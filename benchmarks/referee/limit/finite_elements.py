@@ -11,6 +11,10 @@ from bodies import EDGE, Footing, quads_of
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+# A softer body slips farther in a step than Coulomb's law sticks. In small strain its load is the same.
+COULOMB = ("continuum/platens=frictional", "continuum/platen_slip_length=0", "continuum/youngs_modulus=1e6",
+           "continuum/initial_step=1e-6", "continuum/max_step=5e-4", "continuum/min_step=1e-9",
+           "loading/axial_strain=0.003", "loading/stage_strain=0.003")
 LINES = ("lower_platen", "upper_platen", "left_side", "right_side", "free")
 
 
@@ -51,7 +55,8 @@ def collapse_load(program, shape, soil, n, folder):
     shutil.rmtree(result, ignore_errors=True)
     write_mesh(mesh, shape, n)
     angles = [f"continuum/{key}_angle_peak={soil.friction_angle}" for key in ("friction", "dilatancy")]
-    words = [word for setting in (f"continuum/mesh={mesh}", *angles) for word in ("--set", setting)]
+    friction = [f"continuum/platen_friction={shape.friction}", *COULOMB] if shape.friction else []
+    words = [word for setting in (f"continuum/mesh={mesh}", *angles, *friction) for word in ("--set", setting)]
     scene = os.path.join(HERE, "footing.prm" if isinstance(shape, Footing) else "rectangle.prm")
     done = subprocess.run([program, "continuum", scene, "--output", result, "--quiet", *words], env=ENVIRONMENT,
                           capture_output=True, text=True)
