@@ -21,14 +21,13 @@ import defaults  # noqa: E402
 SCENE = os.path.join(defaults.HERE, "vertical.prm")
 SEEDS = range(17, 33)
 FRICTIONS = (0.3, 0.5, 0.7)
-KINDS = {"smooth": {"discrete/platen_friction": 0}, "flat": {}, "no rolling": {"discrete/platen_rolling_friction": 1},
-         "glued": {"sample/rough_platens": True}}
+KINDS = {"smooth": {"discrete/platen_friction": 0}, "flat": {}, "no rolling": {"discrete/platen_rolling_friction": 1}}
 SIDES = {"discrete/side_motion": "pressure", "discrete/platen_friction": 0, "continuum/platens": "smooth"}
 OTHERS = {"W/H 1.4": {"sample/width_over_height": 1.4}, "700 discs": {"sample/grains": 700},
           "4000 discs": {"sample/grains": 4000}, "rolling friction 0.1": {"discrete/rolling_friction": 0.1},
           "rigid smooth walls": {"discrete/lateral": "rigid_walls", "discrete/wall_friction": 0, **SIDES},
           "periodic sides": {"discrete/lateral": "periodic", **SIDES}}
-COLOURS = dict(zip(KINDS, ("#0072B2", "#D55E00", "#007A5E", "#CC79A7")))
+COLOURS = dict(zip((*KINDS, "glued"), ("#0072B2", "#D55E00", "#007A5E", "#CC79A7")))
 
 
 def ensemble(name, friction, settings):
@@ -36,6 +35,15 @@ def ensemble(name, friction, settings):
     return diptych.ensemble(SCENE, SEEDS, f"results/platens/{name.replace(' ', '_').replace('/', '_')}_{friction}",
                             set={"discrete/friction": friction, "comparison/coarse_element_size": 0,
                                  "output/report": False, **settings}, resume=True, jobs=2)
+
+
+def glued(friction):
+    """{key: values of the samples} of grains between platens of glued grains. The forces on those are not mapped, so
+    they run alone; the continuum is that of the platens without rolling."""
+    found = diptych.study(SCENE, f"results/platens/glued_{friction}", vary={"discrete/friction": [friction]},
+                          set={"sample/rough_platens": True}, panels="discrete", seeds=SEEDS, resume=True, jobs=2)
+    [point] = found.numbers["points"]
+    return {asked["key"]: one["values"] for asked, one in zip(found.numbers["quantities"], point["quantities"])}
 
 
 def mean_sxx(found):
@@ -63,7 +71,7 @@ def profiles(found):
 
 
 def table():
-    """A line per test: differences, and the largest difference of the profiles in ten parts."""
+    """A line per test: differences, and the largest difference of the profiles in ten parts of a platen."""
     tests = [(kind, friction, settings) for kind, settings in KINDS.items() for friction in FRICTIONS]
     tests += [(name, 0.4, settings) for name, settings in OTHERS.items()]
     for name, friction, settings in tests:
@@ -72,6 +80,9 @@ def table():
         (_, grains, _), (_, law, _) = profiles(found).values()
         texts = [*defaults.differences(found), f"{value:+.1%} +- {error:.1%}", f"{np.abs(law - grains).max():.3f}"]
         print(f"| {name} | {friction} | " + " | ".join(texts) + " |", flush=True)
+    for friction in FRICTIONS:
+        texts = defaults.differences(ensemble("no rolling", friction, KINDS["no rolling"]), glued(friction))
+        print(f"| glued | {friction} | " + " | ".join(texts) + " | | |", flush=True)
 
 
 def figure(file):
@@ -86,6 +97,13 @@ def figure(file):
             axes.errorbar(FRICTIONS, grains.mean(axis=1), 1.96 * grains.std(axis=1, ddof=1) / 4, fmt="o",
                           color=COLOURS[kind], capsize=2.5)
             axes.plot(FRICTIONS, [np.mean(row["continuum"]) for row in rows], "--", color=COLOURS[kind], label=kind)
+        if kind == "no rolling":
+            values = np.array([[glued(friction)[key] for key in ("platen_force_pd", "peak_stress_ratio")]
+                               for friction in FRICTIONS])
+            for k, axes in enumerate((force, peak)):
+                axes.errorbar(np.add(FRICTIONS, 0.01), values[:, k].mean(axis=1),
+                              1.96 * values[:, k].std(axis=1, ddof=1) / 4, fmt="s", capsize=2.5, color=COLOURS["glued"],
+                              label="glued grains (no rolling)" if k == 0 else None)
         place, mean, error = profiles(found[1])["discrete"]
         along.errorbar(place, mean, 1.96 * error, fmt="o", color=COLOURS[kind], capsize=2.5)
         along.plot(*profiles(found[1])["continuum"][:2], "--", color=COLOURS[kind])

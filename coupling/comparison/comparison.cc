@@ -162,15 +162,17 @@ namespace diptych::coupling
 
     void compare_platens(const Results &results, const std::size_t n, const bool is_mirror_symmetric, Comparison &c)
     {
+      const int                n_parts = is_mirror_symmetric ? 5 : 10; // ten along a platen: wider than elements and grains
       std::vector<PlatenParts> grains, nodes;
       for (std::size_t k = 1; k < n; ++k)
         {
           const StagePair pair   = stage_pair(results, k - 1, k);
           const double    travel = c.stages[k - 1].increment.frame.platen_increment.x();
           grains.push_back(platen_parts(platen_contacts(pair.grains_from, pair.grains_to, false),
-                                        platen_contacts(pair.grains_from, pair.grains_to, true), is_mirror_symmetric));
+                                        platen_contacts(pair.grains_from, pair.grains_to, true), is_mirror_symmetric, n_parts));
           nodes.push_back(platen_parts(platen_contacts(pair.nodes_from, pair.nodes_to, false, 0),
-                                       platen_contacts(pair.nodes_from, pair.nodes_to, true, travel), is_mirror_symmetric));
+                                       platen_contacts(pair.nodes_from, pair.nodes_to, true, travel), is_mirror_symmetric,
+                                       n_parts));
         }
       c.discrete.platens  = platen_friction(grains);
       c.discrete_platens  = sum_of(grains);

@@ -40,7 +40,7 @@ namespace diptych::coupling
   PlatenParts platen_parts(const std::vector<PlatenContact> &lower,
                            const std::vector<PlatenContact> &upper,
                            bool                              is_mirror_symmetric,
-                           int                               n_parts = 10);
+                           int                               n_parts);
   PlatenParts sum_of(const std::vector<PlatenParts> &windows);
 
   // shear / normal = -friction tanh(v / (friction slip_length)) for the slip v, as in continuum/platens = frictional.

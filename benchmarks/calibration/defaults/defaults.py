@@ -58,16 +58,18 @@ def platens(friction):
     study = diptych.study(scene, f"{RESULTS}/platens_{friction}", vary={"discrete/friction": [friction]},
                           panels="discrete", seeds=range(1, 9), resume=True)
     samples = [diptych.load(os.path.join(study.folder, folder)).discrete.snapshots for folder in study.table["folder"]]
-    found = diptych.platen_friction(samples, parts=5)
+    found = diptych.platen_friction(samples)
     texts = [f"{value:.3g} [{low:.2g}, {high:.2g}]" for value, low, high in (found.friction, found.slip_length)]
     print(f"| {friction} | " + " | ".join(texts) + " |", flush=True)
 
 
-def differences(found):
-    """Texts of the differences continuum - grains of an ensemble: means with standard errors; volume absolute."""
+def differences(found, others=None):
+    """Texts of the differences continuum - grains of an ensemble: means with standard errors; volume absolute.
+    others: {key: values of other grains with the same seeds}."""
     rows, texts = {row["key"]: row for row in found.numbers["verdicts"] if not row["window"]}, []
     for key in SHOWN:
-        grains, law = (np.array(rows[key][panel], dtype=float) for panel in ("discrete", "continuum"))
+        grains, law = (np.array(one, dtype=float) for one in ((others or {key: rows[key]["discrete"]})[key],
+                                                              rows[key]["continuum"]))
         scale, digits = (1, 2) if key == "final_volumetric_strain" else (grains.mean(), 1)
         error = (law - grains).std(ddof=1) / len(grains)**0.5 / scale
         texts.append(f"{(law - grains).mean() / scale:+.{digits}%} +- {error:.{digits}%}")

@@ -271,7 +271,7 @@ def probe(sample: Any, where: Any, contacts: Any = None, *, angle_deg: float = 0
     return Record(result)
 
 
-def platen_friction(samples: Sequence[Any], *, mirror_symmetric: bool = True, parts: int = 10) -> Record:
+def platen_friction(samples: Sequence[Any], *, mirror_symmetric: bool = True, parts: int = 5) -> Record:
     """The law of continuum/platens = frictional, fitted to slip and shear of grains along flat platens.
 
     samples           lists of the snapshots of a sample in their order, e.g. load(FOLDER).discrete.snapshots

@@ -1,6 +1,6 @@
 # diptych: charts of the friction along the platens, both panels
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Shear over normal stress and slip in ten parts of the platens, means over all stages; from comparison.h5."""
+"""Shear over normal stress and slip in parts of the platens, means over all stages; from comparison.h5."""
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -39,7 +39,7 @@ def _over(panels, name, label, words, law=None):
         axes.plot(arrays[name][order], arrays["stress_ratio"][order], color=PANEL_COLOURS[panel],
                   marker=PANEL_MARKS[panel], markersize=4.5, linestyle=PANEL_LINES[panel] if name == "place" else "",
                   label=PANEL_NAMES[panel])
-    caption = f"Friction {words}: ten parts of both platens, means over all stages."
+    caption = f"Friction {words}: parts of both platens, means over all stages."
     if law:
         slip = np.linspace(*axes.get_xlim(), 100)
         axes.plot(slip, law[0] * np.tanh(slip / (law[0] * law[1])), color=GRAINS, linewidth=0.8)
