@@ -236,7 +236,8 @@ def upper_bound(body, soil):
         on_nodes, of_platen, n_contacts = contact_columns(rubbing, len(velocity), body.friction)
         internal = scipy.sparse.hstack((internal, on_nodes)).tocsr()
         power = numpy.append(power, of_platen / body.platen_width)
-    _, multipliers, iterations = largest(power, internal[free], force.ravel()[free], soil, MARGIN, n_contacts)
+    _, multipliers, iterations = largest(power, internal[free], force.ravel()[free], soil, MARGIN,
+                                         n_contacts=n_contacts)
     velocity.ravel()[free] = body.platen_width * multipliers
     integral = strain @ velocity.ravel()
     rate = integral.reshape(-1, 3, 3) / (body.gradients()[1] / 3)[:, None, None]

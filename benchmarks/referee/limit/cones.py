@@ -52,7 +52,7 @@ def sparse_solver(G):
     return factor
 
 
-def largest(objective, A, b, soil, margin=0.0, n_contacts=0):
+def largest(objective, A, b, soil, margin=0.0, *, n_contacts=0):
     """Stress (9 m,) with the largest objective.stress subject to A stress = b and Mohr-Coulomb's condition for each
     three components, the multipliers of the equations, and the number of iterations.
 
