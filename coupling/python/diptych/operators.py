@@ -274,9 +274,9 @@ def probe(sample: Any, where: Any, contacts: Any = None, *, angle_deg: float = 0
 def platen_friction(samples: Sequence[Any], *, mirror_symmetric: bool = True, parts: int = 5) -> Record:
     """The law of continuum/platens = frictional, fitted to slip and shear of grains along flat platens.
 
-    samples           lists of the snapshots of a sample in their order, e.g. load(FOLDER).discrete.snapshots
-    mirror_symmetric  fold the platen at its middle
-    parts             number of parts of a platen, or of its half
+    samples           list per sample of its snapshots in their order: load(FOLDER).discrete.snapshots
+    mirror_symmetric  the platen is folded at its middle, as in a vertical compression
+    parts             number of parts of the folded platen; twice as many suit a whole one
 
     Returns friction [-] and slip_length [length], each (value, low, high): 95 % intervals by a jackknife over the
     samples. NaN if nothing slips.
