@@ -17,10 +17,8 @@ namespace diptych::continuum
   } // namespace
 
   // The densest and most mobilised state is either the initial one or the one that the initial density allows.
-  void CriticalStateHardening::check(const CriticalStateOptions &o, const LawKind law, const char *hardening)
+  void CriticalStateHardening::check(const CriticalStateOptions &o)
   {
-    require_keys(!traits(law).is_gradient, {"law", "hardening"}, "law = ", name_of(law), " with hardening = ", hardening,
-                 ": take another hardening, or a law with rotations");
     const double start    = o.start_solid_fraction();
     const double possible = o.critical_stress_ratio +
                             o.strength_by_density * o.critical_solid_fraction * std::log(start / o.critical_solid_fraction);

@@ -55,7 +55,7 @@ namespace diptych::continuum
            "critical_stress_ratio", "critical_solid_fraction", "strength_by_density", "dilatancy_ratio",
            "stress_ratio_start",    "solid_fraction_start",    "mobilisation_strain", "cohesion"};
 
-    static void check(const CriticalStateOptions &o, LawKind law, const char *hardening = name);
+    static void check(const CriticalStateOptions &o);
     CriticalStateHardening(const CriticalStateOptions &o, bool is_nonlocal);
 
     // Both sines are cut off, because the rate of an angle diverges at 1.

@@ -14,7 +14,7 @@ namespace diptych::continuum
     }
   } // namespace
 
-  void ConstantHardening::check(const DecayOptions &o, LawKind)
+  void ConstantHardening::check(const DecayOptions &o)
   {
     check_strength("at the peak", {"dilatancy_angle_peak", "friction_angle_peak", "cohesion"}, o.friction_angle_peak,
                    o.dilatancy_angle_peak, o.cohesion);
@@ -25,9 +25,9 @@ namespace diptych::continuum
   {}
 
   // All values decay with the same factor, so checking both ends is sufficient.
-  void ExponentialHardening::check(const DecayOptions &o, const LawKind law)
+  void ExponentialHardening::check(const DecayOptions &o)
   {
-    ConstantHardening::check(o, law);
+    ConstantHardening::check(o);
     const double cohesion = o.cohesion_residual.value_or(o.cohesion);
     require_keys(o.friction_angle_residual <= o.friction_angle_peak, {"friction_angle_residual", "friction_angle_peak"},
                  "friction_angle_residual = ", o.friction_angle_residual,
@@ -59,9 +59,9 @@ namespace diptych::continuum
 
   // phi - psi is a + b exp(-k/k_s) - c exp(-k/k_m), which has at most one stationary point. Checking that point and both ends
   // is sufficient.
-  void MobilisationHardening::check(const DecayOptions &o, const LawKind law)
+  void MobilisationHardening::check(const DecayOptions &o)
   {
-    ExponentialHardening::check(o, law);
+    ExponentialHardening::check(o);
     require_keys(o.friction_angle_start <= o.friction_angle_peak, {"friction_angle_start", "friction_angle_peak"},
                  "friction_angle_start = ", o.friction_angle_start,
                  " must not exceed friction_angle_peak = ", o.friction_angle_peak);

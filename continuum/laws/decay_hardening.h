@@ -45,9 +45,9 @@ namespace diptych::continuum
   }
 
   // Every hardening has `name` and `meaning`, as `hardening` shows them; its Options, and `keys`, those that it reads; check(),
-  // which throws WrongKeys for values that contradict each other or do not suit the law; and a constructor from options in the
-  // units of the stress (`is_nonlocal`: for a gradient law). Strength at the hardening variable kappa is the sum of
-  // falling(kappa) and rising(kappa).
+  // which throws WrongKeys for values that contradict each other; and a constructor from options in the units of the stress
+  // (`is_nonlocal`: for a gradient law). Strength at the hardening variable kappa is the sum of falling(kappa) and
+  // rising(kappa).
   struct ConstantHardening
   {
     using Options                         = DecayOptions;
@@ -55,7 +55,7 @@ namespace diptych::continuum
     static constexpr const char meaning[] = "the peak values";
     static constexpr std::array keys      = {"friction_angle_peak", "dilatancy_angle_peak", "cohesion"};
 
-    static void check(const DecayOptions &o, LawKind law);
+    static void check(const DecayOptions &o);
     ConstantHardening(const DecayOptions &o, bool is_nonlocal);
 
     Strength falling(double) const { return {peak.friction, 0, peak.dilatancy, 0, peak.cohesion, 0}; }
@@ -74,7 +74,7 @@ namespace diptych::continuum
                                              "friction_angle_residual", "dilatancy_angle_residual", "cohesion_residual",
                                              "softening_strain"};
 
-    static void check(const DecayOptions &o, LawKind law);
+    static void check(const DecayOptions &o);
     ExponentialHardening(const DecayOptions &o, bool is_nonlocal);
 
     Strength falling(double kappa) const;
@@ -96,7 +96,7 @@ namespace diptych::continuum
                                         "friction_angle_residual", "dilatancy_angle_residual", "cohesion_residual",
                                         "softening_strain",        "friction_angle_start",     "mobilisation_strain"};
 
-    static void check(const DecayOptions &o, LawKind law);
+    static void check(const DecayOptions &o);
     MobilisationHardening(const DecayOptions &o, bool is_nonlocal);
 
     Strength rising(double kappa) const;

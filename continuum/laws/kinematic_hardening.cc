@@ -6,14 +6,12 @@
 
 namespace diptych::continuum
 {
-  void KinematicHardening::check(const KinematicOptions &o, const LawKind law)
+  void KinematicHardening::check(const KinematicOptions &o)
   {
-    CriticalStateHardening::check(o, law, name);
+    CriticalStateHardening::check(o);
     require_keys(o.elastic_stress_ratio < o.critical_stress_ratio, {"elastic_stress_ratio", "critical_stress_ratio"},
                  "elastic_stress_ratio = ", o.elastic_stress_ratio,
                  " must be below critical_stress_ratio = ", o.critical_stress_ratio);
-    require_keys(!traits(law).has_edges(), {"law", "hardening"}, "law = ", name_of(law),
-                 " with hardening = kinematic: take drucker_prager, or a law with rotations");
   }
 
   KinematicHardening::KinematicHardening(const KinematicOptions &o, const bool is_nonlocal)

@@ -37,7 +37,7 @@ namespace diptych::continuum
            "stress_ratio_start",    "solid_fraction_start",    "mobilisation_strain", "cohesion",
            "elastic_stress_ratio"};
 
-    static void check(const KinematicOptions &o, LawKind law);
+    static void check(const KinematicOptions &o);
     KinematicHardening(const KinematicOptions &o, bool is_nonlocal);
 
     double radius(double equivalent_plastic_strain) const;

@@ -6,6 +6,17 @@
 
 namespace diptych::continuum
 {
+  namespace
+  {
+    // The moving cone has no return in principal space. Only a strength that depends on the hardening variable alone can depend
+    // on the nonlocal one.
+    template <class H> constexpr bool accepts(const LawTraits &law)
+    {
+      return !(law.has_edges() && std::is_same_v<H, KinematicHardening>)&&!(law.is_gradient &&
+                                                                            std::is_base_of_v<CriticalStateHardening, H>);
+    }
+  } // namespace
+
   const LawParameter *LawParameters::find(const std::string &name) const
   {
     const auto found = std::find_if(list.begin(), list.end(), [&](const LawParameter &one) { return one.name == name; });
@@ -93,8 +104,14 @@ namespace diptych::continuum
 
   void validate(const LawKind law, const LawOptions &o)
   {
+    const LawTraits is = traits(law);
     check_ranges(o, unused_keys(law, o));
-    if (traits(law).is_plastic)
-      Hardenings::with_type(o.hardening, [&](auto *chosen) { TypeOf<decltype(chosen)>::check(o, law); });
+    if (is.is_plastic)
+      Hardenings::with_type(o.hardening, [&](auto *chosen) {
+        using H = TypeOf<decltype(chosen)>;
+        require_keys(accepts<H>(is), {"law", "hardening"}, "law = ", name_of(law), " does not accept hardening = ", H::name,
+                     ": take another hardening, drucker_prager or a law with rotations");
+        H::check(o);
+      });
   }
 } // namespace diptych::continuum

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "continuum/laws/decay_hardening.h"
+#include "continuum/laws/kinds.h"
 #include "continuum/laws/kinematic_hardening.h"
 #include "continuum/laws/length_options.h"
 #include "continuum/laws/parameters.h"
@@ -44,7 +45,7 @@ namespace diptych::continuum
   };
   template <class Pointer> using TypeOf = std::remove_pointer_t<Pointer>;
 
-  // Those that a scene can choose. An entry here is all that a new one needs outside its own file and CMakeLists.txt.
+  // The hardenings that a scene can choose. A new one needs an entry here, its file and a line in CMakeLists.txt.
   using Hardenings    = ListOf<ExponentialHardening,
                             MobilisationHardening,
                             CriticalStateHardening,
@@ -107,7 +108,7 @@ namespace diptych::continuum
   {
     static constexpr const char *prefix = "law."; // of the keys, and of the state variables in results
 
-    std::vector<LawParameter> list; // those that the scene sets; all of the library after complete() (law_library.h)
+    std::vector<LawParameter> list; // set by the scene; after complete() (law_library.h) all of the library
 
     const LawParameter *find(const std::string &name) const;
     void                set(const std::string &name, double value);
@@ -151,7 +152,7 @@ namespace diptych::continuum
   // Whether the law starts from a solid fraction, given or mapped from the grains.
   bool follows_solid_fraction(HardeningKind hardening);
 
-  // The same parameters as stresses and lengths; those of a library stay.
+  // Converts the parameters to stresses and lengths; those of a library stay.
   LawOptions in_units(LawOptions options, const Units &units);
 
   // Keys of the list above that a law does not use with these options.

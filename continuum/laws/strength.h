@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "continuum/laws/kinds.h"
 #include "continuum/require.h"
 
 namespace diptych::continuum

@@ -29,7 +29,7 @@ namespace diptych::continuum
   } // namespace
 
   // Values are linear between the points, so checking the points is sufficient.
-  void TableHardening::check(const TableOptions &o, LawKind)
+  void TableHardening::check(const TableOptions &o)
   {
     const std::size_t n = o.table_strain.size();
     require_keys(n > 0, {"table_strain", "hardening"}, "hardening = table needs table_strain, a list that ascends from 0");

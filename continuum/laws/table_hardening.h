@@ -41,7 +41,7 @@ namespace diptych::continuum
     static constexpr const char meaning[] = "the four lists, linear between their points and constant beyond them";
     static constexpr std::array keys      = {"table_strain", "table_friction_angle", "table_dilatancy_angle", "table_cohesion"};
 
-    static void check(const TableOptions &o, LawKind law);
+    static void check(const TableOptions &o);
     TableHardening(const TableOptions &o, bool is_nonlocal);
 
     Strength falling(double kappa) const;

@@ -151,6 +151,7 @@ namespace
 
   TEST(Kinematic, IsRefusedInPrincipalSpace)
   {
-    EXPECT_THROW(make_law(LawKind::mohr_coulomb, kinematic(0.85)), std::invalid_argument);
+    diptych::tests::expect_refused({"law = mohr_coulomb", "hardening = kinematic", "drucker_prager"},
+                                   [&] { make_law(LawKind::mohr_coulomb, kinematic(0.85)); });
   }
 } // namespace
