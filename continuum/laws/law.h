@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <cmath>
 #include <variant>
 #include <vector>
 
@@ -36,6 +37,12 @@ namespace diptych::continuum
   using Strain  = dealii::Tensor<1, n_components>;
   using Stress  = dealii::Tensor<1, n_components>;
   using Tangent = dealii::Tensor<2, n_components>; // d stress / d strain increment; zero beyond the law's components
+
+  // Radius of Mohr's circle in the plane.
+  inline double shear_radius(const Stress &s)
+  {
+    return std::hypot((s[xx] - s[yy]) / 2, s[xy]);
+  }
 
   // The branch of the law that gave the answer. `edge`: two yield planes are active, sigma_zz is an outer principal stress.
   enum class Regime

@@ -230,7 +230,7 @@ namespace diptych::continuum
   double largest_in_tension(const MaterialState &state)
   {
     const Stress &s        = state.stress;
-    const double  in_plane = s[xx] + s[yy], radius = std::hypot((s[xx] - s[yy]) / 2, s[xy]);
+    const double  in_plane = s[xx] + s[yy], radius = shear_radius(s);
     const double  major = std::max(in_plane / 2 + radius, state.stress_zz),
                  minor  = std::min(in_plane / 2 - radius, state.stress_zz);
     return std::max(in_plane, major + minor);

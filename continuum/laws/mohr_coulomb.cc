@@ -26,7 +26,7 @@ namespace diptych::continuum
     Outer outer(const MaterialState &state)
     {
       const Stress &s = state.stress;
-      return outer(std::hypot((s[xx] - s[yy]) / 2, s[xy]), -(s[xx] + s[yy]) / 2, state.stress_zz);
+      return outer(shear_radius(s), -(s[xx] + s[yy]) / 2, state.stress_zz);
     }
 
     // Positions of the in-plane major stress, the in-plane minor stress and sigma_zz among the sorted three.

@@ -18,11 +18,6 @@ namespace diptych::continuum
     return -m;
   }
 
-  inline double shear_radius(const Stress &s)
-  {
-    return std::hypot((s[xx] - s[yy]) / 2, s[xy]);
-  }
-
   inline bool zz_is_not_intermediate(const MaterialState &point)
   {
     const double mean = (point.stress[xx] + point.stress[yy]) / 2;
