@@ -80,7 +80,7 @@ namespace diptych::continuum
   double ConeLaw::shear_strength(const MaterialState &state) const
   {
     const Cone c = cone.at(hardening_state(state));
-    return pressure(state) * c.slope + c.intercept;
+    return pressure(state) * c.slope.value + c.intercept.value;
   }
 
   MaterialUpdate ConeLaw::update(const MaterialState &s0, const Strain &d_strain, const double d_time) const
@@ -92,8 +92,8 @@ namespace diptych::continuum
 
   bool ConeLaw::is_outside(const Trial &trial, const Cone &c) const
   {
-    const double yield = trial.shear - trial.pressure * c.slope - c.intercept;
-    return !(yield <= 1e-12 * (trial.shear + std::abs(trial.pressure) + c.intercept));
+    const double yield = trial.shear - trial.pressure * c.slope.value - c.intercept.value;
+    return !(yield <= 1e-12 * (trial.shear + std::abs(trial.pressure) + c.intercept.value));
   }
 
   ConeStart ConeLaw::start_of(const MaterialState &s0) const

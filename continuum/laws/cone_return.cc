@@ -46,16 +46,17 @@ namespace diptych::continuum
       PathPoint with(const Cone &c, const double lambda) const
       {
         PathPoint    p;
-        const double loss = path.shear_loss + path.shear_loss_by_dilation * c.dilation;
-        const double gain = path.pressure_gain + path.pressure_gain_by_dilation * c.dilation;
+        const double loss = path.shear_loss + path.shear_loss_by_dilation * c.dilation.value;
+        const double gain = path.pressure_gain + path.pressure_gain_by_dilation * c.dilation.value;
         p.lambda          = lambda;
         p.cone            = c;
         p.shear           = path.shear - loss * lambda;
-        p.shear_dot       = -loss - path.shear_loss_by_dilation * c.dilation_rate * lambda;
+        p.shear_dot       = -loss - path.shear_loss_by_dilation * c.dilation.rate * lambda;
         p.pressure        = path.pressure + gain * lambda;
-        p.pressure_dot    = gain + path.pressure_gain_by_dilation * c.dilation_rate * lambda;
-        p.yield           = p.shear - p.pressure * c.slope - c.intercept - viscous_modulus * lambda;
-        p.yield_dot = p.shear_dot - p.pressure_dot * c.slope - p.pressure * c.slope_rate - c.intercept_rate - viscous_modulus;
+        p.pressure_dot    = gain + path.pressure_gain_by_dilation * c.dilation.rate * lambda;
+        p.yield           = p.shear - p.pressure * c.slope.value - c.intercept.value - viscous_modulus * lambda;
+        p.yield_dot       = p.shear_dot - p.pressure_dot * c.slope.value - p.pressure * c.slope.rate - c.intercept.rate -
+                      viscous_modulus;
         return p;
       }
 
@@ -124,7 +125,7 @@ namespace diptych::continuum
       ConeReturn r;
       r.multiplier             = p.lambda;
       r.multiplier_by_shear    = -1 / p.yield_dot;
-      r.multiplier_by_pressure = p.cone.slope / p.yield_dot;
+      r.multiplier_by_pressure = p.cone.slope.value / p.yield_dot;
       r.shear                  = p.shear;
       r.shear_by_shear         = 1 + p.shear_dot * r.multiplier_by_shear;
       r.shear_by_pressure      = p.shear_dot * r.multiplier_by_pressure;
@@ -139,12 +140,13 @@ namespace diptych::continuum
     {
       ConeReturn   r;
       const Cone  &c        = p.cone;
-      const double strength = c.intercept + viscous_modulus * p.lambda;
+      const double strength = c.intercept.value + viscous_modulus * p.lambda;
       r.regime              = Regime::apex;
       r.multiplier          = p.lambda;
       r.multiplier_by_shear = -1 / p.shear_dot;
-      r.pressure            = -strength / c.slope;
-      r.pressure_by_shear   = (-(c.intercept_rate + viscous_modulus) / c.slope + strength / (c.slope * c.slope) * c.slope_rate) *
+      r.pressure            = -strength / c.slope.value;
+      r.pressure_by_shear   = (-(c.intercept.rate + viscous_modulus) / c.slope.value +
+                             strength / (c.slope.value * c.slope.value) * c.slope.rate) *
                             r.multiplier_by_shear;
       return r;
     }
@@ -161,7 +163,7 @@ namespace diptych::continuum
     const Path      points(cone, from, path, viscous_modulus);
     const PathPoint start = points.start();
     // The scale is the trial stress. A nearly unloaded corner would meet an absolute tolerance at once.
-    const double tolerance = 1e-13 * (path.shear + std::abs(path.pressure) + start.cone.intercept);
+    const double tolerance = 1e-13 * (path.shear + std::abs(path.pressure) + start.cone.intercept.value);
     if (!std::isfinite(tolerance) || !(start.yield > 0))
       return failed;
 
@@ -188,9 +190,8 @@ namespace diptych::continuum
         if (std::min(-end->yield_dot, -start.yield_dot) < 0.1 * reference_modulus)
           answer.verdict = Verdict::unreliable;
       }
-    answer.dilation      = end->cone.dilation;
-    answer.dilation_rate = end->cone.dilation_rate;
-    answer.overstress    = viscous_modulus * answer.multiplier;
+    answer.dilation   = end->cone.dilation;
+    answer.overstress = viscous_modulus * answer.multiplier;
     return answer;
   }
 } // namespace diptych::continuum

@@ -31,8 +31,8 @@ namespace diptych::continuum
     double  multiplier = 0, multiplier_by_shear = 0, multiplier_by_pressure = 0;
     double  shear = 0, shear_by_shear = 0, shear_by_pressure = 0;
     double  pressure = 0, pressure_by_shear = 0, pressure_by_pressure = 0;
-    double  dilation = 0, dilation_rate = 0; // of the cone over the step
-    double  overstress = 0;                  // viscous_modulus * multiplier [pressure]
+    Rated   dilation;       // of the cone over the step
+    double  overstress = 0; // viscous_modulus * multiplier [pressure]
     Regime  regime     = Regime::plastic;
     Verdict verdict    = Verdict::reliable;
   };

@@ -9,7 +9,7 @@ namespace diptych::continuum
 {
   namespace
   {
-    Dilation cut_off(const double sine, const double rate)
+    Rated cut_off(const double sine, const double rate)
     {
       constexpr double largest = CriticalStateHardening::largest_sine;
       return {std::clamp(sine, -largest, largest), std::abs(sine) > largest ? 0 : rate};
@@ -63,17 +63,17 @@ namespace diptych::continuum
   // sin phi = eta and sin psi = (eta - eta_c)/beta, both cut off.
   StrengthBySines CriticalStateHardening::sines(const HardeningState &state) const
   {
-    const Excess   e         = excess(state);
-    const double   rate      = (e.possible - e.mobilised) / mobilisation_strain;
-    const double   eta       = stress_ratio + e.mobilised;
-    const Dilation friction  = cut_off(std::max(0., eta), eta > 0 ? rate : 0);
-    const Dilation dilatancy = cut_off(dilation(state), rate / dilatancy_ratio);
-    return {friction.sine, friction.rate, dilatancy.sine, dilatancy.rate, cohesion, 0, cosine(friction.sine)};
+    const Excess e         = excess(state);
+    const double rate      = (e.possible - e.mobilised) / mobilisation_strain;
+    const double eta       = stress_ratio + e.mobilised;
+    const Rated  friction  = cut_off(std::max(0., eta), eta > 0 ? rate : 0);
+    const Rated  dilatancy = cut_off(dilation(state), rate / dilatancy_ratio);
+    return {friction, dilatancy, {cohesion, 0}, cosine(friction.value)};
   }
 
-  Dilation CriticalStateHardening::mean_dilation(const HardeningState &start,
-                                                 const HardeningState &end,
-                                                 const double          multiplier) const
+  Rated CriticalStateHardening::mean_dilation(const HardeningState &start,
+                                              const HardeningState &end,
+                                              const double          multiplier) const
   {
     constexpr double short_step = 1e-6; // in a shorter step the densification is round-off; the midpoint value is exact to 1e-9
     if (multiplier > short_step)
@@ -97,7 +97,7 @@ namespace diptych::continuum
     const double l = multiplier, g = mobilisation_strain, a = 0.5 / g;
     const double w = by_density / dilatancy_ratio, square = a * a - w / g;
     const double q = std::sqrt(std::abs(square)), ql = q * l;
-    // Both include the decay, which may be strong where cosh is large.
+    // `even` and `odd` include the decay, which may be strong where cosh is large.
     double even = std::exp(-a * l), odd = l * even;
     if (ql > 1e-6 && square > 0)
       {

@@ -64,7 +64,7 @@ namespace diptych::continuum
     StrengthBySines sines(const HardeningState &state) const;
     double          solid_fraction(const HardeningState &state) const;
     HardeningState  after(const HardeningState &state, double multiplier) const;
-    Dilation        mean_dilation(const HardeningState &start, const HardeningState &end, double multiplier) const;
+    Rated           mean_dilation(const HardeningState &start, const HardeningState &end, double multiplier) const;
 
     double solid_fraction_start;                             // nu_0
     double stress_ratio, start_excess, start_possible;       // eta_c; eta_0 - eta_c; eta_p(nu_0) - eta_c

@@ -10,7 +10,7 @@ namespace diptych::continuum
   {
     StrengthPoint peak_of(const DecayOptions &o)
     {
-      return {0, o.friction_angle_peak * one_degree, o.dilatancy_angle_peak * one_degree, o.cohesion};
+      return {o.friction_angle_peak * one_degree, o.dilatancy_angle_peak * one_degree, o.cohesion};
     }
   } // namespace
 
@@ -43,7 +43,7 @@ namespace diptych::continuum
 
   ExponentialHardening::ExponentialHardening(const DecayOptions &o, bool)
       : peak(peak_of(o)),
-        residual{0, o.friction_angle_residual * one_degree, o.dilatancy_angle_residual * one_degree,
+        residual{o.friction_angle_residual * one_degree, o.dilatancy_angle_residual * one_degree,
                  o.cohesion_residual.value_or(o.cohesion)},
         softening_strain(o.softening_strain)
   {}
@@ -51,10 +51,9 @@ namespace diptych::continuum
   Strength ExponentialHardening::falling(const double kappa) const
   {
     const double decay = std::exp(-kappa / softening_strain), rate = -decay / softening_strain;
-    const double friction = peak.friction - residual.friction, dilatancy = peak.dilatancy - residual.dilatancy;
-    const double cohesion = peak.cohesion - residual.cohesion;
-    return {residual.friction + friction * decay, friction * rate, residual.dilatancy + dilatancy * decay, dilatancy * rate,
-            residual.cohesion + cohesion * decay, cohesion * rate};
+    const auto   value = [&](const double from, const double to) { return Rated{to + (from - to) * decay, (from - to) * rate}; };
+    return {value(peak.friction, residual.friction), value(peak.dilatancy, residual.dilatancy),
+            value(peak.cohesion, residual.cohesion)};
   }
 
   // phi - psi is a + b exp(-k/k_s) - c exp(-k/k_m), which has at most one stationary point. Checking that point and both ends
@@ -90,6 +89,6 @@ namespace diptych::continuum
   Strength MobilisationHardening::rising(const double kappa) const
   {
     const double lacks = unmobilised * std::exp(-kappa / mobilisation_strain);
-    return {-lacks, lacks / mobilisation_strain};
+    return {{-lacks, lacks / mobilisation_strain}, {}, {}};
   }
 } // namespace diptych::continuum

@@ -58,7 +58,7 @@ namespace diptych::continuum
     static void check(const DecayOptions &o);
     ConstantHardening(const DecayOptions &o, bool is_nonlocal);
 
-    Strength falling(double) const { return {peak.friction, 0, peak.dilatancy, 0, peak.cohesion, 0}; }
+    Strength falling(double) const { return constant(peak); }
     Strength rising(double) const { return {}; }
 
     StrengthPoint peak;
@@ -84,7 +84,7 @@ namespace diptych::continuum
     double        softening_strain;
   };
 
-  // The same, but friction is lower by (phi_p - phi_0) exp(-kappa/kappa_m).
+  // As ExponentialHardening, but friction is lower by (phi_p - phi_0) exp(-kappa/kappa_m).
   struct MobilisationHardening : ExponentialHardening
   {
     using Options                      = DecayOptions;

@@ -35,10 +35,10 @@ namespace diptych::continuum
   {
     const Cone   c = cone.by_nonlocal(hardening_state(answer.state));
     const double G = moduli_.shear, B = pressure_modulus, scale = moduli_.skew;
-    const double falls = -(end.pressure * c.slope_rate + c.intercept_rate), volume = B * end.multiplier * c.dilation_rate;
+    const double falls = -(end.pressure * c.slope.rate + c.intercept.rate), volume = B * end.multiplier * c.dilation.rate;
     const bool   tip = end.regime == Regime::apex;
-    const double F_k = falls - volume * c.slope, multiplier_k = tip ? 0 : F_k * end.multiplier_by_shear;
-    const double pressure_k = tip ? falls / c.slope : F_k * end.pressure_by_shear + volume;
+    const double F_k = falls - volume * c.slope.value, multiplier_k = tip ? 0 : F_k * end.multiplier_by_shear;
+    const double pressure_k = tip ? falls / c.slope.value : F_k * end.pressure_by_shear + volume;
 
     const Stress n = conjugate(trial.direction);
     Stress       one;

@@ -19,9 +19,8 @@ namespace diptych::continuum
     // A square root gives the cosine faster than std::cos. All angles lie between -90 and 90 degrees.
     StrengthBySines by_sines(const Strength &s)
     {
-      const double sin_phi = std::sin(s.friction), sin_psi = std::sin(s.dilatancy), cos_phi = cosine(sin_phi);
-      return {sin_phi,    cos_phi * s.friction_rate, sin_psi, cosine(sin_psi) * s.dilatancy_rate,
-              s.cohesion, s.cohesion_rate,           cos_phi};
+      const double sin_phi = std::sin(s.friction.value), sin_psi = std::sin(s.dilatancy.value), cos_phi = cosine(sin_phi);
+      return {{sin_phi, cos_phi * s.friction.rate}, {sin_psi, cosine(sin_psi) * s.dilatancy.rate}, s.cohesion, cos_phi};
     }
   } // namespace
 
@@ -45,11 +44,11 @@ namespace diptych::continuum
         Strength s;
         if constexpr (!std::is_base_of_v<CriticalStateHardening, std::decay_t<decltype(one)>>)
           {
-            s                = one.falling(softened);
-            const Strength r = one.rising(kappa);
-            s                = {s.friction + r.friction,   s.friction_rate * falls + r.friction_rate * rises,
-                                s.dilatancy + r.dilatancy, s.dilatancy_rate * falls + r.dilatancy_rate * rises,
-                                s.cohesion + r.cohesion,   s.cohesion_rate * falls + r.cohesion_rate * rises};
+            const Strength f = one.falling(softened), r = one.rising(kappa);
+            const auto     sum = [&](const Rated &a, const Rated &b) {
+              return Rated{a.value + b.value, a.rate * falls + b.rate * rises};
+            };
+            s = {sum(f.friction, r.friction), sum(f.dilatancy, r.dilatancy), sum(f.cohesion, r.cohesion)};
           }
         return s;
       },
@@ -61,12 +60,9 @@ namespace diptych::continuum
     if (!critical())
       return angles(state, 1 - nonlocal_weight, 1);
     const StrengthBySines s = critical()->sines(state);
-    return {std::asin(s.friction),
-            s.friction_rate / s.friction_cosine,
-            std::asin(s.dilatancy),
-            s.dilatancy_rate / cosine(s.dilatancy),
-            s.cohesion,
-            s.cohesion_rate};
+    return {{std::asin(s.friction.value), s.friction.rate / s.friction_cosine},
+            {std::asin(s.dilatancy.value), s.dilatancy.rate / cosine(s.dilatancy.value)},
+            s.cohesion};
   }
 
   StrengthBySines Hardening::sines_at(const HardeningState &state) const
@@ -98,9 +94,9 @@ namespace diptych::continuum
     own                  = {from.stress_ratio_gain, from.densification};
   }
 
-  std::optional<Dilation> Hardening::mean_dilation(const HardeningState &start,
-                                                   const HardeningState &end,
-                                                   const double          multiplier) const
+  std::optional<Rated> Hardening::mean_dilation(const HardeningState &start,
+                                                const HardeningState &end,
+                                                const double          multiplier) const
   {
     if (!critical())
       return {};

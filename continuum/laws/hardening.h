@@ -11,12 +11,18 @@ namespace diptych::continuum
 {
   inline HardeningState hardening_state(const MaterialState &state)
   {
-    const auto *critical = std::get_if<CriticalState>(&state.own);
+    HardeningState s;
+    s.equivalent_plastic_strain = state.equivalent_plastic_strain;
+    s.nonlocal_plastic_strain   = part_of<NonlocalState>(state).plastic_strain;
+    const auto *critical        = std::get_if<CriticalState>(&state.own);
     if (!critical)
       critical = std::get_if<KinematicState>(&state.own);
     if (critical)
-      return {state.equivalent_plastic_strain, critical->stress_ratio_gain, critical->densification, 0};
-    return {state.equivalent_plastic_strain, 0, 0, part_of<NonlocalState>(state).plastic_strain};
+      {
+        s.stress_ratio_gain = critical->stress_ratio_gain;
+        s.densification     = critical->densification;
+      }
+    return s;
   }
 
   // Hardening of any kind, as a law reads it.
@@ -31,7 +37,7 @@ namespace diptych::continuum
     Strength        at(const HardeningState &state) const;
     Strength        at(const double equivalent_plastic_strain) const { return at(HardeningState{equivalent_plastic_strain}); }
     StrengthBySines sines_at(const HardeningState &state) const;
-    // The same values; the rates are derivatives by the nonlocal hardening variable at a constant local one.
+    // As sines_at(), but the rates are derivatives by the nonlocal hardening variable at a constant local one.
     StrengthBySines sines_by_nonlocal(const HardeningState &state) const;
 
     // A lower bound of sin psi at any state. Only critical_state contracts.
@@ -48,7 +54,7 @@ namespace diptych::continuum
 
     // Mean dilation of a critical-state law over the step from `start` to `end` = after(start, multiplier). It keeps volume and
     // solid fraction consistent. The flow of any other law uses the dilation at the end: no value.
-    std::optional<Dilation> mean_dilation(const HardeningState &start, const HardeningState &end, double multiplier) const;
+    std::optional<Rated> mean_dilation(const HardeningState &start, const HardeningState &end, double multiplier) const;
 
     const HardeningForm &form() const { return form_; }
 

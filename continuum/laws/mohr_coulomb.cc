@@ -48,7 +48,7 @@ namespace diptych::continuum
   double MohrCoulomb::shear_strength(const MaterialState &state) const
   {
     const Cone c = cone.at(hardening_state(state));
-    return outer(state).pressure() * c.slope + c.intercept;
+    return outer(state).pressure() * c.slope.value + c.intercept.value;
   }
 
   double MohrCoulomb::yield_function(const MaterialState &state) const
@@ -62,8 +62,8 @@ namespace diptych::continuum
     const ConeStart start = start_of(s0);
     const double    zz    = trial.state.stress_zz;
     const Outer     o     = outer(trial.shear, trial.pressure, zz);
-    const double    scale = o.shear() + std::abs(o.pressure()) + start.cone.intercept;
-    const double    yield = o.shear() - o.pressure() * start.cone.slope - start.cone.intercept;
+    const double    scale = o.shear() + std::abs(o.pressure()) + start.cone.intercept.value;
+    const double    yield = o.shear() - o.pressure() * start.cone.slope.value - start.cone.intercept.value;
     if (!std::isfinite(scale) || yield <= 1e-12 * scale)
       return elastic_answer(trial);
 

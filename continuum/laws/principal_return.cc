@@ -115,8 +115,8 @@ namespace diptych::continuum
       if (r.verdict == Verdict::failed || r.regime == Regime::apex)
         return {};
       PrincipalReturn answer = assemble(Branch::plane, r);
-      const double    loss   = problem.moduli.lateral * (r.dilation + r.dilation_rate * r.multiplier);
-      answer.stress[1]       = problem.trial[1] - problem.moduli.lateral * r.dilation * r.multiplier;
+      const double    loss   = problem.moduli.lateral * (r.dilation.value + r.dilation.rate * r.multiplier);
+      answer.stress[1]       = problem.trial[1] - problem.moduli.lateral * r.dilation.value * r.multiplier;
       answer.jacobian[1]     = gradient(weights(Branch::plane), -loss * r.multiplier_by_shear, -loss * r.multiplier_by_pressure);
       answer.jacobian[1][1] += 1;
       if (answer.stress[1] > answer.stress[0] || answer.stress[1] < answer.stress[2])
@@ -133,7 +133,7 @@ namespace diptych::continuum
         return {};
       const bool   right      = branch == Branch::right_edge;
       const double difference = right ? problem.trial[1] - problem.trial[2] : problem.trial[0] - problem.trial[1];
-      if (difference > problem.moduli.shear * (1 + (right ? -r.dilation : r.dilation)) * r.multiplier * (1 + 1e-10))
+      if (difference > problem.moduli.shear * (1 + (right ? -r.dilation.value : r.dilation.value)) * r.multiplier * (1 + 1e-10))
         return {};
       return assemble(branch, r);
     }

@@ -10,7 +10,6 @@
 
 namespace diptych::continuum
 {
-
   constexpr double one_degree = 3.14159265358979323846 / 180;
 
   inline double cosine(const double sine)
@@ -18,27 +17,25 @@ namespace diptych::continuum
     return std::sqrt((1 - sine) * (1 + sine));
   }
 
-  // Strength at one value of the hardening variable. A `_rate` is the derivative by that variable.
+  // A value with its derivative by the hardening variable.
+  struct Rated
+  {
+    double value = 0, rate = 0;
+  };
+
+  // Strength at one value of the hardening variable.
   struct Strength
   {
-    double friction = 0, friction_rate = 0;   // phi [radians]
-    double dilatancy = 0, dilatancy_rate = 0; // psi [radians]
-    double cohesion = 0, cohesion_rate = 0;   // c [pressure]
+    Rated friction, dilatancy; // phi, psi [radians]
+    Rated cohesion;            // c [pressure]
   };
 
-  // The same with the sines of the angles in place of the angles.
+  // Strength with the sines of the angles in place of the angles.
   struct StrengthBySines
   {
-    double friction = 0, friction_rate = 0;   // sin phi
-    double dilatancy = 0, dilatancy_rate = 0; // sin psi
-    double cohesion = 0, cohesion_rate = 0;   // c [pressure]
-    double friction_cosine = 1;               // cos phi
-  };
-
-  // sin psi over a step, with its derivative by the multiplier.
-  struct Dilation
-  {
-    double sine = 0, rate = 0;
+    Rated  friction, dilatancy; // sin phi, sin psi
+    Rated  cohesion;            // c [pressure]
+    double friction_cosine = 1; // cos phi
   };
 
   // The part of a MaterialState on which the strength depends.
@@ -49,11 +46,15 @@ namespace diptych::continuum
     double nonlocal_plastic_strain = 0;              // gradient laws
   };
 
-  // Strength at one value of the hardening variable, as a scene gives it.
+  // Strength as a scene gives it, for one value of the hardening variable.
   struct StrengthPoint
   {
-    double strain = 0, friction = 0, dilatancy = 0, cohesion = 0; // [-, radians, pressure]
+    double friction = 0, dilatancy = 0, cohesion = 0; // [radians, radians, pressure]
   };
+  inline Strength constant(const StrengthPoint &p)
+  {
+    return {{p.friction, 0}, {p.dilatancy, 0}, {p.cohesion, 0}};
+  }
 
   // Throws WrongKeys unless dilatancy <= friction [degrees] and friction or cohesion is positive. `place`: "at the peak".
   inline void check_strength(const std::string              &place,

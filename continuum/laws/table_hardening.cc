@@ -11,20 +11,18 @@ namespace diptych::continuum
     constexpr double StrengthPoint::*strengths[] = {&StrengthPoint::friction, &StrengthPoint::dilatancy,
                                                     &StrengthPoint::cohesion};
 
-    Strength interpolated(const std::vector<StrengthPoint> &table, const double strain_at)
+    Strength interpolated(const std::vector<double> &strain, const std::vector<StrengthPoint> &table, const double strain_at)
     {
-      const auto next = std::upper_bound(table.begin(), table.end(), strain_at,
-                                         [](const double strain, const StrengthPoint &point) { return strain < point.strain; });
-      if (next == table.begin() || next == table.end())
-        {
-          const StrengthPoint &end = next == table.begin() ? table.front() : table.back();
-          return {end.friction, 0, end.dilatancy, 0, end.cohesion, 0};
-        }
-      const StrengthPoint &a = *(next - 1), &b = *next;
-      const double         width = b.strain - a.strain, x = strain_at - a.strain;
-      const double         friction = (b.friction - a.friction) / width, dilatancy = (b.dilatancy - a.dilatancy) / width;
-      const double         cohesion = (b.cohesion - a.cohesion) / width;
-      return {a.friction + friction * x, friction, a.dilatancy + dilatancy * x, dilatancy, a.cohesion + cohesion * x, cohesion};
+      const std::size_t next = std::upper_bound(strain.begin(), strain.end(), strain_at) - strain.begin();
+      if (next == 0 || next == strain.size())
+        return constant(next == 0 ? table.front() : table.back());
+      const StrengthPoint &a = table[next - 1], &b = table[next];
+      const double         width = strain[next] - strain[next - 1], x = strain_at - strain[next - 1];
+      const auto           value = [&](const double from, const double to) {
+        const double rate = (to - from) / width;
+        return Rated{from + rate * x, rate};
+      };
+      return {value(a.friction, b.friction), value(a.dilatancy, b.dilatancy), value(a.cohesion, b.cohesion)};
     }
   } // namespace
 
@@ -52,10 +50,10 @@ namespace diptych::continuum
 
   // A rise read at the softening variable of m > 1 would soften at a constant kbar, and the solution would lose its length.
   TableHardening::TableHardening(const TableOptions &o, const bool is_nonlocal)
+      : strain(o.table_strain)
   {
-    for (std::size_t k = 0; k < o.table_strain.size(); ++k)
-      falls.push_back({o.table_strain[k], o.table_friction_angle[k] * one_degree, o.table_dilatancy_angle[k] * one_degree,
-                       o.table_cohesion[k]});
+    for (std::size_t k = 0; k < strain.size(); ++k)
+      falls.push_back({o.table_friction_angle[k] * one_degree, o.table_dilatancy_angle[k] * one_degree, o.table_cohesion[k]});
     if (!is_nonlocal)
       return;
     rises.assign(falls.size(), {});
@@ -63,23 +61,20 @@ namespace diptych::continuum
       for (double StrengthPoint::*value : strengths)
         rises[k].*value = std::max(0., falls[k].*value - falls[k - 1].*value);
     for (std::size_t k = 1; k < falls.size(); ++k)
-      {
-        rises[k].strain = falls[k].strain;
-        for (double StrengthPoint::*value : strengths)
-          {
-            rises[k].*value += rises[k - 1].*value;
-            falls[k].*value -= rises[k].*value;
-          }
-      }
+      for (double StrengthPoint::*value : strengths)
+        {
+          rises[k].*value += rises[k - 1].*value;
+          falls[k].*value -= rises[k].*value;
+        }
   }
 
   Strength TableHardening::falling(const double kappa) const
   {
-    return interpolated(falls, kappa);
+    return interpolated(strain, falls, kappa);
   }
 
   Strength TableHardening::rising(const double kappa) const
   {
-    return rises.empty() ? Strength() : interpolated(rises, kappa);
+    return rises.empty() ? Strength() : interpolated(strain, rises, kappa);
   }
 } // namespace diptych::continuum

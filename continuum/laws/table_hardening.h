@@ -47,6 +47,7 @@ namespace diptych::continuum
     Strength falling(double kappa) const;
     Strength rising(double kappa) const;
 
-    std::vector<StrengthPoint> falls, rises; // rises: from 0; empty for a local law
+    std::vector<double>        strain;
+    std::vector<StrengthPoint> falls, rises; // at `strain`; rises: from 0, empty for a local law
   };
 } // namespace diptych::continuum

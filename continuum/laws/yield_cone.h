@@ -7,12 +7,12 @@
 namespace diptych::continuum
 {
   // F = |q| - s slope - intercept, with the pressure s (positive in compression) and a deviatoric vector q. The plastic volume
-  // strain is `dilation` times the plastic multiplier. A `_rate` is the derivative by the hardening variable.
+  // strain is `dilation` times the plastic multiplier.
   struct Cone
   {
-    double slope = 0, slope_rate = 0;
-    double intercept = 0, intercept_rate = 0; // [pressure]
-    double dilation = 0, dilation_rate = 0;
+    Rated slope;
+    Rated intercept; // [pressure]
+    Rated dilation;
   };
 
   // slope = sin phi, intercept = c cos phi, dilation = sin psi.

@@ -85,7 +85,7 @@ namespace diptych::continuum
           if (hardening)
             {
               const HardeningState now = hardening_state(point);
-              state.friction_angle += w * hardening->at(now).friction * one_radian;
+              state.friction_angle += w * hardening->at(now).friction.value * one_radian;
               state.solid_fraction += w * hardening->solid_fraction(now);
             }
           state.area += w;

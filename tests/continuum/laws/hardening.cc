@@ -20,9 +20,9 @@ namespace
             const double    h  = 1e-6;
             const auto      at = [&](const double strain) { return cone.at(cone.hardening.after({}, strain)); };
             const Cone      c = at(kappa), up = at(kappa + h), down = at(kappa - h);
-            EXPECT_NEAR((up.slope - down.slope) / (2 * h), c.slope_rate, 1e-6) << name;
-            EXPECT_NEAR((up.intercept - down.intercept) / (2 * h), c.intercept_rate, 1e-6) << name;
-            EXPECT_NEAR((up.dilation - down.dilation) / (2 * h), c.dilation_rate, 1e-6) << name;
+            EXPECT_NEAR((up.slope.value - down.slope.value) / (2 * h), c.slope.rate, 1e-6) << name;
+            EXPECT_NEAR((up.intercept.value - down.intercept.value) / (2 * h), c.intercept.rate, 1e-6) << name;
+            EXPECT_NEAR((up.dilation.value - down.dilation.value) / (2 * h), c.dilation.rate, 1e-6) << name;
           }
   }
 
@@ -30,22 +30,22 @@ namespace
   TEST(Hardening, FollowsTableAndDecay)
   {
     const Hardening table(hardenings()["table"]), decay(LawOptions{}), constant_(constant(20.5, 12, 0.1));
-    EXPECT_NEAR(table.at(0).friction / degree, 15, 1e-12);
-    EXPECT_NEAR(table.at(0.01).friction / degree, 22.5, 1e-12);
-    EXPECT_NEAR(table.at(0.06).friction / degree, 26, 1e-12);
-    EXPECT_NEAR(table.at(0.06).dilatancy / degree, 7, 1e-12);
-    EXPECT_NEAR(table.at(0.06).cohesion, 0.05, 1e-12);
-    EXPECT_NEAR(table.at(7).friction / degree, 22, 1e-12);
-    EXPECT_NEAR(decay.at(0.075).friction / degree, 13.5 + 7 * std::exp(-1), 1e-12);
-    EXPECT_NEAR(decay.at(5).cohesion, 0.01, 1e-15) << "without a residual value cohesion is constant";
+    EXPECT_NEAR(table.at(0).friction.value / degree, 15, 1e-12);
+    EXPECT_NEAR(table.at(0.01).friction.value / degree, 22.5, 1e-12);
+    EXPECT_NEAR(table.at(0.06).friction.value / degree, 26, 1e-12);
+    EXPECT_NEAR(table.at(0.06).dilatancy.value / degree, 7, 1e-12);
+    EXPECT_NEAR(table.at(0.06).cohesion.value, 0.05, 1e-12);
+    EXPECT_NEAR(table.at(7).friction.value / degree, 22, 1e-12);
+    EXPECT_NEAR(decay.at(0.075).friction.value / degree, 13.5 + 7 * std::exp(-1), 1e-12);
+    EXPECT_NEAR(decay.at(5).cohesion.value, 0.01, 1e-15) << "without a residual value cohesion is constant";
     // 13.5 + 7 exp(-k/0.05) - 7.5 exp(-k/0.01) is 13 at the start and later that of `exponential`. Dilatancy is always that of
     // `exponential`.
     const Hardening rising(hardenings()["mobilisation"]), falling(hardenings()["exponential"]);
-    EXPECT_NEAR(rising.at(0).friction / degree, 13, 1e-12);
-    EXPECT_NEAR(rising.at(0.01).friction / degree, 13.5 + 7 * std::exp(-0.2) - 7.5 * std::exp(-1), 1e-12);
-    EXPECT_NEAR(rising.at(0.3).friction, falling.at(0.3).friction, 1e-12);
-    EXPECT_EQ(rising.at(0.01).dilatancy, falling.at(0.01).dilatancy);
-    EXPECT_NEAR(constant_.at(9).friction / degree, 20.5, 1e-12);
+    EXPECT_NEAR(rising.at(0).friction.value / degree, 13, 1e-12);
+    EXPECT_NEAR(rising.at(0.01).friction.value / degree, 13.5 + 7 * std::exp(-0.2) - 7.5 * std::exp(-1), 1e-12);
+    EXPECT_NEAR(rising.at(0.3).friction.value, falling.at(0.3).friction.value, 1e-12);
+    EXPECT_EQ(rising.at(0.01).dilatancy.value, falling.at(0.01).dilatancy.value);
+    EXPECT_NEAR(constant_.at(9).friction.value / degree, 20.5, 1e-12);
   }
 
   // Softens to below its dilatancy before friction is mobilised.
@@ -116,7 +116,7 @@ namespace
 
   double eta(const Hardening &hardening, const HardeningState &state)
   {
-    return std::sin(hardening.at(state).friction);
+    return std::sin(hardening.at(state).friction.value);
   }
 
   // Far along the path: eta = eta_c, no dilation, solid fraction nu_c, from either side.
@@ -127,7 +127,7 @@ namespace
         const Hardening      hardening(critical(solid_fraction, 0.1));
         const HardeningState end = hardening.after({}, 3);
         EXPECT_NEAR(eta(hardening, end), 0.26, 1e-9);
-        EXPECT_NEAR(hardening.at(end).dilatancy, 0, 1e-9);
+        EXPECT_NEAR(hardening.at(end).dilatancy.value, 0, 1e-9);
         EXPECT_NEAR(solid_fraction * std::exp(end.densification), 0.82, 1e-9);
       }
   }
@@ -141,10 +141,10 @@ namespace
     for (int k = 0; k < 60; ++k)
       {
         const double middle                                                        = 0.5 * (low + high);
-        (hardening.at(hardening.after({}, middle)).friction_rate > 0 ? low : high) = middle;
+        (hardening.at(hardening.after({}, middle)).friction.rate > 0 ? low : high) = middle;
       }
-    const HardeningState peak           = hardening.after({}, low);
-    const double         solid_fraction = 0.86 * std::exp(peak.densification), sine = std::sin(hardening.at(peak).dilatancy);
+    const HardeningState peak   = hardening.after({}, low);
+    const double solid_fraction = 0.86 * std::exp(peak.densification), sine = std::sin(hardening.at(peak).dilatancy.value);
     EXPECT_GT(eta(hardening, peak), 0.27);
     EXPECT_NEAR(sine, 5.5 * 0.82 * std::log(solid_fraction / 0.82) / 0.55, 1e-9);
     EXPECT_NEAR(sine / (5.5 * (solid_fraction - 0.82) / 0.55), 1, 0.02);
@@ -169,7 +169,8 @@ namespace
             EXPECT_NEAR((up.stress_ratio_gain - down.stress_ratio_gain) / (2 * h), (possible - eta(hardening, here)) / strain,
                         1e-6)
               << g;
-            EXPECT_NEAR((up.densification - down.densification) / (2 * h), -std::sin(hardening.at(here).dilatancy), 1e-7) << g;
+            EXPECT_NEAR((up.densification - down.densification) / (2 * h), -std::sin(hardening.at(here).dilatancy.value), 1e-7)
+              << g;
             walked = hardening.after(walked, 0.003);
             EXPECT_NEAR(walked.stress_ratio_gain, here.stress_ratio_gain, 1e-12);
             EXPECT_NEAR(walked.densification, here.densification, 1e-12);
@@ -187,11 +188,11 @@ namespace
           const YieldCone      cone{Hardening(critical(0.85, start)), ConeShape::mohr_coulomb};
           const HardeningState here = cone.hardening.after({}, 0.01), end = cone.hardening.after(here, step);
           const Cone           c = cone.over(here, step);
-          EXPECT_NEAR(c.dilation * step, here.densification - end.densification, 1e-9 * step + 1e-14) << step;
-          EXPECT_EQ(c.slope, cone.at(end).slope);
+          EXPECT_NEAR(c.dilation.value * step, here.densification - end.densification, 1e-9 * step + 1e-14) << step;
+          EXPECT_EQ(c.slope.value, cone.at(end).slope.value);
           const double h = 0.05 * step;
-          EXPECT_NEAR((cone.over(here, step + h).dilation - cone.over(here, step - h).dilation) / (2 * h), c.dilation_rate,
-                      2e-3 * std::abs(c.dilation_rate) + 1e-8 / step)
+          EXPECT_NEAR((cone.over(here, step + h).dilation.value - cone.over(here, step - h).dilation.value) / (2 * h),
+                      c.dilation.rate, 2e-3 * std::abs(c.dilation.rate) + 1e-8 / step)
             << step;
         }
   }

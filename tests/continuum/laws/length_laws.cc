@@ -72,19 +72,19 @@ namespace
     o.table_dilatancy_angle = o.table_cohesion = {0, 0};
     HardeningState state{0.03};
     state.nonlocal_plastic_strain = 0.04;
-    EXPECT_NEAR(Hardening(o, 2).at(state).friction, 25 * degree, 1e-12);
-    EXPECT_NEAR(Hardening(o, 2).at(state).friction_rate, 100 * degree, 1e-12); // falls with kbar, rises with kappa
-    EXPECT_NEAR(Hardening(o, 2).sines_by_nonlocal(state).friction_rate, -200 * degree * std::cos(25 * degree), 1e-12);
+    EXPECT_NEAR(Hardening(o, 2).at(state).friction.value, 25 * degree, 1e-12);
+    EXPECT_NEAR(Hardening(o, 2).at(state).friction.rate, 100 * degree, 1e-12); // falls with kbar, rises with kappa
+    EXPECT_NEAR(Hardening(o, 2).sines_by_nonlocal(state).friction.rate, -200 * degree * std::cos(25 * degree), 1e-12);
     o.table_strain          = {0, 0.03, 0.13};
     o.table_friction_angle  = {10, 30, 20}; // rises by 20, and falls from the softening variable 0.03 on
     o.table_dilatancy_angle = o.table_cohesion = {0, 0, 0};
-    EXPECT_NEAR(Hardening(o, 2).at(state).friction, 28 * degree, 1e-12);
-    EXPECT_NEAR(Hardening(o, 2).sines_by_nonlocal(state).friction_rate, -200 * degree * std::cos(28 * degree), 1e-12);
+    EXPECT_NEAR(Hardening(o, 2).at(state).friction.value, 28 * degree, 1e-12);
+    EXPECT_NEAR(Hardening(o, 2).sines_by_nonlocal(state).friction.rate, -200 * degree * std::cos(28 * degree), 1e-12);
     LawOptions m              = constant(30, 0, 0);
     m.hardening               = kind_of<MobilisationHardening>;
     m.friction_angle_residual = 20, m.dilatancy_angle_residual = 0, m.friction_angle_start = 10;
     m.softening_strain = 0.05, m.mobilisation_strain = 0.03;
-    EXPECT_NEAR(Hardening(m, 2).at(state).friction, (20 - 10 * std::exp(-1.)) * degree, 1e-12);
+    EXPECT_NEAR(Hardening(m, 2).at(state).friction.value, (20 - 10 * std::exp(-1.)) * degree, 1e-12);
     EXPECT_THROW(make_law(LawKind::gradient_drucker_prager, critical(0.82, 0.1)), std::invalid_argument);
   }
 

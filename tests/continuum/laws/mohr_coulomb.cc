@@ -139,11 +139,11 @@ namespace
             const PlasticStrain  &p = answer.state.plastic_strain;
             const Eigen::Vector3d flow(p.xx, p.yy, p.zz);
             const Strength        end   = Hardening(options).at(answer.state.equivalent_plastic_strain);
-            const auto            yield = planes(end.friction / degree), direction = planes(end.dilatancy / degree);
+            const auto            yield = planes(end.friction.value / degree), direction = planes(end.dilatancy.value / degree);
             Eigen::MatrixXd       active(3, 0);
             for (unsigned int k = 0; k < 6; ++k)
               {
-                const double F = yield[k].normal.dot(principal(answer.state)) - end.cohesion * std::cos(end.friction);
+                const double F = yield[k].normal.dot(principal(answer.state)) - end.cohesion.value * std::cos(end.friction.value);
                 EXPECT_LT(F, answer.state.overstress + 1e-11);
                 if (F < answer.state.overstress - 1e-9)
                   continue;
