@@ -20,16 +20,31 @@ namespace diptych::continuum
       return n_built_in + (library != nullptr ? unsigned(library->library().law->n_variables) : 0);
     }
 
-    std::vector<double> packed(const MaterialState &s)
+    // The numbers that follow the stress.
+    std::array<double *, n_built_in - 2 * n_components> numbers(MaterialState &s, HardeningState &hardening)
     {
-      const HardeningState hardening = hardening_state(s);
-      const PlasticStrain &plastic   = s.plastic_strain;
-      const Stress        &back      = part_of<KinematicState>(s).back_stress_ratio;
-      const LibraryState  &variables = part_of<LibraryState>(s);
-      std::vector<double>  values(&s.stress[0], &s.stress[0] + n_components);
-      values.insert(values.end(),
-                    {s.stress_zz, hardening.nonlocal_plastic_strain, s.equivalent_plastic_strain, s.overstress, plastic.xx,
-                     plastic.yy, plastic.zz, plastic.xy, s.dissipation, hardening.stress_ratio_gain, hardening.densification});
+      PlasticStrain &plastic = s.plastic_strain;
+      return {&s.stress_zz,
+              &hardening.nonlocal_plastic_strain,
+              &s.equivalent_plastic_strain,
+              &s.overstress,
+              &plastic.xx,
+              &plastic.yy,
+              &plastic.zz,
+              &plastic.xy,
+              &s.dissipation,
+              &hardening.stress_ratio_gain,
+              &hardening.densification};
+    }
+
+    std::vector<double> packed(MaterialState s)
+    {
+      HardeningState      hardening = hardening_state(s);
+      const Stress       &back      = part_of<KinematicState>(s).back_stress_ratio;
+      const LibraryState &variables = part_of<LibraryState>(s);
+      std::vector<double> values(&s.stress[0], &s.stress[0] + n_components);
+      for (const double *number : numbers(s, hardening))
+        values.push_back(*number);
       values.insert(values.end(), &back[0], &back[0] + n_components);
       values.insert(values.end(), variables.begin(), variables.end());
       return values;
@@ -37,20 +52,19 @@ namespace diptych::continuum
 
     MaterialState unpacked(const Law &law, const double *values, const unsigned int n)
     {
-      MaterialState s;
+      MaterialState  s;
+      HardeningState state;
       std::copy_n(values, n_components, &s.stress[0]);
-      const double *rest = values + n_components, *back = values + n_built_in - n_components;
-      s.stress_zz                 = rest[0];
-      s.equivalent_plastic_strain = rest[2];
-      s.overstress                = rest[3];
-      s.plastic_strain            = {rest[4], rest[5], rest[6], rest[7]};
-      s.dissipation               = rest[8];
+      const double *next = values + n_components;
+      for (double *number : numbers(s, state))
+        *number = *next++;
+      state.equivalent_plastic_strain = s.equivalent_plastic_strain;
       if (const Hardening *hardening = std::visit([](const auto &one) { return one.hardening(); }, law))
-        hardening->write({rest[2], rest[9], rest[10]}, s);
+        hardening->write(state, s);
       if (auto *moving = std::get_if<KinematicState>(&s.own))
-        std::copy_n(back, n_components, &moving->back_stress_ratio[0]);
+        std::copy_n(next, n_components, &moving->back_stress_ratio[0]);
       if (std::holds_alternative<GradientLaw>(law))
-        s.own = NonlocalState{rest[1]};
+        s.own = NonlocalState{state.nonlocal_plastic_strain};
       if (std::holds_alternative<LibraryLaw>(law))
         s.own = LibraryState(values + n_built_in, values + n);
       return s;
