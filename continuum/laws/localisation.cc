@@ -46,7 +46,13 @@ namespace diptych::continuum
       for (unsigned int k = 0; k < 5; ++k)
         a[k] -= b[k];
       // cos^2 = (1 + cos phi)/2, sin^2 = (1 - cos phi)/2, cos sin = sin(phi)/2
-      return {(3 * (a[0] + a[4]) + a[2]) / 8, (a[0] - a[4]) / 2, (a[1] + a[3]) / 4, (a[0] - a[2] + a[4]) / 8, (a[1] - a[3]) / 8};
+      Harmonics f;
+      f.mean = (3 * (a[0] + a[4]) + a[2]) / 8;
+      f.c1   = (a[0] - a[4]) / 2;
+      f.s1   = (a[1] + a[3]) / 4;
+      f.c2   = (a[0] - a[2] + a[4]) / 8;
+      f.s2   = (a[1] - a[3]) / 8;
+      return f;
     }
 
     struct Direction
@@ -114,9 +120,10 @@ namespace diptych::continuum
 
   Localisation localisation(const Tangent &tangent, const Tangent &elastic)
   {
-    const double     scale = 1 / (elastic[xx][xx] * elastic[xy][xy]); // isotropic: det Q = (lambda + 2 mu) mu
-    const Harmonics  d     = determinant(tangent);
-    const Harmonics  f{d.mean * scale, d.c1 * scale, d.s1 * scale, d.c2 * scale, d.s2 * scale};
+    const double scale = 1 / (elastic[xx][xx] * elastic[xy][xy]); // isotropic: det Q = (lambda + 2 mu) mu
+    Harmonics    f     = determinant(tangent);
+    for (double *coefficient : {&f.mean, &f.c1, &f.s1, &f.c2, &f.s2})
+      *coefficient *= scale;
     constexpr double same = 1e-9; // tolerance of equal determinants
     if (!(std::abs(f.c1) + std::abs(f.s1) + std::abs(f.c2) + std::abs(f.s2) > same))
       return {f.mean, 0.};

@@ -82,10 +82,13 @@ namespace diptych::discrete
       for (int b = 0; b < g.n_bodies(); ++b)
         {
           const double *v = &g.free_velocity[3 * b];
+          BodyVelocity  body{v[0], v[1], 0, 0};
           if (g.is_disc(b))
-            bodies.push_back({v[0], v[1], g.radius[b] * v[2], g.inverse_mass[3 * b]});
-          else
-            bodies.push_back({v[0], v[1], 0, 0});
+            {
+              body.surface      = g.radius[b] * v[2];
+              body.inverse_mass = g.inverse_mass[3 * b];
+            }
+          bodies.push_back(body);
         }
       return bodies;
     }
