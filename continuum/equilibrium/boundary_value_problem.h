@@ -112,6 +112,7 @@ namespace diptych::continuum
 
     const Discretisation &discretisation() const { return mesh; }
     Discretisation       &discretisation() { return mesh; }
+    bool                  moves() const { return options.geometry == Kinematics::updated; } // geometry() follows the displacement
     const Geometry       &geometry() const { return current; } // shape on which the committed state is in equilibrium
     const Geometry       &moved_geometry() const { return moves() ? current : moved; } // shape after the committed displacement
     const Law            &law() const { return material; }
@@ -140,7 +141,6 @@ namespace diptych::continuum
   private:
     void                                   set_conditions(const SideContact &contact, const CheckStop &check_stop = {});
     void                                   move_nodes();
-    bool                                   moves() const { return options.geometry == Kinematics::updated; }
     std::array<PlatenPlane, 2>             platen_planes() const;
     void                                   find_loads();
     std::vector<double>                    trial_displacement() const;

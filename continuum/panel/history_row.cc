@@ -26,15 +26,14 @@ namespace diptych::continuum
         matrix.data()[k] = sum(matrix.data()[k], communicator);
     }
 
-    // On the shape that is in equilibrium.
+    // Part of the mean sxx that the platens cause on problem.geometry().
     double platen_sxx(const BoundaryValueProblem &problem)
     {
       const auto &mesh     = problem.discretisation();
       const auto &moved    = problem.committed().displacement;
-      const auto  position = positions(
-         mesh, &problem.geometry() == &problem.moved_geometry() ? moved : std::vector<double>(moved.size(), 0.));
-      const auto forces = problem.platen_node_forces();
-      double     moment = 0;
+      const auto  position = positions(mesh, problem.moves() ? moved : std::vector<double>(moved.size(), 0.));
+      const auto  forces   = problem.platen_node_forces();
+      double      moment   = 0;
       for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
         if (const auto dof = mesh.nodes[i].dofs[0]; mesh.owned.is_element(dof))
           moment -= position[i].x() * forces[mesh.relevant.index_within_set(dof)];
