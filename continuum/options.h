@@ -115,8 +115,8 @@ namespace diptych::continuum
     Displacement   element               = Displacement::automatic;
     Kinematics     geometry              = Kinematics::updated;
     Platens        platens               = Platens::rough;
-    double         platen_friction       = 0.17;
-    double         platen_slip_length    = 13;
+    double         platen_friction       = 0; // coupling derives both from the friction between the grains
+    double         platen_slip_length    = 0;
     PlatenRotation platen_rotation       = PlatenRotation::free;
     InitialStress  initial_stress        = InitialStress::isotropic;
     MeshOption     mesh                  = {};

@@ -49,17 +49,13 @@ namespace diptych::coupling
       if (upper == calibrated.end())
         return calibrated.back();
       const CalibratedLaw &a = *(upper - 1), &b = *upper;
-      const double         w       = (friction - a.friction) / (b.friction - a.friction);
-      const auto           between = [&](double CalibratedLaw::*value) { return tidy((1 - w) * a.*value + w * b.*value); };
-      using Law                    = CalibratedLaw;
-      return {friction,
-              between(&Law::peak),
-              between(&Law::start),
-              between(&Law::residual),
-              between(&Law::dilatancy),
-              between(&Law::youngs_modulus),
-              between(&Law::platens),
-              between(&Law::slip_length)};
+      const double         w = (friction - a.friction) / (b.friction - a.friction);
+      using Law              = CalibratedLaw;
+      Law law;
+      for (double Law::*const value : {&Law::friction, &Law::peak, &Law::start, &Law::residual, &Law::dilatancy,
+                                       &Law::youngs_modulus, &Law::platens, &Law::slip_length})
+        law.*value = tidy((1 - w) * a.*value + w * b.*value);
+      return law;
     }
 
     // benchmarks/studies/grains_inertia: 1e-3 is slow enough up to 2000 grains and 4e-4 for 4000. Beyond, the ratio of the
@@ -98,7 +94,7 @@ namespace diptych::coupling
       return continuum::traits(o.law).has_length() ? std::min(o.material.internal_length, 3.) : 2;
     }
 
-    // As in the calibrations of the default law. With steps of 0.005 one sample had the same peak and 1.2 % less dilation.
+    // The largest step of the calibrations of the default law. With 0.005 one sample had the same peak and 1.2 % less dilation.
     double largest_step(const LoadingOptions &o)
     {
       return o.mode == discrete::LoadingMode::time ? tidy(o.duration / 32) : std::min(1.25e-3, tidy(o.axial_strain / 8));
@@ -171,7 +167,7 @@ namespace diptych::coupling
 
     constexpr char by_friction[] = "from calibrations on dense samples, by discrete/friction";
 
-    // Each needs only keys that stand before it.
+    // The rule of a key needs only keys that stand before it.
     const DerivedKey derived_keys[] = {
       {"loading/inertial_number", "1e-3 up to 2000 grains, 4e-4 for 4000, then lower with the square root of their number",
        [](Scene &s, const Given &) { s.loading.inertial_number = slow_enough(discrete::expected_grains(s.sample)); }},
