@@ -21,17 +21,6 @@ namespace diptych::continuum
     return out.str();
   }
 
-  Loading straight_loading(const double pressure, const Eigen::Vector2d &travel, std::vector<double> stages)
-  {
-    Loading loading;
-    loading.pressure         = pressure;
-    loading.stages           = std::move(stages);
-    loading.loading_variable = travel.y() != 0 ? LoadingVariable::axial_strain : LoadingVariable::shear_strain;
-    for (unsigned int c = 0; c < 2; ++c)
-      loading.platens[1][c].value = [rate = travel[c]](const double progress) { return rate * progress; };
-    return loading;
-  }
-
   void validate(const Loading &loading)
   {
     require(loading.pressure >= 0, "pressure = ", loading.pressure, " is negative: give 0 or more");

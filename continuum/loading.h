@@ -76,9 +76,5 @@ namespace diptych::continuum
     double                              time_per_progress = 1; // 1 / strain rate if the progress is a strain
   };
 
-  // The upper platen moves by `travel` [length] per unit progress; the lower one is at rest. If the platen descends, the
-  // progress is descent / height, otherwise travel / height.
-  Loading straight_loading(double pressure, const Eigen::Vector2d &travel, std::vector<double> stages);
-
   void validate(const Loading &loading);
 } // namespace diptych::continuum

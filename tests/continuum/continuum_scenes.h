@@ -54,6 +54,19 @@ namespace diptych::continuum::tests
     return options;
   }
 
+  // The upper platen moves by `travel` [length] per unit progress; the lower one is at rest. If the platen descends, the
+  // progress is descent / height, otherwise travel / height.
+  inline Loading straight_loading(const double pressure, const Eigen::Vector2d &travel, std::vector<double> stages)
+  {
+    Loading loading;
+    loading.pressure         = pressure;
+    loading.stages           = std::move(stages);
+    loading.loading_variable = travel.y() != 0 ? LoadingVariable::axial_strain : LoadingVariable::shear_strain;
+    for (unsigned int c = 0; c < 2; ++c)
+      loading.platens[1][c].value = [rate = travel[c]](const double progress) { return rate * progress; };
+    return loading;
+  }
+
   inline Loading with_sides(Loading loading, const LateralCondition &sides)
   {
     loading.lateral = sides;
