@@ -35,7 +35,9 @@ namespace diptych::coupling
   struct KeyDescription
   {
     std::string              section, name, value, unit, allowed, meaning;
-    std::vector<std::string> choices = {}; // the allowed values, if the key has only a few
+    std::vector<std::string> choices; // the allowed values, if the key has only a few
+
+    std::string full_name() const { return section + "/" + name; }
   };
 
   // The shortest text that reads back as the same number. All files and messages use it.
@@ -124,16 +126,31 @@ namespace diptych::coupling
         allowed = "auto or " + allowed;
       if constexpr (std::is_same_v<Number, std::vector<double>>)
         allowed = "a list of numbers" + allowed.substr(std::string("a number").size());
-      keys.push_back({section, name, text_of(value), unit, allowed, meaning});
+      add(name, value, unit, meaning).allowed = allowed;
     }
     void operator()(const char *prefix, const continuum::LawParameters &parameters, const char *, const char *) const
     {
       for (const continuum::LawParameter &one : parameters.list)
-        keys.push_back({section, prefix + one.name, text_of(one.value), one.unit, allowed_number(one.range), one.meaning});
+        add(prefix + one.name, one.value, one.unit, one.meaning).allowed = allowed_number(one.range);
     }
     template <class Value> void operator()(const char *name, const Value &value, const char *unit, const char *meaning) const
     {
-      keys.push_back({section, name, text_of(value), unit, allowed_value(value), meaning, choices_of(value)});
+      KeyDescription &key = add(name, value, unit, meaning);
+      key.allowed         = allowed_value(value);
+      key.choices         = choices_of(value);
+    }
+
+  private:
+    template <class Value>
+    KeyDescription &add(const std::string &name, const Value &value, const std::string &unit, const std::string &meaning) const
+    {
+      KeyDescription &key = keys.emplace_back();
+      key.section         = section;
+      key.name            = name;
+      key.value           = text_of(value);
+      key.unit            = unit;
+      key.meaning         = meaning;
+      return key;
     }
   };
 

@@ -6,6 +6,13 @@
 
 namespace diptych::coupling
 {
+  std::vector<KeyDescription> keys_of(Scene scene)
+  {
+    std::vector<KeyDescription> keys;
+    for_each_section(scene, [&](const char *section, auto &options) { visit_parameters(options, DescribeKeys{section, keys}); });
+    return keys;
+  }
+
   std::vector<double> stages(const LoadingOptions &loading)
   {
     const bool   time          = loading.mode == discrete::LoadingMode::time;

@@ -9,7 +9,7 @@
 #include "coupling/averaging/averaging_options.h"
 #include "coupling/bands/band_options.h"
 #include "coupling/probes/probe_options.h"
-#include "coupling/scene/element_path.h"
+#include "coupling/scene/keys.h"
 #include "coupling/statistics/equivalence_margins.h"
 #include "discrete/panel/options.h"
 
@@ -137,6 +137,9 @@ namespace diptych::coupling
     function("comparison", scene.comparison);
     function("output", scene.output);
   }
+
+  // Every key with its value, section by section.
+  std::vector<KeyDescription> keys_of(Scene scene);
 
   // Progress (strain; mode time: time) at the end of each stage, ascending. `discrete_loading()` contains the same values.
   std::vector<double> stages(const LoadingOptions &loading);

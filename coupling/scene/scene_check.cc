@@ -97,13 +97,8 @@ namespace diptych::coupling
     std::map<std::string, std::string> values_of(const Scene &scene)
     {
       std::map<std::string, std::string> values;
-      Scene                              copy = scene;
-      for_each_section(copy, [&](const char *section, auto &options) {
-        std::vector<KeyDescription> keys;
-        visit_parameters(options, DescribeKeys{section, keys});
-        for (const KeyDescription &key : keys)
-          values[key.section + "/" + key.name] = key.value;
-      });
+      for (const KeyDescription &key : keys_of(scene))
+        values[key.full_name()] = key.value;
       return values;
     }
 
@@ -266,15 +261,10 @@ namespace diptych::coupling
                                           "discrete/method",      "discrete/file",    "discrete/lateral",
                                           "discrete/side_motion", "loading/pressure", "loading/mode",
                                           "loading/strain_rate",  "loading/stages",   "loading/axial_strain"};
-      Scene                       copy = scene;
-      for_each_section(copy, [&](const std::string &section, auto &options) {
-        std::vector<KeyDescription> names;
-        visit_parameters(options, DescribeKeys{section.c_str(), names});
-        if (section == "sample" || section == "discrete" || section == "loading")
-          for (const KeyDescription &key : names)
-            if (const std::string name = section + "/" + key.name; read.count(name) == 0)
-              keys.push_back({name, "discrete/method = imported"});
-      });
+      for (const KeyDescription &key : keys_of(scene))
+        if ((key.section == "sample" || key.section == "discrete" || key.section == "loading") &&
+            read.count(key.full_name()) == 0)
+          keys.push_back({key.full_name(), "discrete/method = imported"});
     }
 
     std::vector<Unused> unused_keys(const Scene &scene)

@@ -107,8 +107,7 @@ namespace diptych::coupling
       for (const Entry &entry : entries)
         set.insert(entry.name());
       const std::vector<KeyDescription> keys = described_keys("");
-      return std::all_of(keys.begin(), keys.end(),
-                         [&](const KeyDescription &key) { return set.count(key.section + "/" + key.name) > 0; });
+      return std::all_of(keys.begin(), keys.end(), [&](const KeyDescription &key) { return set.count(key.full_name()) > 0; });
     }
 
     std::vector<Entry> entries_with(const std::string &file, const std::vector<Entry> &changes)
@@ -138,8 +137,7 @@ namespace diptych::coupling
       std::vector<KeyDescription> keys = described_keys("");
       keys.erase(std::remove_if(keys.begin(), keys.end(),
                                 [&](const KeyDescription &key) {
-                                  const std::string &text = word.find('/') == std::string::npos ? key.name
-                                                                                                : key.section + "/" + key.name;
+                                  const std::string text = word.find('/') == std::string::npos ? key.name : key.full_name();
                                   return word.size() < 3 || text.find(word) == std::string::npos;
                                 }),
                  keys.end());
@@ -174,20 +172,20 @@ namespace diptych::coupling
   std::vector<KeyDescription> described_keys(const std::string &wanted_section)
   {
     std::vector<KeyDescription> keys;
-    Scene                       defaults;
-    for_each_section(defaults, [&](const char *section, auto &options) {
-      if (wanted_section.empty() || wanted_section == section)
-        visit_parameters(options, DescribeKeys{section, keys});
-    });
-    for (KeyDescription &key : keys)
-      if (is_derived(key.section + "/" + key.name))
-        {
-          key.value   = "auto";
-          key.allowed = "auto or " + key.allowed;
-          key.meaning += "; auto: " + rule_of(key.section + "/" + key.name);
-          if (!key.choices.empty())
-            key.choices.insert(key.choices.begin(), "auto");
-        }
+    for (KeyDescription &key : keys_of({}))
+      {
+        if (!wanted_section.empty() && wanted_section != key.section)
+          continue;
+        if (is_derived(key.full_name()))
+          {
+            key.value   = "auto";
+            key.allowed = "auto or " + key.allowed;
+            key.meaning += "; auto: " + rule_of(key.full_name());
+            if (!key.choices.empty())
+              key.choices.insert(key.choices.begin(), "auto");
+          }
+        keys.push_back(std::move(key));
+      }
     return keys;
   }
 
@@ -195,7 +193,7 @@ namespace diptych::coupling
   {
     std::vector<std::string> names;
     for (const KeyDescription &key : keys_like(word))
-      names.insert(key.name == word ? names.begin() : names.end(), key.section + "/" + key.name);
+      names.insert(key.name == word ? names.begin() : names.end(), key.full_name());
     return names.empty() ? "" : "keys with '" + word + "': " + discrete::listed(names);
   }
 
@@ -256,11 +254,6 @@ namespace diptych::coupling
     return entries;
   }
 
-  bool is_resolved_scene(const std::string &file)
-  {
-    return resolved_scene(file).has_value();
-  }
-
   std::optional<Scene> resolved_scene(const std::string &file)
   {
     std::error_code none;
@@ -290,16 +283,16 @@ namespace diptych::coupling
     if (!scene.method_reason.empty())
       out << "# discrete/method = auto became " << discrete::name_of(scene.discrete.method.method) << ": " << scene.method_reason
           << '\n';
-    Scene copy = scene;
-    for_each_section(copy, [&](const char *section, auto &options) {
-      std::vector<KeyDescription> keys;
-      visit_parameters(options, DescribeKeys{section, keys});
-      out << "\nsubsection " << section << '\n';
-      for (const KeyDescription &key : keys)
+    std::string section;
+    for (const KeyDescription &key : keys_of(scene))
+      {
+        if (key.section != section)
+          out << (section.empty() ? "" : "end\n") << "\nsubsection " << key.section << '\n';
+        section = key.section;
         out << "  # " << key.meaning << " [" << key.unit << "]; " << key.allowed << "\n  set " << key.name << " = "
             << prm_value(key.value) << '\n';
-      out << "end\n";
-    });
+      }
+    out << "end\n";
     return out.str();
   }
 

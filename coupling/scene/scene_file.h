@@ -37,9 +37,6 @@ namespace diptych::coupling
   // The resolved scene in .prm format: every key with its value and meaning. Files have absolute paths.
   std::string resolved_text(const Scene &scene);
 
-  // True if a file sets every key, as a resolved scene does.
-  bool is_resolved_scene(const std::string &file);
-
   // The resolved scene of a result folder (scene.prm, ensemble.prm). Files that it names may be gone. Empty if the file is
   // missing or comes from a version with other keys.
   std::optional<Scene> resolved_scene(const std::string &file);
