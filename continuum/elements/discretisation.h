@@ -76,7 +76,7 @@ namespace diptych::continuum
     // All nodes of a boundary on every process, in ascending order of their dofs. Collective.
     std::vector<Node> boundary_nodes(unsigned int id) const;
 
-    // Those of them whose displaced position satisfies `is_there`. `displacement` is given on the relevant dofs. Collective.
+    // The nodes of a boundary whose displaced position satisfies `is_there`. `displacement`: on the relevant dofs. Collective.
     std::vector<Node> boundary_nodes(unsigned int                                        id,
                                      const std::vector<double>                          &displacement,
                                      const std::function<bool(const Eigen::Vector2d &)> &is_there) const;

@@ -79,7 +79,7 @@ namespace diptych::continuum
       return s;
     }
 
-    // From the force per area at the end to that at the start.
+    // Converts a force per area at the end of the step to one per area at its start.
     template <class V> void pull_back(Forces<V> &p, const double (&cofactor)[2][2], const double determinant)
     {
       for (const unsigned int k : {unsigned(ux_x), unsigned(uy_x), unsigned(omega_x)})

@@ -33,7 +33,7 @@ namespace diptych::continuum
     double        angle() const { return angle_; }   // of the material, anticlockwise [radians]; small: 0
     bool          is_inverted() const { return !(determinant > 0); }
 
-    // Of a stress of the law, which is not turned yet.
+    // Nodal force of a stress that the law returned, and its tangent. The stress is not turned yet.
     PiolaStress  force(const Stress &stress) const;
     PiolaTangent tangent(const Stress &stress, const Tangent &law) const;
 

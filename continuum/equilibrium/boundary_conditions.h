@@ -66,7 +66,7 @@ namespace diptych::continuum
     // Nodes of the lower and the upper platen on all processes, including those in side contact.
     const std::array<std::vector<Node>, 2> &platens() const { return platen_nodes; }
 
-    // On all processes; empty without friction.
+    // All nodes that slide along walls, on every process; empty without friction.
     const std::vector<SlidingNode> &sliding_nodes() const { return sliding; }
 
     // The part of the nodal forces that the platens exert. Both on the relevant dofs.

@@ -18,7 +18,8 @@ namespace diptych::continuum
 
   namespace
   {
-    // Of the residual. A Newton iteration needs no more, unless it is difficult: then its tangent was factorised.
+    // Factors by which GMRES reduces the residual. Newton's method needs no more than the first. A difficult iteration has a new
+    // factorisation and takes the second.
     constexpr double reduction = 1e-2, fresh_reduction = 1e-6;
     // Number of allowed iterations, and the number above which a new preconditioner pays. Multigrid always needs many.
     struct Patience

@@ -59,7 +59,7 @@ namespace diptych::continuum
     double xx = 0, yy = 0, zz = 0, xy = 0;
   };
 
-  // What one kind of law follows besides. It counts from the start of the loading, where it is zero.
+  // Further state variables of some kinds of laws. Those of the program's laws are zero at the start of the loading.
   struct CriticalState // hardening = critical_state
   {
     double stress_ratio_gain = 0; // increase of the mobilised t/s [-]
@@ -88,14 +88,14 @@ namespace diptych::continuum
     std::variant<std::monostate, CriticalState, KinematicState, NonlocalState, LibraryState> own;
   };
 
-  // The part of one kind of law; zeros in a state that has none.
+  // The state variables of one kind of law; zeros if the state has none.
   template <class Part> const Part &part_of(const MaterialState &state)
   {
     static const Part none{};
     const Part       *held = std::get_if<Part>(&state.own);
     return held ? *held : none;
   }
-  // The same to be written.
+  // The state variables of one kind of law, to be written. A state without them gets zeros.
   template <class Part> Part &own_part(MaterialState &state)
   {
     if (!std::holds_alternative<Part>(state.own))

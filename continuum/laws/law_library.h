@@ -24,7 +24,7 @@ namespace diptych::continuum
   // Opens a library once. Throws WrongKeys (law_library) if it cannot be opened, lacks a function or has a wrong description.
   const LawLibrary &law_library(const std::string &path);
 
-  // Names of its state variables with the prefix that results use: "law.NAME".
+  // Names of the library's state variables with the prefix that results use: "law.NAME".
   std::vector<std::string> variable_names(const LawLibrary &library);
 
   // Gives the parameters that the scene does not set their usual values, and all of them unit, meaning and range, in the order of

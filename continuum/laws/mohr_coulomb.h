@@ -21,7 +21,7 @@ namespace diptych::continuum
     // Regime::edge if two yield planes are active, Regime::plastic if one is, in the plane of deformation or not.
     MaterialUpdate update(const MaterialState &s0, const Strain &d_strain, double d_time) const;
 
-    // Both refer to the outer two of all three principal stresses.
+    // These refer to the outer two of all three principal stresses.
     double yield_function(const MaterialState &state) const;
     double shear_strength(const MaterialState &state) const;
 

@@ -25,6 +25,6 @@ namespace diptych::coupling
   // Throws SceneError with file, line, column and range.
   continuum::PointPath read_path_table(const std::string &file, double pressure);
 
-  // The same path for the grains. The size holds the pressure; a name also takes its strain and step.
+  // Path of the cell of grains that `option` names. The size holds the pressure; a name also takes its strain and step.
   discrete::CellPath cell_path(const PathOption &option, const continuum::PathSize &size);
 } // namespace diptych::coupling

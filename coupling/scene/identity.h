@@ -27,7 +27,7 @@ namespace diptych::coupling
   // FNV-1a hash of bytes, 64 bits.
   std::uint64_t digest_of(std::string_view bytes);
 
-  // The same hash for bytes that come in pieces. Begin with empty_digest.
+  // Continues the hash of bytes that come in pieces. Begin with empty_digest.
   constexpr std::uint64_t empty_digest = 14695981039346656037ull;
   std::uint64_t           digest_on(std::uint64_t digest, std::string_view bytes);
 

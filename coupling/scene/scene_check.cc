@@ -113,7 +113,7 @@ namespace diptych::coupling
              ": the coarse run is not coarser than the first; give a larger size, or 0 to leave it out";
     }
 
-    // The same platens should be rough, or smooth, in both panels.
+    // Platens should be rough in both panels, or smooth in both.
     std::optional<std::string> doubtful_platens(const Scene &scene)
     {
       const auto  &contacts = scene.discrete.law;

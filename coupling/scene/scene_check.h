@@ -17,7 +17,7 @@ namespace diptych::coupling
   // Opens the library of law = library and gives its other parameters their usual values. Throws SceneError like check_scene().
   void complete_law(Scene &scene, const std::string &file, const std::vector<Entry> &entries);
 
-  // The same for a computed scene, limited to the keys that a comparison reads. Files that the scene names may be gone.
+  // As check_scene() for a computed scene, but only for the keys that a comparison reads. Files of the scene may be gone.
   void check_comparison(const Scene &scene, const std::string &file, const std::vector<Entry> &entries, bool compares);
 
   // Warnings about

@@ -74,7 +74,7 @@ namespace diptych::discrete
                        const Eigen::Matrix2d           &crossing,
                        std::vector<BodyVelocity>       &v);
 
-  // The same with the impulses of all rows. Does nothing without a lattice.
+  // As follow_crossing(), with the sum over the impulses of all rows. Does nothing without a lattice.
   void follow_impulses(const ContactProblem            &problem,
                        const std::vector<BodyVelocity> &free,
                        const std::vector<Impulse>      &impulses,

@@ -17,7 +17,7 @@ namespace diptych::discrete
                                        const std::vector<Impulse> &impulses,
                                        const std::vector<int>     &acting);
 
-  // The same with other velocities than v_free.
+  // Velocities with `free` in place of v_free.
   std::vector<BodyVelocity> velocities_from(const std::vector<BodyVelocity> &free,
                                             const ContactProblem            &problem,
                                             const std::vector<Impulse>      &impulses,

@@ -276,8 +276,8 @@ namespace diptych::discrete
       static_cast<std::vector<std::string> *>(to)->push_back(name);
       return 0;
     };
-    // In native order. For the order of names the library makes a table, and in a damaged group it frees entries that it never
-    // filled.
+    // Native order, because for the order of names the library makes a table, and in a damaged group it frees entries that it
+    // never filled.
     if (H5Literate(id, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, collect, &names) < 0)
       refuse(path_, group, "cannot be listed: damaged");
     std::sort(names.begin(), names.end());

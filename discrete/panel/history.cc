@@ -30,7 +30,7 @@ namespace diptych::discrete
     {
       double low, high;
 
-      // Of a line between two heights.
+      // Share of a line between two heights that lies in the range.
       double share_of(const double from, const double to) const
       {
         const auto [least, most] = std::minmax(from, to);

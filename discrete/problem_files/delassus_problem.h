@@ -53,7 +53,7 @@ namespace diptych::discrete
                                    const Eigen::VectorXd                              &q,
                                    const Eigen::VectorXd                              &friction);
 
-  // The same problem with the bodies eliminated. Contacts and their order stay, so both forms have the same u + c and the same
+  // Eliminates the bodies of a problem. Contacts and their order stay, so both forms have the same u + c and the same
   // residual for the same impulses.
   DelassusProblem delassus_form(const ContactProblem &problem);
 

@@ -67,7 +67,7 @@ namespace diptych::discrete
     std::vector<double>          radius;   // (discs)
     std::vector<Eigen::Vector2d> position; // (discs)
   };
-  // Of the contacts in the middle of a step that starts from these grains.
+  // Geometry of the contacts at the middle of a step that starts from these grains.
   StoredGeometry stored_geometry(const Grains &grains, const std::vector<Contact> &contacts, double step);
 
   struct StoredText

@@ -25,7 +25,7 @@ namespace diptych::discrete
       return double(random() >> 11) * 0x1.0p-53;
     }
 
-    // In random order: the mean diameter is exact for every seed. [length]
+    // Radii in random order: the mean diameter is exact for every seed. [length]
     std::vector<double> radii(const SampleOptions &o, const int n, std::mt19937_64 &random)
     {
       std::vector<double> radius = sorted_radii(o, n);
