@@ -168,11 +168,8 @@ namespace diptych::coupling
         {
           const StagePair pair   = stage_pair(results, k - 1, k);
           const double    travel = c.stages[k - 1].increment.frame.platen_increment.x();
-          grains.push_back(platen_parts(platen_contacts(pair.grains_from, pair.grains_to, false),
-                                        platen_contacts(pair.grains_from, pair.grains_to, true), is_mirror_symmetric, n_parts));
-          nodes.push_back(platen_parts(platen_contacts(pair.nodes_from, pair.nodes_to, false, 0),
-                                       platen_contacts(pair.nodes_from, pair.nodes_to, true, travel), is_mirror_symmetric,
-                                       n_parts));
+          grains.push_back(platen_parts(platen_contacts(pair.grains_from, pair.grains_to), is_mirror_symmetric, n_parts));
+          nodes.push_back(platen_parts(platen_contacts(pair.nodes_from, pair.nodes_to, travel), is_mirror_symmetric, n_parts));
         }
       c.discrete.platens  = platen_friction(grains);
       c.discrete_platens  = sum_of(grains);

@@ -72,52 +72,56 @@ namespace diptych::coupling
     }
   } // namespace
 
-  std::vector<PlatenContact> platen_contacts(const discrete::Snapshot &from, const discrete::Snapshot &to, const bool upper)
+  PlatenContacts platen_contacts(const discrete::Snapshot &from, const discrete::Snapshot &to)
   {
-    const int                  platen = int(to.position.size()) + upper;
-    const double               travel = upper ? (to.upper_platen_displacement - from.upper_platen_displacement).x() : 0;
-    std::vector<PlatenContact> contacts;
+    const int      lower  = int(to.position.size());
+    const double   travel = (to.upper_platen_displacement - from.upper_platen_displacement).x();
+    PlatenContacts contacts;
     for (const discrete::ContactForce &c : to.window_forces)
-      if (c.j == platen)
+      if (c.j == lower || c.j == lower + 1)
         {
           const std::size_t i     = std::size_t(c.i);
-          const double      moved = (to.displacement[i] - from.displacement[i]).x() - travel;
-          contacts.push_back({c.point.x(), c.force.dot(c.normal), c.force.x(), moved / (to.progress - from.progress)});
+          const double      moved = (to.displacement[i] - from.displacement[i]).x() - (c.j == lower ? 0 : travel);
+          PlatenContact     contact;
+          contact.x      = c.point.x();
+          contact.normal = c.force.dot(c.normal);
+          contact.shear  = c.force.x();
+          contact.slip   = moved / (to.progress - from.progress);
+          (c.j == lower ? contacts.lower : contacts.upper).push_back(contact);
         }
     return contacts;
   }
 
-  std::vector<PlatenContact> platen_contacts(const continuum::Snapshot &from,
-                                             const continuum::Snapshot &to,
-                                             const bool                 upper,
-                                             const double               travel)
+  PlatenContacts platen_contacts(const continuum::Snapshot &from, const continuum::Snapshot &to, const double travel)
   {
-    const std::vector<Eigen::Vector2d> before  = displacement_at_nodes_of(from, to);
-    const double                       inwards = upper ? -1 : 1;
+    const std::vector<Eigen::Vector2d> before = displacement_at_nodes_of(from, to);
     double                             low = INFINITY, high = -INFINITY;
     for (const Eigen::Vector2d &x : to.position)
       {
         low  = std::min(low, x.y());
         high = std::max(high, x.y());
       }
-    std::vector<PlatenContact> contacts;
+    PlatenContacts contacts;
     for (std::size_t k = 0; k < to.platen_force.size(); ++k)
-      if (const Eigen::Vector2d &force = to.platen_force[k]; force.y() != 0 && (to.position[k].y() > 0.5 * (low + high)) == upper)
+      if (const Eigen::Vector2d &force = to.platen_force[k]; force.y() != 0)
         {
-          const double moved = (to.displacement[k] - before[k]).x() - travel;
-          contacts.push_back({to.position[k].x(), inwards * force.y(), force.x(), moved / (to.progress - from.progress)});
+          const bool    upper = to.position[k].y() > 0.5 * (low + high);
+          const double  moved = (to.displacement[k] - before[k]).x() - (upper ? travel : 0);
+          PlatenContact contact;
+          contact.x      = to.position[k].x();
+          contact.normal = upper ? -force.y() : force.y();
+          contact.shear  = force.x();
+          contact.slip   = moved / (to.progress - from.progress);
+          (upper ? contacts.upper : contacts.lower).push_back(contact);
         }
     return contacts;
   }
 
-  PlatenParts platen_parts(const std::vector<PlatenContact> &lower,
-                           const std::vector<PlatenContact> &upper,
-                           const bool                        is_mirror_symmetric,
-                           const int                         n_parts)
+  PlatenParts platen_parts(const PlatenContacts &both, const bool is_mirror_symmetric, const int n_parts)
   {
     PlatenParts  parts(static_cast<std::size_t>(n_parts));
     const double left = is_mirror_symmetric ? 0 : -1;
-    for (const auto &[contacts, turn] : {std::pair{&lower, 1.}, {&upper, -1.}})
+    for (const auto &[contacts, turn] : {std::pair{&both.lower, 1.}, {&both.upper, -1.}})
       {
         double low = INFINITY, high = -INFINITY;
         for (const PlatenContact &c : *contacts)

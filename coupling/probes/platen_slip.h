@@ -18,29 +18,28 @@ namespace diptych::coupling
     double slip;          // displacement to the right relative to the platen, per unit progress [length]
   };
 
+  struct PlatenContacts
+  {
+    std::vector<PlatenContact> lower, upper;
+  };
+
   // Grains: mean forces of the window, and the displacement of the centre, because grains roll along a platen. Glued grains of
   // a platen do not count.
-  std::vector<PlatenContact> platen_contacts(const discrete::Snapshot &from, const discrete::Snapshot &to, bool upper);
+  PlatenContacts platen_contacts(const discrete::Snapshot &from, const discrete::Snapshot &to);
 
-  // Nodes: forces at the end of the window. travel: displacement of the platen to the right in the window [length].
-  std::vector<PlatenContact> platen_contacts(const continuum::Snapshot &from,
-                                             const continuum::Snapshot &to,
-                                             bool                       upper,
-                                             double                     travel);
+  // Nodes: forces at the end of the window. travel: displacement of the upper platen to the right in the window [length].
+  PlatenContacts platen_contacts(const continuum::Snapshot &from, const continuum::Snapshot &to, double travel);
 
-  // Equal parts of both platens together, each between its outermost contacts. Turned by half a turn, the upper platen is the
-  // lower one. In a mirror-symmetric test the left half is the right one, mirrored; parts then count from the middle.
+  // A platen is divided into equal parts between its outermost contacts. A part adds both platens: the upper one, turned by half
+  // a turn, lies on the lower one. In a mirror-symmetric test it also adds the left half, mirrored, to the right half.
   struct PlatenPart
   {
-    double place  = 0;            // of its middle, from the middle of the platen [half widths]
+    double place  = 0;            // from the middle of the platen to the middle of the part [half widths]
     double normal = 0, shear = 0; // sums of the forces [pressure * length]
     double slip = 0;              // mean, weighted with the normal forces [length per unit progress]
   };
   using PlatenParts = std::vector<PlatenPart>;
-  PlatenParts platen_parts(const std::vector<PlatenContact> &lower,
-                           const std::vector<PlatenContact> &upper,
-                           bool                              is_mirror_symmetric,
-                           int                               n_parts);
+  PlatenParts platen_parts(const PlatenContacts &contacts, bool is_mirror_symmetric, int n_parts);
   PlatenParts sum_of(const std::vector<PlatenParts> &windows);
 
   // shear / normal = -friction tanh(v / (friction slip_length)) for the slip v, as in continuum/platens = frictional.
@@ -51,7 +50,7 @@ namespace diptych::coupling
   };
 
   // Fits the law to the means over several windows or samples, by least squares weighted with the normal forces. The slip
-  // of few grains is too uncertain for a fit to single windows. Intervals of 95 %: jackknife over them (NaN for one). NaN
-  // if nothing slips.
+  // of few grains is too uncertain for a fit to single windows. The 95 % intervals come from a jackknife over the windows or
+  // samples and are NaN for a single one. All values are NaN if nothing slips.
   PlatenFriction platen_friction(const std::vector<PlatenParts> &windows);
 } // namespace diptych::coupling

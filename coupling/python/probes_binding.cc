@@ -157,8 +157,7 @@ namespace diptych::python
             {
               const auto &from = sample[k - 1].cast<const discrete::Snapshot &>();
               const auto &to   = sample[k].cast<const discrete::Snapshot &>();
-              windows.push_back(coupling::platen_parts(coupling::platen_contacts(from, to, false),
-                                                       coupling::platen_contacts(from, to, true), is_mirror_symmetric, n_parts));
+              windows.push_back(coupling::platen_parts(coupling::platen_contacts(from, to), is_mirror_symmetric, n_parts));
             }
           sums.push_back(coupling::sum_of(windows));
         }

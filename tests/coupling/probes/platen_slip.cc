@@ -26,7 +26,7 @@ namespace
 
   PlatenParts window(const double v, const double noise, const bool is_mirror_symmetric, std::mt19937_64 &random)
   {
-    return platen_parts(contacts(v, noise, random), contacts(v, noise, random), is_mirror_symmetric, 20);
+    return platen_parts({contacts(v, noise, random), contacts(v, noise, random)}, is_mirror_symmetric, 20);
   }
 
   // A part holds two contacts of each platen with almost equal slip; without errors the fit is as good as this allows.
@@ -60,8 +60,8 @@ namespace
   // One contact to the right of the middle below and one to the left above are the same place, turned by half a turn.
   TEST(PlatenSlip, UpperPlatenIsTheLowerOneTurned)
   {
-    const PlatenParts parts = platen_parts({{5, 1, -0.2, 3}, {-20, 0, 0, 0}, {20, 0, 0, 0}},
-                                           {{-5, 1, 0.2, -3}, {-20, 0, 0, 0}, {20, 0, 0, 0}}, false, 4);
+    const PlatenParts parts = platen_parts(
+      {{{5, 1, -0.2, 3}, {-20, 0, 0, 0}, {20, 0, 0, 0}}, {{-5, 1, 0.2, -3}, {-20, 0, 0, 0}, {20, 0, 0, 0}}}, false, 4);
     EXPECT_NEAR(parts[2].normal, 2, 1e-12);
     EXPECT_NEAR(parts[2].shear, -0.4, 1e-12);
     EXPECT_NEAR(parts[2].slip, 3, 1e-12);
@@ -77,26 +77,27 @@ namespace
     to.progress                  = 0.01;
     to.upper_platen_displacement = {0.03, -0.02};
     to.window_forces             = {{0, 2, {1, 0}, {0, 1}, {-0.2, 3}}, {1, 3, {2, 10}, {0, -1}, {0.1, -4}}};
-    const PlatenContact lower = platen_contacts(from, to, false).at(0), upper = platen_contacts(from, to, true).at(0);
+    const PlatenContacts both    = platen_contacts(from, to);
+    const PlatenContact  lower = both.lower.at(0), upper = both.upper.at(0);
     EXPECT_NEAR(lower.slip, 2, 1e-12);
     EXPECT_NEAR(lower.normal, 3, 1e-12);
     EXPECT_NEAR(lower.shear, -0.2, 1e-12);
     EXPECT_NEAR(upper.slip, 1, 1e-12);
     EXPECT_NEAR(upper.normal, 4, 1e-12);
-    EXPECT_EQ(platen_contacts(from, to, true).size(), 1u);
+    EXPECT_EQ(both.upper.size(), 1u);
   }
 
   // Nodes of a platen that moves to the right by 0.03, in 1 % strain. Off the platens there is no force.
   TEST(PlatenSlip, NodesOfTheContinuumAreContacts)
   {
     continuum::Snapshot from, to;
-    from.position     = {{1, 0}, {2, 10}, {3, 5}};
-    from.displacement = {{0, 0}, {0, 0}, {0, 0}};
-    to.position       = {{1.02, 0}, {2.05, 9.99}, {4, 6}};
-    to.displacement   = {{0.02, 0}, {0.05, -0.01}, {1, 1}};
-    to.platen_force   = {{-0.2, 3}, {0.1, -4}, {0, 0}};
-    to.progress       = 0.01;
-    const auto lower = platen_contacts(from, to, false, 0), upper = platen_contacts(from, to, true, 0.03);
+    from.position             = {{1, 0}, {2, 10}, {3, 5}};
+    from.displacement         = {{0, 0}, {0, 0}, {0, 0}};
+    to.position               = {{1.02, 0}, {2.05, 9.99}, {4, 6}};
+    to.displacement           = {{0.02, 0}, {0.05, -0.01}, {1, 1}};
+    to.platen_force           = {{-0.2, 3}, {0.1, -4}, {0, 0}};
+    to.progress               = 0.01;
+    const auto [lower, upper] = platen_contacts(from, to, 0.03);
     ASSERT_EQ(lower.size() + upper.size(), 2u);
     EXPECT_NEAR(lower[0].slip, 2, 1e-12);
     EXPECT_NEAR(upper[0].slip, 2, 1e-12);
@@ -108,6 +109,6 @@ namespace
   TEST(PlatenSlip, WithoutSlipThereIsNoLaw)
   {
     const std::vector<PlatenContact> still = {{0, 1, 0.1, 0}, {1, 1, 0.1, 0}};
-    EXPECT_TRUE(std::isnan(platen_friction({platen_parts(still, still, false, 2)}).friction.value));
+    EXPECT_TRUE(std::isnan(platen_friction({platen_parts({still, still}, false, 2)}).friction.value));
   }
 } // namespace
