@@ -46,8 +46,12 @@ namespace diptych::coupling
     // Bins that a box meets, clamped to the grid. The range is empty for a box outside the grid.
     BinRange range(const Eigen::Vector2d &lower, const Eigen::Vector2d &upper) const
     {
-      return {std::max(0, index(lower.x() - origin.x(), columns)), std::min(columns, 1 + index(upper.x() - origin.x(), columns)),
-              std::max(0, index(lower.y() - origin.y(), rows)), std::min(rows, 1 + index(upper.y() - origin.y(), rows))};
+      BinRange result;
+      result.column_begin = std::max(0, index(lower.x() - origin.x(), columns));
+      result.column_end   = std::min(columns, 1 + index(upper.x() - origin.x(), columns));
+      result.row_begin    = std::max(0, index(lower.y() - origin.y(), rows));
+      result.row_end      = std::min(rows, 1 + index(upper.y() - origin.y(), rows));
+      return result;
     }
 
     // Row and column of any point; the point may lie beyond the grid.

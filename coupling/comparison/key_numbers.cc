@@ -26,7 +26,15 @@ namespace diptych::coupling
 
     KeyNumber key_number(const KeyQuantity &q, const Interval &grains, const Interval &continuum, const Interval &difference)
     {
-      return {q.key, q.name, q.unit, grains, continuum, difference, verdict_of(difference)};
+      KeyNumber number;
+      number.key        = q.key;
+      number.quantity   = q.name;
+      number.unit       = q.unit;
+      number.grains     = grains;
+      number.continuum  = continuum;
+      number.difference = difference;
+      number.verdict    = verdict_of(difference);
+      return number;
     }
 
     KeyNumber of_band(const KeyQuantity &q, const Increment &window)

@@ -1,7 +1,5 @@
 // diptych: Python binding for campaigns of many runs: scenes with places, result folders, stop signals
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <fstream>
-#include <map>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -41,7 +39,8 @@ namespace diptych::python
 
     Entry entry_of(const PlacedEntry &e)
     {
-      return {std::get<0>(e), std::get<1>(e), std::get<2>(e), {std::get<3>(e), std::get<4>(e)}, std::get<5>(e)};
+      const auto &[section, key, value, file, line, folder] = e;
+      return {section, key, value, {file, line}, folder};
     }
 
     std::vector<Entry> entries_of(const std::vector<PlacedEntry> &placed_entries)

@@ -53,8 +53,16 @@ namespace diptych::python
     {
       std::vector<coupling::Entry> entries;
       for (const auto &[section, key, value] : changes)
-        entries.push_back({section, key, value, "scene", std::filesystem::current_path().string(),
-                           true}); // true: keys without effect give no warning
+        {
+          coupling::Entry entry;
+          entry.section     = section;
+          entry.key         = key;
+          entry.value       = value;
+          entry.place       = "scene";
+          entry.folder      = std::filesystem::current_path().string();
+          entry.of_resolved = true; // keys without effect give no warning
+          entries.push_back(entry);
+        }
       return file ? coupling::read_changed_scene(*file, entries, compares)
                   : coupling::scene_of_entries("scene", entries, compares);
     }
