@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <array>
-#include <cmath>
 #include <stdexcept>
 
 namespace diptych::coupling
@@ -27,13 +25,5 @@ namespace diptych::coupling
     if (!(dilatancy_deg > -90 && dilatancy_deg < 90))
       throw std::invalid_argument("theory lines need a dilatancy angle between -90 and 90 degrees");
     return {45 + friction_deg / 2, 45 + dilatancy_deg / 2, 45 + (friction_deg + dilatancy_deg) / 4};
-  }
-
-  // The two conjugate bands at such an angle to the minor principal direction, as angles from the horizontal in (-90, 90]
-  // [degrees]. The band turned counter-clockwise comes first.
-  inline std::array<double, 2> conjugate_angles_deg(const double to_minor_deg, const double minor_direction_deg)
-  {
-    const auto folded = [](const double angle) { return 90 - std::fmod(std::fmod(90 - angle, 180.) + 180, 180.); };
-    return {{folded(minor_direction_deg + to_minor_deg), folded(minor_direction_deg - to_minor_deg)}};
   }
 } // namespace diptych::coupling

@@ -1,4 +1,4 @@
-// diptych: stresses of single grains and contact forces inside and outside the shear band: do the force chains differ there?
+// diptych: stresses of single grains inside and outside the shear band: do the force chains differ there?
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/probes/force_chains.h"
 
@@ -26,51 +26,39 @@ namespace diptych::coupling
       std::vector<Eigen::Vector2i> place; // column and row of the tiles that hold a value, numbered from 0
     };
 
-    // Collects the values that lie far enough from the outline.
-    class Collection
+    Values values_of(const BandZone                     &zone,
+                     const std::vector<Eigen::Vector2d> &outline,
+                     const GrainNetwork                 &network,
+                     const double                        margin,
+                     const double                        block)
     {
-    public:
-      Collection(const BandZone &zone_, const std::vector<Eigen::Vector2d> &outline_, const double margin_, const double block)
-          : zone(zone_),
-            outline(outline_),
-            margin(margin_),
-            tiles(tiles_over(outline_, zone_.angle_deg, block))
-      {}
-
-      void add(const Eigen::Vector2d &place, const double value)
-      {
-        if (inside_polygon(place, outline) && distance_to_edges(place, outline) >= margin)
-          all.push_back({value, zone.holds(place), tiles.tile(place)});
-      }
-
-      Values values() const
-      {
-        Values        result{all, {}};
-        double        mean = 0;
-        std::set<int> used;
-        for (const Value &v : all)
-          {
-            mean += v.value / all.size();
-            used.insert(v.tile);
-          }
-        for (const int tile : used)
-          result.place.emplace_back(tile % tiles.columns, tile / tiles.columns);
-        for (Value &v : result.all)
-          {
-            v.value = mean > 0 ? v.value / mean : 0;
-            v.tile  = static_cast<int>(std::distance(used.begin(), used.find(v.tile)));
-          }
-        std::stable_sort(result.all.begin(), result.all.end(), [](const Value &a, const Value &b) { return a.value < b.value; });
-        return result;
-      }
-
-    private:
-      const BandZone                     &zone;
-      const std::vector<Eigen::Vector2d> &outline;
-      double                              margin;
-      Tiles                               tiles;
-      std::vector<Value>                  all;
-    };
+      const Tiles   tiles = tiles_over(outline, zone.angle_deg, block);
+      Values        values;
+      std::set<int> used;
+      for (std::size_t i = 0; i < network.position.size(); ++i)
+        {
+          const Eigen::Vector2d &place = network.position[i];
+          if (!inside_polygon(place, outline) || distance_to_edges(place, outline) < margin)
+            continue;
+          const Eigen::Matrix2d &moment = network.moment[i];
+          const double           major  = 0.5 * (std::abs(moment.trace()) + principal_difference(moment));
+          const int              tile   = tiles.tile(place);
+          values.all.push_back({major / (M_PI * network.radius[i] * network.radius[i]), zone.holds(place), tile});
+          used.insert(tile);
+        }
+      for (const int tile : used)
+        values.place.emplace_back(tile % tiles.columns, tile / tiles.columns);
+      double mean = 0;
+      for (const Value &v : values.all)
+        mean += v.value / values.all.size();
+      for (Value &v : values.all)
+        {
+          v.value = mean > 0 ? v.value / mean : 0;
+          v.tile  = static_cast<int>(std::distance(used.begin(), used.find(v.tile)));
+        }
+      std::stable_sort(values.all.begin(), values.all.end(), [](const Value &a, const Value &b) { return a.value < b.value; });
+      return values;
+    }
 
     ChainDistribution distribution(const std::vector<Value> &all, const bool inside)
     {
@@ -187,21 +175,6 @@ namespace diptych::coupling
              quantile(largest, 0.95);
     }
 
-    ForceChains compare_inside_outside(const Values &values, const BootstrapOptions &options)
-    {
-      ForceChains chains;
-      chains.inside  = distribution(values.all, true);
-      chains.outside = distribution(values.all, false);
-      chains.blocks  = smaller_number_of_blocks(values.all);
-      if (chains.inside.count > 0 && chains.outside.count > 0)
-        {
-          const double d          = largest_size(cumulative_difference(values.all, std::vector<int>(values.place.size(), 1)));
-          const double c          = scatter(values, chains, options);
-          chains.largest_distance = {d, std::isnan(c) ? c : std::max(0., d - c), std::isnan(c) ? c : std::min(1., d + c)};
-        }
-      chains.verdict = verdict(chains);
-      return chains;
-    }
   } // namespace
 
   ForceChains grain_force_chains(const BandZone                     &zone,
@@ -210,26 +183,18 @@ namespace diptych::coupling
                                  const double                        margin,
                                  const BootstrapOptions             &options)
   {
-    Collection collection(zone, outline, margin, options.block);
-    for (std::size_t i = 0; i < network.position.size(); ++i)
+    const Values values = values_of(zone, outline, network, margin, options.block);
+    ForceChains  chains;
+    chains.inside  = distribution(values.all, true);
+    chains.outside = distribution(values.all, false);
+    chains.blocks  = smaller_number_of_blocks(values.all);
+    if (chains.inside.count > 0 && chains.outside.count > 0)
       {
-        const Eigen::Matrix2d &moment = network.moment[i];
-        const double           major  = 0.5 * (std::abs(moment.trace()) + principal_difference(moment));
-        collection.add(network.position[i], major / (M_PI * network.radius[i] * network.radius[i]));
+        const double d          = largest_size(cumulative_difference(values.all, std::vector<int>(values.place.size(), 1)));
+        const double c          = scatter(values, chains, options);
+        chains.largest_distance = {d, std::isnan(c) ? c : std::max(0., d - c), std::isnan(c) ? c : std::min(1., d + c)};
       }
-    return compare_inside_outside(collection.values(), options);
-  }
-
-  ForceChains contact_force_chains(const BandZone                     &zone,
-                                   const std::vector<Eigen::Vector2d> &outline,
-                                   const GrainNetwork                 &network,
-                                   const double                        margin,
-                                   const BootstrapOptions             &options)
-  {
-    Collection collection(zone, outline, margin, options.block);
-    for (const auto &contact : network.forces)
-      if (!contact.force.isZero(0))
-        collection.add(contact.point, contact.force.norm());
-    return compare_inside_outside(collection.values(), options);
+    chains.verdict = verdict(chains);
+    return chains;
   }
 } // namespace diptych::coupling

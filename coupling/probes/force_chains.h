@@ -1,4 +1,4 @@
-// diptych: stresses of single grains and contact forces inside and outside the shear band: do the force chains differ there?
+// diptych: stresses of single grains inside and outside the shear band: do the force chains differ there?
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -21,7 +21,7 @@ namespace diptych::coupling
   // Values relative to the common mean over inside and outside.
   struct ChainDistribution
   {
-    int                    count = 0;                          // number of grains or contacts
+    int                    count = 0;                          // number of grains
     double                 mean = NAN, share_above_mean = NAN; // share above 1, the common mean
     std::array<double, 11> values = {};                        // values at chain_quantiles
   };
@@ -41,19 +41,13 @@ namespace diptych::coupling
   // The pattern ignores the band if it differs by at most this share of all grains.
   constexpr double chain_margin = 0.1;
 
-  // Grains: |major principal stress| of single grains (moment / disc area), each grain once, also those without force. Contacts:
-  // magnitude of the force, for contacts that carry one. Inside: the grain's centre or the contact point lies in the band. Only
-  // grains and contacts farther than `margin` [length] from the outline's edges count, because chains end at platens and free
-  // sides. The verdict is "differs" (D - c > 0), "ignores the zone" (D + c <= chain_margin) or "cannot tell".
+  // |major principal stress| of single grains (moment / disc area), each grain once, also those without force. Inside: the
+  // grain's centre lies in the band. Only grains farther than `margin` [length] from the outline's edges count, because chains
+  // end at platens and free sides. The verdict is "differs" (D - c > 0), "ignores the zone" (D + c <= chain_margin) or "cannot
+  // tell".
   ForceChains grain_force_chains(const BandZone                     &zone,
                                  const std::vector<Eigen::Vector2d> &outline,
                                  const GrainNetwork                 &network,
                                  double                              margin,
                                  const BootstrapOptions             &options);
-
-  ForceChains contact_force_chains(const BandZone                     &zone,
-                                   const std::vector<Eigen::Vector2d> &outline,
-                                   const GrainNetwork                 &network,
-                                   double                              margin,
-                                   const BootstrapOptions             &options);
 } // namespace diptych::coupling

@@ -95,25 +95,6 @@ namespace
     EXPECT_NEAR(e3 * std::cos(a) * std::cos(a) + e1 * std::sin(a) * std::sin(a), 0, 1e-12);
   }
 
-  TEST(TheoryLines, ArthurLiesInTheMiddle)
-  {
-    const TheoryLines lines = theory_lines(36, 8);
-    EXPECT_NEAR(lines.arthur_deg, 0.5 * (lines.coulomb_deg + lines.roscoe_deg), 1e-12);
-  }
-
-  // Under vertical compression the minor direction is horizontal and the bands are at +-60. Rotated by 40 degrees they are at
-  // 100, which is -80, and at -20.
-  TEST(TheoryLines, ConjugateBandsLieToEitherSideOfTheMinorDirection)
-  {
-    const auto upright = conjugate_angles_deg(60, 0), turned = conjugate_angles_deg(60, 40), level = conjugate_angles_deg(90, 0);
-    EXPECT_NEAR(upright[0], 60, 1e-12);
-    EXPECT_NEAR(upright[1], -60, 1e-12);
-    EXPECT_NEAR(turned[0], -80, 1e-12);
-    EXPECT_NEAR(turned[1], -20, 1e-12);
-    EXPECT_NEAR(level[0], 90, 1e-12); // range (-90, 90]
-    EXPECT_NEAR(level[1], 90, 1e-12);
-  }
-
   TEST(TheoryLines, RejectsAnglesOutsideTheirRange)
   {
     EXPECT_THROW(theory_lines(90, 0), std::invalid_argument);

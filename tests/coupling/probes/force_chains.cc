@@ -99,27 +99,6 @@ namespace
     EXPECT_EQ(chains.inside.count + chains.outside.count, 54 * 54);
   }
 
-  // Forces inside alternate between 1 and 3, those outside are 2. The common mean is 2, and half of the forces inside lie above
-  // it. Up to 1 the shares are 1/2 and 0, from 2 on 1/2 and 1.
-  TEST(ForceChains, ContactsCompareTheMagnitudesOfForces)
-  {
-    GrainNetwork network;
-    for (int k = 0; k < 3600; ++k)
-      {
-        const Eigen::Vector2d point(k % 60 + 0.5, k / 60 + 0.5);
-        const double          size = zone().holds(point) ? (k % 2 == 0 ? 1 : 3) : 2;
-        network.forces.push_back({0, 1, point, {1, 0}, {0.6 * size, -0.8 * size}});
-      }
-    network.forces.push_back({0, 1, {30, 30}, {1, 0}, {0, 0}}); // carries no force
-    const ForceChains chains = contact_force_chains(zone(), box_60, network, 0, {5, 100, 1});
-    EXPECT_EQ(chains.inside.count, 1200);
-    EXPECT_NEAR(chains.inside.mean, 1, 1e-12);
-    EXPECT_NEAR(chains.inside.share_above_mean, 0.5, 1e-12);
-    EXPECT_NEAR(chains.largest_distance.value, 0.5, 1e-12);
-    EXPECT_NEAR(chains.inside.values[0], 0.5, 1e-12);
-    EXPECT_NEAR(chains.inside.values[10], 1.5, 1e-12);
-  }
-
   TEST(ForceChains, ZoneOutsideTheSampleGivesNoVerdict)
   {
     const BandZone    beside{{30, 90}, 0, 10};
