@@ -73,23 +73,4 @@ namespace
         EXPECT_EQ(count, 6) << "drift " << drift;
       }
   }
-
-  TEST(PeriodicMapping, MeshWithHangingNodesKeepsNodalIdentityAndTotal)
-  {
-    // Four cells of 1 x 1, of which the last one is divided into four.
-    const auto         last = [](const Eigen::Vector2d &x) { return x.x() > 1 && x.y() > 1; };
-    const QuadMesh     mesh = synthetic::refined(cells(2, 2), last).mesh;
-    discrete::Snapshot s;
-    s.position                 = {{0.8, 0.9}, {1.6, 1.7}};
-    s.radius                   = {0.5, 0.6};
-    s.mean_spin_term           = {0, 0};
-    s.window_forces            = {{0, 1, {1.2, 1.3}, {-0.7, -0.7}, {-1, -2}}};
-    const MappedGrains divided = map_grains(mesh, s), whole = map_grains(cells(2, 2), s);
-    EXPECT_LT(divided.nodal_residual, 1e-12);
-    EXPECT_LT(whole.nodal_residual, 1e-12);
-    // f = (-1, -2) on the branch (0.8, 0.8): -f (x) l
-    Eigen::Matrix2d expected;
-    expected << 0.8, 0.8, 1.6, 1.6;
-    EXPECT_LT(total_relative_error(divided.moment, expected), 1e-14);
-  }
 } // namespace

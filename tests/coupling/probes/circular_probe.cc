@@ -111,17 +111,6 @@ namespace
     EXPECT_GE(covered, 88);
   }
 
-  TEST(CircularProbe, SameSeedSameInterval)
-  {
-    const GrainNetwork network = synthetic::hexagonal_network(52, 60, oblique_stress());
-    const auto         a       = grain_circular_probe({{26, 25}, 12}, network, {5, 200, 9}).relative_l2;
-    const auto         b       = grain_circular_probe({{26, 25}, 12}, network, {5, 200, 9}).relative_l2;
-    EXPECT_EQ(a.low, b.low);
-    EXPECT_EQ(a.high, b.high);
-    EXPECT_LE(a.low, a.value);
-    EXPECT_GE(a.high, a.value);
-  }
-
   TEST(CircularProbe, UniformCellStressIsPredictedExactly)
   {
     const QuadMesh       mesh = synthetic::box_mesh({0, 0}, {52, 75}, 26, 37, 0.2);

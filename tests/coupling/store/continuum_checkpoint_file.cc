@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/store/continuum_checkpoint_file.h"
 
-#include <csignal>
-
-#include <sys/resource.h>
-
 #include <hdf5.h>
 
 #include "tests/coupling/store/examples.h"
@@ -124,34 +120,6 @@ namespace
     expect_same_checkpoint(read_continuum_checkpoint(file), many);
   }
 
-  TEST(ContinuumCheckpointFile, CutShortAnywhereIsRefusedByName)
-  {
-    const Folder      folder;
-    const std::string file = folder / "checkpoint.h5";
-    write_continuum_checkpoint(file, example_checkpoint());
-    const std::string whole = read_text(file);
-    for (const double share : {0., 0.01, 0.3, 0.9, 0.999})
-      {
-        write_text(file, whole.substr(0, std::size_t(share * whole.size())));
-        expect_refusal_naming(file, "");
-      }
-  }
-
-  // One bit of one value: only the checksum can tell.
-  TEST(ContinuumCheckpointFile, AFlippedBitIsRefusedByName)
-  {
-    const Folder              folder;
-    const std::string         file = folder / "checkpoint.h5";
-    const ContinuumCheckpoint c    = example_checkpoint();
-    write_continuum_checkpoint(file, c);
-    std::string       contents = read_text(file);
-    const std::size_t place    = contents.find(std::string(reinterpret_cast<const char *>(&c.panel.values[0]), sizeof(double)));
-    ASSERT_NE(place, std::string::npos);
-    contents[place] ^= 1;
-    write_text(file, contents);
-    expect_refusal_naming(file, "values");
-  }
-
   TEST(ContinuumCheckpointFile, MissingAndForeignFilesAreRefusedByName)
   {
     const Folder      folder;
@@ -223,30 +191,5 @@ namespace
     short_of_a_value.panel.values.pop_back();
     EXPECT_THROW(write_continuum_checkpoint(folder / "checkpoint.h5", short_of_a_value), std::invalid_argument);
     EXPECT_FALSE(fs::exists(folder / "checkpoint.h5"));
-  }
-
-  // A limit on the size of files stands in for a full disk.
-  TEST(ContinuumCheckpointFile, AFullDiskLeavesTheLastOne)
-  {
-    const Folder      folder;
-    const std::string file = folder / "checkpoint.h5";
-    write_continuum_checkpoint(file, example_checkpoint());
-    ContinuumCheckpoint large   = example_checkpoint();
-    large.panel.values_per_cell = 100000;
-    large.panel.values.assign(300000, 1.5);
-
-    rlimit before;
-    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
-    const auto   handler = std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit small{100000, before.rlim_max};
-    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
-    EXPECT_THROW(write_continuum_checkpoint(file, large), std::runtime_error);
-    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
-    std::signal(SIGXFSZ, handler);
-
-    expect_same_checkpoint(read_continuum_checkpoint(file), example_checkpoint());
-    EXPECT_FALSE(fs::exists(file + ".part"));
-    write_continuum_checkpoint(file, large);
-    expect_same_checkpoint(read_continuum_checkpoint(file), large);
   }
 } // namespace
