@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <string>
 #include <vector>
 
 #include "coupling/comparison/increment_numbers.h"
@@ -36,12 +35,18 @@ namespace diptych::coupling
 
   namespace numbers
   {
-    template <class Visitor> void list_place_and_stress(const ProbeRecord &p, Visitor &v)
+    // values: s1, s2, direction_deg and t_over_s, with or without intervals.
+    template <class Values, class Visitor> void list_place_and_stress(const ProbeRecord &p, const Values &values, Visitor &v)
     {
       v({"name", "-", "name of the probe", Kind::setting}, p.region.name);
       v({"polygon", "length", "corners of the probe", Kind::setting}, p.region.polygon);
       v({"stress", "pressure", "mean stress in the probe, positive in compression"}, p.stress.stress);
       v({"count", "-", "number of grains or cells in the mean"}, p.stress.count);
+      v({"s1", "pressure", "major principal stress of the probe"}, values.s1);
+      v({"s2", "pressure", "minor principal stress of the probe"}, values.s2);
+      v({"direction_deg", "degrees", "direction of the major principal stress, anticlockwise from the horizontal", Kind::line},
+        values.direction_deg);
+      v({"t_over_s", "-", "stress ratio t/s of the probe"}, values.t_over_s);
     }
   } // namespace numbers
 
@@ -50,12 +55,7 @@ namespace diptych::coupling
   template <class Visitor> void list_numbers(const GrainProbe &p, Visitor &v)
   {
     const ProbeIntervals &i = p.intervals;
-    numbers::list_place_and_stress(p, v);
-    v({"s1", "pressure", "major principal stress of the probe"}, i.s1);
-    v({"s2", "pressure", "minor principal stress of the probe"}, i.s2);
-    v({"direction_deg", "degrees", "direction of the major principal stress, anticlockwise from the horizontal", Kind::line},
-      i.direction_deg);
-    v({"t_over_s", "-", "stress ratio t/s of the probe"}, i.t_over_s);
+    numbers::list_place_and_stress(p, i, v);
     v({"blocks", "-", "number of blocks that were resampled"}, i.blocks);
     v({"fabric", "-", "fabric tensor of the contact normals n, mean of n (x) n"}, p.fabric.fabric);
     v({"fabric_direction_deg", "degrees", "major direction of the fabric, anticlockwise from the horizontal", Kind::line},
@@ -76,12 +76,7 @@ namespace diptych::coupling
   {};
   template <class Visitor> void list_numbers(const CellProbe &p, Visitor &v)
   {
-    numbers::list_place_and_stress(p, v);
-    v({"s1", "pressure", "major principal stress of the probe"}, p.stress.s1);
-    v({"s2", "pressure", "minor principal stress of the probe"}, p.stress.s2);
-    v({"direction_deg", "degrees", "direction of the major principal stress, anticlockwise from the horizontal", Kind::line},
-      p.stress.direction_deg);
-    v({"t_over_s", "-", "stress ratio t/s of the probe"}, p.stress.t_over_s);
+    numbers::list_place_and_stress(p, p.stress, v);
   }
 
   template <class Visitor> void list_numbers(const CircularProbe &c, Visitor &v)
