@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/comparison/increment_profiles.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "coupling/fields/continuum_averaging.h"

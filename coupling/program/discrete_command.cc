@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/program/discrete_command.h"
 
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <iostream>

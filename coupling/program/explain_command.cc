@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <iostream>
-#include <stdexcept>
 
 #include <nlohmann/json.hpp>
 

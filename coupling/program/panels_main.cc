@@ -1,8 +1,5 @@
 // diptych: the commands that need the continuum's libraries; `diptych` starts this program for them
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <cstdlib>
-#include <iostream>
-#include <stdexcept>
 
 #include <deal.II/base/mpi.h>
 

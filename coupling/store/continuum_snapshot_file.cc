@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/store/continuum_snapshot_file.h"
 
-#include <algorithm>
 #include <filesystem>
 
 #include "continuum/laws/options.h"
