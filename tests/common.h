@@ -48,7 +48,7 @@ namespace diptych::tests
     return "";
   }
 
-  // The same without the file's name in front of it.
+  // The message of a refusal without the name of the file at its beginning.
   template <class Action> std::string complaint(const std::string &path, const Action &action)
   {
     const std::string what = refusal(action);

@@ -15,7 +15,7 @@ namespace diptych::benchmarks
 {
   using namespace diptych::discrete;
 
-  // The same contacts with a rolling resistance of 0.1 between discs of equal size.
+  // The contacts of a problem with a rolling resistance of 0.1 between discs of equal size.
   ContactProblem with_rolling(ContactProblem problem)
   {
     for (ContactRow &c : problem.contacts)

@@ -50,7 +50,7 @@ namespace diptych::coupling
     // Only for segments with judge_nodes: residual of the nodal identity (README.md), also at the collar's nodes, over the
     // largest force. NaN if the mesh can have no collar, a half leaves it, or there is no force.
     double nodal_residual  = NAN;
-    double couple_residual = NAN; // the same for the nodal balance of moment, over largest force x longest half branch
+    double couple_residual = NAN; // residual of the nodal balance of moment, over largest force x longest half branch
     // Number of equal grains that a mean over the cell joins: (sum of the shares of grains)^2 / sum of their squares. n_cells
     // entries, 0 for a cell without grains; empty if not wanted. The projection solves one system per cell for it.
     std::vector<double> joined;

@@ -57,16 +57,16 @@ namespace diptych::coupling
                     const Eigen::Vector2d        &point,
                     std::vector<Eigen::Vector2d> &nodal);
 
-  // The same without cutting branches, if every branch lies inside the mesh. Sums N_a at the grain centres times the contact
+  // Nodal forces without cutting branches; every branch must lie inside the mesh. Sums N_a at the grain centres times the contact
   // forces on the grains. Subtracts N_a at the platens' contact points times their forces.
   std::vector<Eigen::Vector2d> nodal_contact_forces(const QuadMesh                            &mesh,
                                                     const TriangleSearch                      &search,
                                                     const std::vector<Eigen::Vector2d>        &position,
                                                     const std::vector<discrete::ContactForce> &contacts);
 
-  // The same from the last step: sum_i N_a(x_i) (m_i a_i - F_i) - sum_platens N_a(x_c) f. F_i is the containing action plus
-  // gravity, f the force of the last step (Snapshot::contacts). `acceleration`: a_i = change of the velocity in this step / step
-  // [length/time^2]. A fixed grain enters with its contact forces.
+  // Nodal forces from the accelerations of the last step: sum_i N_a(x_i) (m_i a_i - F_i) - sum_platens N_a(x_c) f. F_i is the
+  // containing action plus gravity, f the force of the last step (Snapshot::contacts). `acceleration`: a_i = change of the
+  // velocity in this step / step [length/time^2]. A fixed grain enters with its contact forces.
   std::vector<Eigen::Vector2d> nodal_applied_forces(const QuadMesh                     &mesh,
                                                     const TriangleSearch               &search,
                                                     const discrete::Snapshot           &grains,

@@ -139,7 +139,7 @@ namespace diptych::coupling
       band.r_squared_strips = r_squared(strip_value, strip_fitted, strip_weight);
     }
 
-    // The same field with angles in (-90, 90] degrees. Half a turn reverses the normal, and with it offset and jump.
+    // Describes the fitted field with angles in (-90, 90] degrees. Half a turn reverses the normal, and with it offset and jump.
     BandFit with_folded_angles(BandFit fit)
     {
       for (std::size_t b = 0; b < fit.shape.size(); ++b)

@@ -96,7 +96,7 @@ namespace diptych::coupling
     struct Resampled
     {
       Eigen::VectorXd              mean;  // of each strip
-      std::vector<Eigen::VectorXd> drawn; // the same for each resample
+      std::vector<Eigen::VectorXd> drawn; // means of the strips for each resample
     };
 
     Resampled resampled(const Eigen::MatrixXd &values, const std::vector<std::vector<int>> &draws)

@@ -30,10 +30,10 @@ namespace diptych::coupling
   struct Increment
   {
     double from = 0, to = 0; // progress
-    double duration = 0;     // of the grains' loading between the instants [time]
+    double duration = 0;     // time of the grains' loading from the first to the second instant [time]
     // Unit of displacements: the upper platen's increment, or the 98th percentile of the grains' if the platen rests [length].
     double              displacement_unit   = 0;
-    bool                is_mirror_symmetric = false; // see the function of the scene
+    bool                is_mirror_symmetric = false; // is_mirror_symmetric() of the scene
     SampleFrame         frame;
     QuadMesh            mesh;  // the continuum's mesh at `to`
     CellCover           cover; // cover of the cells by the grains at `to`

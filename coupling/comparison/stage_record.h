@@ -51,10 +51,9 @@ namespace diptych::coupling
   {
     std::string method; // averaging method
     double      total_relative_error = 0, outside_share = 0;
-    double      window_time     = 0;   // time over which the grains' forces are averaged: impulses / this time
-    double      couple_residual = NAN; // the same for the balance of moment
-    double      nodal_residual  = NAN; // residual of `segments` on the mesh; NaN for other methods, and in the cases named in
-                                       // periodic.h
+    double      window_time = 0; // time over which the grains' forces are averaged: impulses / this time
+    // Residuals of `segments` on the mesh, of forces and of moments; NaN for other methods, and in the cases named in periodic.h.
+    double nodal_residual = NAN, couple_residual = NAN;
   };
 
   struct StageRecord

@@ -15,7 +15,7 @@ namespace diptych::coupling
   // if a node lies in no cell of `from`.
   std::vector<Eigen::Vector2d> displacement_at_nodes_of(const continuum::Snapshot &from, const continuum::Snapshot &to);
 
-  // The same for the rotation [radians]. Both snapshots must have rotations.
+  // Rotation [radians] at the instant `from`, transferred like the displacement. Both snapshots must have rotations.
   std::vector<double> rotation_at_nodes_of(const continuum::Snapshot &from, const continuum::Snapshot &to);
 
   // For each cell of `to`, the cell of `from` that holds its initial centre: itself, or the cell that was divided.

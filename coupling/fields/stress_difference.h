@@ -26,8 +26,8 @@ namespace diptych::coupling
     double      relative_l2 = NAN; // sqrt(sum A |a - b|^2 / sum A |b|^2) of the symmetric parts, a of the grains, b of the
                                    // continuum
     double direction_deg  = NAN;   // root mean square angle between the major principal directions, weighted by area
-    double sampling_alone = NAN;   // the same norm for the grains' scatter about their own smooth field
-    double lowest_scatter = NAN;   // the same for independent grains; neighbours share force chains, so this is a lower bound
+    double sampling_alone = NAN;   // the norm of relative_l2 for the grains' scatter about their own smooth field
+    double lowest_scatter = NAN;   // scatter of independent grains: a lower bound, because neighbours share force chains
   };
 
   // The smooth field is a quadratic polynomial in x and y, fitted by least squares to each component of the grains' cells. Its

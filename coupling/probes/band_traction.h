@@ -28,11 +28,12 @@ namespace diptych::coupling
   {
     std::vector<double> edges; // [length]
     std::vector<double> normal, shear;
-    std::vector<double> normal_error, shear_error;            // grains: standard errors from blocks along the strip; continuum:
-                                                              // empty
-    double variation_normal = NAN, variation_shear = NAN;     // standard deviation over the strips / magnitude of the mean
-                                                              // traction
-    double independent_normal = NAN, independent_shear = NAN; // root mean square standard error / the same magnitude
+    // Grains: standard errors from blocks along the strip. Continuum: empty.
+    std::vector<double> normal_error, shear_error;
+    // Standard deviation over the strips, relative to the magnitude of the mean traction.
+    double variation_normal = NAN, variation_shear = NAN;
+    // Root mean square of the standard errors, relative to the magnitude of the mean traction.
+    double independent_normal = NAN, independent_shear = NAN;
   };
 
   // The rectangle of a strip is the middle `share` of its chord, at least 2 mean diameters away from the outline. The chord is
@@ -49,7 +50,7 @@ namespace diptych::coupling
   // not, so real tractions vary less. Throws std::invalid_argument for a block that is not positive.
   BandTraction grain_band_traction(const TractionStrips &strips, const GrainNetwork &network, double block);
 
-  // The same for a stress that is constant on cells, n_cells entries [pressure], using the exact part of each triangle. Cells
+  // Tractions of a stress that is constant on cells, n_cells entries [pressure], using the exact part of each triangle. Cells
   // without a value (NaN) are left out. Throws std::invalid_argument if there is not one stress per cell.
   BandTraction cell_band_traction(const TractionStrips               &strips,
                                   const QuadMesh                     &mesh,

@@ -56,7 +56,7 @@ namespace diptych::coupling
                                      const BootstrapOptions &options,
                                      int                     n_angles = 36);
 
-  // The same for a stress that is constant on cells, n_cells entries [pressure]. The means leave out cells without a value (NaN)
+  // Tractions of a stress that is constant on cells, n_cells entries [pressure]. The means leave out cells without a value (NaN)
   // and parts of the circle outside the mesh. There are no errors and no interval.
   CircularProbe cell_circular_probe(const Circle                       &circle,
                                     const QuadMesh                     &mesh,

@@ -168,7 +168,7 @@ namespace
     EXPECT_GT(spread(s, inside), 1e-3) << "the field is inhomogeneous";
   }
 
-  // The same on the moved shape: mean s_xx = P.
+  // On the moved shape the mean of s_xx also balances the pressure P.
   TEST(BoundaryConditions, RigidWallCarriesThePressureOnTheMovedShape)
   {
     const QuadMesh mesh    = rectangle(12, 16, 4.);

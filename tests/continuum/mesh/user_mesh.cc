@@ -160,7 +160,7 @@ namespace
     });
   }
 
-  // Of MSH 2.2 gmsh itself leaves a vertex out that no element names; of MSH 4.1 it keeps it.
+  // gmsh keeps a vertex that no element names if the file is MSH 4.1, and leaves it out if the file is MSH 2.2.
   TEST(Mesh, AMeshWithAVertexOfNoCellIsRefused)
   {
     const Folder folder;

@@ -155,7 +155,7 @@ namespace
         }
   }
 
-  // The same noise with and without a crossing band of 30 % of the jump. The main band's fit differs only by the effect of five
+  // One noise with and without a crossing band of 30 % of the jump. The main band's fit differs only by the effect of five
   // more unknowns. Single shifts scatter by 0.06 degrees and 0.3 %; the mean of eight scatters by a third of that.
   TEST(BandTruth, WeakConjugateBandDoesNotBiasTheMainOne)
   {

@@ -98,7 +98,7 @@ namespace
     });
   }
 
-  // The same across the sides of a periodic sample: a shear u_x = a y, and all grains shifted by a period.
+  // A shear u_x = a y across the sides of a periodic sample. Every third grain is shifted by a period.
   TEST(GrainFields, ReproducesShearAtTheSidesOfAPeriodicSample)
   {
     const discrete::Snapshot from = hexagonal(20);

@@ -18,7 +18,7 @@ namespace
     return text.find(part) != std::string::npos;
   }
 
-  // What a process whose three streams are a terminal prints.
+  // The output of a process whose three streams are a terminal.
   std::string printed_on_a_terminal(const std::function<void()> &work)
   {
     int         terminal = -1;

@@ -74,7 +74,7 @@ namespace
     EXPECT_EQ(first_difference(member_identity(other), member_identity(plain)), "") << "seed and folder are a member's own";
   }
 
-  // The same grains from another place are the same; other grains in the same place are not.
+  // Equal grains in another file are the same sample; other grains in the same file are not.
   TEST(Identity, AFileCountsByWhatIsInIt)
   {
     const SceneFolder folder;

@@ -104,7 +104,7 @@ namespace
     expect_words(error_of("", {"sample/sead=3"}), {"--set", "sample/sead", "sample/seed"});
   }
 
-  // Of a value, of a key, of a contradiction in the continuum and of one between sections: file, line, key and value as data.
+  // The error holds file, line, key and value: for a wrong value, a wrong key, and contradictions within and between sections.
   TEST(Scene, ARefusalIsData)
   {
     const struct

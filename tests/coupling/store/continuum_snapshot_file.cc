@@ -118,7 +118,7 @@ namespace
                    [&] { (void)read_continuum_snapshots(folder / "continuum.h5"); });
   }
 
-  // What a run with these stages leaves, and what is left of one that was killed and went on from two of them.
+  // One run writes all stages. The other is killed after its second stage and continues from there.
   TEST(ContinuumSnapshotFile, AnInterruptedRunLeavesTheFilesOfAnUninterruptedOne)
   {
     const auto   stage = [](const int k) { return example(k + 1, 0.01 * k, k < 2); }; // refined from stage to stage

@@ -31,7 +31,7 @@ namespace
     }
   };
 
-  // What a command writes of itself.
+  // The record of a command that computed the grains.
   json recorded(const fs::path &folder)
   {
     Scene scene;

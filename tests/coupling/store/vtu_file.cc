@@ -31,7 +31,7 @@ namespace
     return bytes;
   }
 
-  // What a reader of the .vtu sees of one array.
+  // One array as a reader of the .vtu sees it.
   struct Array
   {
     std::string type, n_components, bytes;

@@ -331,9 +331,9 @@ namespace
     return sum / n;
   }
 
-  // The same sample by explicit penalty steps. The mean stress ratio over 0.5-1.5 % agrees with NSCD within the scatter of 200
-  // discs (0.05). Above the critical step (about 1 here) the sample first gains energy unnoticed, and the ratio falls by a third
-  // at 1.2. At twice the critical step the run blows up, reports it, and keeps its results.
+  // One sample is loaded by NSCD and by explicit penalty steps. The mean stress ratio over 0.5-1.5 % agrees with NSCD within the
+  // scatter of 200 discs (0.05). Above the critical step (about 1 here) the sample first gains energy unnoticed, and the ratio
+  // falls by a third at 1.2. At twice the critical step the run blows up, reports it, and keeps its results.
   TEST(Penalty, ThroughThePanelAgreesWithNscdAndReportsItsBlowUp)
   {
     Loading loading       = one_percent();

@@ -40,7 +40,7 @@ namespace
     return values;
   }
 
-  // The same in a process that has run nothing else. The numbers come through a file.
+  // The numbers of this run in a process that has run nothing else. They come through a file.
   std::vector<double> numbers_of_a_fresh_process(const int k)
   {
     const Folder folder;

@@ -46,9 +46,10 @@ namespace
       EXPECT_NEAR(f.force.y(), mass * g, 1e-12 * mass * g);
   }
 
-  // The same on springs. When sliding ends, the tangential spring holds mu m g, and its energy E = (mu m g)^2/(2 kt) oscillates
-  // without loss. So friction dissipates m v0^2/6 - E. Steps add two errors. Sliding starts within a step whose stretch h v0
-  // counts fully: at most kt (h v0)^2/8. It ends within a step: a share of E of the order of omega h, omega = sqrt(3 kt/m).
+  // The thrown disc on springs. When sliding ends, the tangential spring holds mu m g, and its energy E = (mu m g)^2/(2 kt)
+  // oscillates without loss. So friction dissipates m v0^2/6 - E. Steps add two errors. Sliding starts within a step whose
+  // stretch h v0 counts fully: at most kt (h v0)^2/8. It ends within a step: a share of E of the order of omega h, omega = sqrt(3
+  // kt/m).
   TEST(WindowDissipation, OnSpringsTheThrownDiscKeepsOnlyWhatTheTangentialSpringHolds)
   {
     const double stiffness = 1e4, kt = 0.5 * stiffness, step = 2e-5;

@@ -62,7 +62,7 @@ namespace
     return state.grains.velocity[1].x() - state.grains.velocity[0].x();
   }
 
-  // The same springs and dashpots as `penalty`, whose restitution is exp(-(pi - 2a) tan a) with sin a = damping. Steps of f
+  // Springs and dashpots are those of `penalty`, whose restitution is exp(-(pi - 2a) tan a) with sin a = damping. Steps of f
   // sqrt(m/kn) damp by sqrt(2) f/2 of critical more, so that e falls by a factor of about exp(-pi f/sqrt(2)).
   TEST(Compliant, CollisionTendsToThatOfExplicitSpringsWithShortSteps)
   {

@@ -7,7 +7,7 @@ namespace
 {
   using namespace diptych;
 
-  // What was taken is the same scene again by its echo.
+  // An accepted scene is reproduced by its resolved scene.
   void check_echo(const fuzz::Folder &folder, const coupling::Scene &scene)
   {
     const std::string first  = coupling::resolved_text(scene);

@@ -10,7 +10,7 @@ namespace
 {
   using namespace diptych;
 
-  // What was taken is in range, and the same again from the file that we make of it.
+  // Accepted grains have finite numbers, and they survive writing and reading unchanged.
   void check_grains(const fuzz::Folder &folder, const discrete::Grains &grains)
   {
     for (std::size_t i = 0; i < grains.size(); ++i)
