@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include <mpi.h>
 
@@ -60,13 +61,13 @@ namespace diptych::coupling
       return rank;
     }
 
-    std::string broadcast(std::string text)
+    template <class Values> Values broadcast(Values values, const MPI_Datatype type)
     {
-      int length = int(text.size());
-      MPI_Bcast(&length, 1, MPI_INT, 0, MPI_COMM_WORLD);
-      text.resize(std::size_t(length));
-      MPI_Bcast(text.data(), length, MPI_CHAR, 0, MPI_COMM_WORLD);
-      return text;
+      int n = int(values.size());
+      MPI_Bcast(&n, 1, MPI_INT, 0, MPI_COMM_WORLD);
+      values.resize(std::size_t(n));
+      MPI_Bcast(values.data(), n, type, 0, MPI_COMM_WORLD);
+      return values;
     }
 
     // True if every process arrives here within five seconds. Then all met an error, the same one or each its own.
@@ -135,7 +136,7 @@ namespace diptych::coupling
           code_and_kind[1] = int(kind_of(error));
         }
     MPI_Bcast(code_and_kind, 2, MPI_INT, 0, MPI_COMM_WORLD);
-    text = broadcast(text);
+    text = broadcast(std::move(text), MPI_CHAR);
     if (thrown)
       std::rethrow_exception(thrown);
     if (code_and_kind[1] != int(Failure::none))
@@ -158,11 +159,7 @@ namespace diptych::coupling
 
   std::vector<double> from_first_process(std::vector<double> values)
   {
-    int n = int(values.size());
-    MPI_Bcast(&n, 1, MPI_INT, 0, MPI_COMM_WORLD);
-    values.resize(std::size_t(n));
-    MPI_Bcast(values.data(), n, MPI_DOUBLE, 0, MPI_COMM_WORLD);
-    return values;
+    return broadcast(std::move(values), MPI_DOUBLE);
   }
 
   bool any_process(const bool value)
