@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/comparison/comparison_arrays.h"
 
+#include "coupling/cells/principal_axes.h"
 #include "coupling/comparison/comparison_output.h"
 #include "discrete/files/field_arrays.h"
 #include "discrete/files/hdf5_file.h"
@@ -21,7 +22,7 @@ namespace diptych::coupling
     // t of the symmetric part: half the difference of the principal stresses.
     double deviator_of(const Eigen::Matrix2d &m)
     {
-      return 0.5 * std::hypot(m(0, 0) - m(1, 1), m(0, 1) + m(1, 0));
+      return 0.5 * principal_difference(m);
     }
 
     template <class Of> std::vector<double> of_each(const std::vector<Eigen::Matrix2d> &stress, Of &&of)

@@ -9,6 +9,7 @@
 #include <Eigen/LU>
 
 #include "coupling/cells/point_bins.h"
+#include "coupling/cells/principal_axes.h"
 #include "coupling/fields/node_transfer.h"
 
 namespace diptych::coupling
@@ -145,7 +146,7 @@ namespace diptych::coupling
     for (std::size_t k = 0; k < sample_points.size(); ++k)
       {
         const Eigen::Matrix2d &g = motion.gradient[k];
-        motion.shear.push_back(std::hypot(g(0, 0) - g(1, 1), g(0, 1) + g(1, 0)));
+        motion.shear.push_back(principal_difference(g));
         motion.spin.push_back(0.5 * (g(1, 0) - g(0, 1)));
         motion.relative_rotation[k] -= motion.spin[k];
       }
@@ -158,8 +159,8 @@ namespace diptych::coupling
   {
     std::vector<double> shear;
     shear.reserve(sample_points.size());
-    for (const auto &g : displacement_gradient(field, sample_points, radius))
-      shear.push_back(std::hypot(g(0, 0) - g(1, 1), g(0, 1) + g(1, 0)));
+    for (const Eigen::Matrix2d &g : displacement_gradient(field, sample_points, radius))
+      shear.push_back(principal_difference(g));
     return shear;
   }
 } // namespace diptych::coupling
