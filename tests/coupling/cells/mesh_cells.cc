@@ -204,12 +204,8 @@ namespace
     EXPECT_LT((cell_centre(mesh, 5) - Eigen::Vector2d(9 - 10. / 6, 9 - 7. / 4)).norm(), 1e-14);
     EXPECT_THROW(regular_grid({0, 0}, {0, 1}, 1), std::invalid_argument);
     EXPECT_THROW(regular_grid({0, 0}, {1, 1}, 0), std::invalid_argument);
+    EXPECT_THROW((void)regular_grid({0, 0}, {1e9, 1e9}, 1), std::invalid_argument) << "more cells than memory holds";
     EXPECT_EQ(regular_grid({0, 0}, {1, 1}, 100).cell.size(), 1u);
-  }
-
-  TEST(MeshCells, RejectsAnEmptyMesh)
-  {
-    EXPECT_THROW(TriangleSearch{QuadMesh{}}, std::invalid_argument);
   }
 
   // Grids of 2 x 2 and 3 x 3 cells on a square of side 6, with cells 3 and 2 wide. The lower left coarse cell [0,3]^2 shares
@@ -226,12 +222,6 @@ namespace
     for (std::size_t k = 0; k < 4; ++k)
       EXPECT_NEAR(overlap.area[k], expected[k], 1e-13);
     EXPECT_NEAR(std::accumulate(overlap.area.begin(), overlap.area.end(), 0.), 36, 1e-12);
-  }
-
-  // 1e9 x 1e9 cells of side 1.
-  TEST(CellOverlap, RejectsAGridOfMoreCellsThanMemoryHolds)
-  {
-    EXPECT_THROW((void)regular_grid({0, 0}, {1e9, 1e9}, 1), std::invalid_argument);
   }
 
   // The diamond's corners are the middles of the sides of a square of side 2, so it has half the square's area. Each of the four

@@ -86,13 +86,6 @@ namespace
       EXPECT_EQ(refusal([&] { read_csv(name, {{"a"}}); }).find(name + ": cannot be"), 0u);
   }
 
-  TEST(CsvFile, ARefusedCellNamesFileLineColumnValueAndRange)
-  {
-    const CsvTable table = read("a,b\n1,2\n\n-3.5,4\n");
-    EXPECT_EQ(complaint(path, [&] { refuse_cell(table, 1, "a", "more than 0"); }),
-              ", line 4: column 'a' = '-3.5' is out of range; allowed: more than 0");
-  }
-
   TEST(CsvFile, WrittenNumbersReadBackWithTheSameBits)
   {
     const std::vector<double> values = {0.1, 1. / 3, -M_PI, 1e-300, 123456789.123456789, std::nextafter(1., 2.), DBL_MAX, 5e-324};
