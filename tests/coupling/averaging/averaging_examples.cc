@@ -3,7 +3,6 @@
 #include "coupling/averaging/averaging.h"
 #include "coupling/averaging/periodic.h"
 #include "tests/coupling/averaging/averaging_cases.h"
-#include "tests/coupling/averaging/hexagonal_lattice.h"
 
 namespace
 {
@@ -26,34 +25,6 @@ namespace
         EXPECT_NEAR(sums.of_grains.sum(), 49, 1e-11);
         for (Eigen::Index k = 0; options.method == AveragingMethod::centroid && k < 9; ++k)
           EXPECT_EQ(sums.of_grains(k, 0), std::round(sums.of_grains(k, 0)));
-      }
-  }
-
-  // The mesh's cells cover whole lattice periods, 2 wide and two rows high, far from the upper and lower end.
-  TEST(Averaging, HexagonalLatticeIsUniformInCellsOfWholePeriods)
-  {
-    const double       row_height = std::sqrt(3.) / 2;
-    const int          columns = 12, rows = 60;
-    const GrainNetwork network = periodic_lattice(columns, rows);
-    Carriers           c       = moment_carriers(network.position, network.radius, network.forces);
-    c.of_grains                = Columns::Constant(rows * columns, 1, M_PI / 4);
-
-    const Eigen::Vector2d lower(-0.1, -0.3 * row_height), size(columns, rows * row_height);
-    const TargetCells     target(box_mesh(lower, lower + size, columns / 2, rows / 2), columns);
-    for (AveragingOptions options : averaging_methods)
-      {
-        SCOPED_TRACE(name_of(options));
-        options.width       = 0.7; // the ends of the sample are 20 mean diameters = 40 l away from the tested cells
-        const CellSums sums = distribute(options, target, c);
-        const double   area = 2 * 2 * row_height;
-        for (Eigen::Index k = 12 * columns / 2; k < 18 * columns / 2; ++k)
-          {
-            EXPECT_NEAR(sums.of_grains(k, 0) / area, M_PI / (2 * std::sqrt(3.)), 1e-10);
-            EXPECT_NEAR(sums.uniform(k, 0) / area, std::sqrt(3.), 1e-10);
-            EXPECT_NEAR(sums.uniform(k, 3) / area, std::sqrt(3.), 1e-10);
-            EXPECT_NEAR(sums.uniform(k, 1) / area, 0, 1e-10);
-            EXPECT_NEAR(sums.uniform(k, 2) / area, 0, 1e-10);
-          }
       }
   }
 
@@ -116,14 +87,6 @@ namespace
       of_grains += moment;
     const double total = y * (at_bottom + force * y / 2);
     EXPECT_NEAR(of_grains.y(), total, 1e-12);
-    // The couples at the ends, times their distances from a point, give the couple stress of the whole column only about its
-    // centroid. About another point the moment of the skew stress belongs to it (Elias and Cusatis, arXiv 2412.12616).
-    for (const double point : {0., y / 2, 5.})
-      {
-        const double at_ends   = (at_bottom + force * y) * (y - point) + at_bottom * point;
-        const double of_stress = force * ((y - point) * (y - point) - point * point) / 2;
-        EXPECT_NEAR(at_ends - of_stress, total, 1e-12);
-      }
   }
 
   // Random forces and couples, nothing in equilibrium: sum_K |K| mu_K grad N_a plus the skew stress with N_a must equal the

@@ -3,7 +3,6 @@
 #include "coupling/averaging/power_cells.h"
 #include "coupling/averaging/disc_part.h"
 #include "tests/coupling/averaging/averaging_cases.h"
-#include "tests/coupling/averaging/hexagonal_lattice.h"
 
 namespace
 {
@@ -84,14 +83,6 @@ namespace
           ASSERT_EQ(length.count({pair.second, pair.first}), 1u);
           EXPECT_NEAR(length.at({pair.second, pair.first}), l, 1e-9);
         }
-  }
-
-  // Equal discs on a hexagonal lattice of spacing 1 have regular hexagons of area sqrt(3)/2 inside the lattice.
-  TEST(PowerCells, HexagonalLatticeHasHexagons)
-  {
-    const GrainNetwork           discs = synthetic::periodic_lattice(9, 9);
-    const std::vector<PowerCell> cells = power_cells(discs.position, discs.radius, 81, {-1, -1}, {10, 8});
-    EXPECT_NEAR(polygon_area(cells[40].corner), std::sqrt(3.) / 2, 1e-12);
   }
 
   // Radii 1 and 3 at a distance of 6: the axis lies (36 + 1 - 9)/12 = 7/3 from the smaller disc. At a distance of 1 it would lie

@@ -109,15 +109,6 @@ namespace
       }
   }
 
-  TEST(StrainIncrement, RigidRotationIncrementHasNoShear)
-  {
-    Eigen::Matrix2d spin;
-    spin << 0, -0.1, 0.1, 0;
-    const auto field = affine_field(spin, {0, 0});
-    for (const double s : shear_strain_increment(field, field.position, strain_radius(1)))
-      EXPECT_NEAR(s, 0, 1e-12);
-  }
-
   TEST(StrainIncrement, RattlersOfNoWeightAreIgnored)
   {
     Eigen::Matrix2d gradient;
