@@ -112,19 +112,18 @@ namespace
     return true;
   }
 
-  // Commands of many runs and importers are written in Python, which parses their words.
+  // Commands of many runs and importers are written in Python, which alone parses their words.
   bool is_for_python(const std::vector<std::string> &words)
   {
     const auto is_seeds = [](const std::string &word) { return word == "--seeds" || word.rfind("--seeds=", 0) == 0; };
     const auto is_named = [&](const PythonCommand &command) { return words[0] == command.name; };
     return !words.empty() && (std::any_of(std::begin(python_commands), std::end(python_commands), is_named) ||
-                              (words[0] == "run" && std::any_of(words.begin(), words.end(), is_seeds)));
+                              (words[0] == "run" && std::any_of(words.begin(), words.end(), is_seeds)) ||
+                              (words[0] == "compare" && std::any_of(words.begin(), words.end(), is_ensemble_folder)));
   }
 
   int execute_command(const CommandLine &line, char **argv)
   {
-    if (line.command == Command::compare && is_ensemble_folder(line.target))
-      become_python(argv + 1);
     switch (line.command)
       {
       case Command::run:
