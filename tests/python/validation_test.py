@@ -22,7 +22,7 @@ NAMES = ("discrete_summary peak_stress_ratio", "continuum_summary peak_stress_ra
 
 def members_of(grains, continuum, **expected):
     numbers = [dict(zip(NAMES, pair)) for pair in zip(grains, continuum)]
-    return [Member({name: (value, "-", False, "") for name, value in {**one, **{
+    return [Member(numbers={name: (value, "-", False) for name, value in {**one, **{
         f"discrete_summary {key}": error for key, error in expected.items()}}.items()}) for one in numbers]
 
 
@@ -95,7 +95,8 @@ def test_an_ensemble_with_a_posterior_knows_all_parts_of_its_strength(tmp_path, 
         validation.variations(QUICK, settings_of([], [wrong]), validation.draws_of([wrong], []))
     file = write_posterior(tmp_path, "friction_angle_peak,internal_length,friction_angle_start "
                            "(other)\n27,2,9\n29,2,9\n28,3,9\n")
-    assert [[one.key for one in draw] for draw in validation.draws_of([file], ["continuum/internal_length=2"])] == [
+    exact = settings_of(["continuum/internal_length=2"])
+    assert [[one.key for one in draw] for draw in validation.draws_of([file], exact)] == [
         ["friction_angle_peak"]] * 3
     assert len(validation.draws_of([write_posterior(tmp_path, "internal_length\n" + "2\n" * 400)],
                                    [])) == validation.DRAWS

@@ -58,10 +58,25 @@ def member_folders(record: Any) -> dict[int, str]:
     return dict(zip(record["seeds"], record["folders"]))
 
 
+def window_name(start: float, end: float) -> str:
+    """Name of a window in ensemble.json. Six digits: those of two samples may differ by rounding."""
+    return f"window {start:.6g}-{end:.6g}"
+
+
+def stage_name(progress: float) -> str:
+    """The same of a stage."""
+    return f"stage {progress:.6g}"
+
+
+def key_of_band(key: str) -> str:
+    """Key of a compared quantity among the bands of a comparison: band_angle_deg is their angle_deg."""
+    return key.removeprefix("band_")
+
+
 def number_name(panel: str, key: str, window: str = "") -> str:
     """Name of a compared quantity in ensemble.json. panel: discrete, continuum or continuum_coarse. window: that of a
     band."""
     if not window:
         return f"{panel}_summary {key}"
     of = f"{panel} {window}" if panel == "continuum_coarse" else f"{window} {panel}"
-    return f"{of} band {key.removeprefix('band_')}"
+    return f"{of} band {key_of_band(key)}"

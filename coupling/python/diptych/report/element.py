@@ -32,6 +32,9 @@ NAMES = {"stress_ratio": "t/s", "mean_stress": "mean stress s", "volumetric_stra
          "coordination": "contacts per grain", "solid_fraction": "solid fraction",
          **{"s" + c: "σ " + c for c in ("xx", "yy", "xy")}, **{"e" + c: "ε " + c for c in ("xx", "yy", "xy")}}
 
+NAMES |= {f"{when} {name}": f"{when} {words}" for when in ("largest", "last") for name, words in NAMES.items()}
+PER_CENT = ("volumetric_strain", "last volumetric_strain")
+
 
 def draw(folder):
     record = read_json(os.path.join(folder, "element.json"), 1)
@@ -73,15 +76,10 @@ def _directions(element):
             "nothing where t/s or the anisotropy vanish.")
 
 
-def _name(quantity):
-    when, _, name = quantity.rpartition(" ")
-    return " ".join(filter(None, [when, NAMES[name]]))
-
-
 def _rows(entries, keys):
     """One row per quantity. A dash stands for a number that the law does not have."""
-    units = ["%" if one["quantity"].endswith("volumetric_strain") else suffix(one["unit"]) for one in entries]
-    return [[_name(one["quantity"]), *(rounded(one[key], unit).replace(ABSENT, "–") for key in keys)]
+    units = ["%" if one["quantity"] in PER_CENT else suffix(one["unit"]) for one in entries]
+    return [[NAMES[one["quantity"]], *(rounded(one[key], unit).replace(ABSENT, "–") for key in keys)]
             for one, unit in zip(entries, units)]
 
 

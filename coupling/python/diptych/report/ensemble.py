@@ -2,14 +2,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 import os
-import re
 import textwrap
 from dataclasses import dataclass, field
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from ..files import member_folders, read_ensemble, read_json
+from ..files import member_folders, read_ensemble, read_json, stage_name, window_name
 from .charts import profiles
 from .charts.style import FAINT, INK, PANEL_COLOURS, PANEL_LINES, PANEL_MARKS, chart, ruled, svg
 from .data.files import open_arrays, read_provenance, read_text, scene_value
@@ -19,7 +18,6 @@ from .page.writing import write
 from .tables import ensemble as tables
 from .tables import summary
 
-NUMBER = re.compile(r"-?[0-9.]+(?:e[+-]?[0-9]+)?")
 VERDICT_MARKS = {"equivalent": "o", "different": "s", "cannot tell": "D"}
 BAND = 0.25  # opacity
 
@@ -45,8 +43,8 @@ def draw(folder):
 
 @dataclass(kw_only=True)
 class Ensemble:
-    """quantities: by name. numbers: those of a member's comparison. averaging: width of the running means; None: not
-    stored.
+    """quantities: by name. numbers: those of a member's comparison. places: {"window 0.01-0.02": ("window", "1–2 %")},
+    also of stages. averaging: width of the running means; None: not stored.
 
     curves: {"discrete/stress_ratio": {"members": (m, n), "mean": (n), "low": (n), "high": (n)}} over progress (n); {}
     if absent. profiles: {window number: {panel: {"distance": (k), name: (k, 3) mean, low, high}}} of windows in which
@@ -57,22 +55,13 @@ class Ensemble:
     record: dict
     quantities: dict
     numbers: Descriptions
+    places: dict
     loading_variable: LoadingVariable
     provenance: dict
     progress: np.ndarray = None
     averaging: float = None
     curves: dict = field(default_factory=dict)
     profiles: dict = field(default_factory=dict)
-
-    def place(self, text):
-        """(kind, words) of "window 0.01-0.02" or "stage 0.02": ("window", "1–2 %")."""
-        kind, at = text.split(" ", 1)
-        # The dash between two ends is not a minus sign.
-        ends = [float(x) for x in NUMBER.findall(re.sub(r"(?<=[0-9.])-", " ", at))]
-        return kind, "–".join([self.loading_variable.number(x) for x in ends[:-1]] + [self.span(ends[-1])])
-
-    def span(self, value):
-        return self.loading_variable.text(value).replace(" ", "\u00a0")
 
 
 def load(folder):
@@ -82,9 +71,10 @@ def load(folder):
     members = (os.path.join(folder, member, "comparison.json")
                for seed, member in member_folders(record).items() if seed in record["done"])
     member = next((read_json(path) for path in members if os.path.isfile(path)), {})
+    across = loading_variable_of(record.get("walk", member.get("walk")))
     results = Ensemble(folder=folder, record=record, quantities={q["name"]: q for q in record["quantities"]},
-                       numbers=Descriptions(member.get("numbers")),
-                       loading_variable=loading_variable_of(record.get("walk", member.get("walk"))),
+                       numbers=Descriptions(member.get("numbers")), places=_places(member, across),
+                       loading_variable=across,
                        provenance=read_provenance(provenance) if os.path.isfile(provenance) else {})
     if os.path.isfile(arrays):
         with open_arrays(arrays) as file:
@@ -93,6 +83,14 @@ def load(folder):
                               for panel in PANEL_NAMES for name, group in file.get(panel, {}).items()}
             results.profiles = _profiles(file, member.get("pressure", 1) * member.get("mean_diameter", 1))
     return results
+
+
+def _places(member, across):
+    """member: a comparison.json, {} without one."""
+    windows = {window_name(one["from"], one["to"]): ("window", f"{across.number(one['from'])}–{across.span(one['to'])}")
+               for one in member.get("windows", [])}
+    return windows | {stage_name(one["progress"]): ("stage", across.span(one["progress"]))
+                      for one in member.get("stages", [])}
 
 
 def _profiles(file, couple_unit):

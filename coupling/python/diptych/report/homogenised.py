@@ -31,8 +31,7 @@ FRAME = {"s": ("s", "pressure of the files"), "t_over_s": ("t/s", "[95 %]"),
          "coordination_number": ("contacts per grain", ""), "rattlers": ("rattlers", "grains"),
          "anisotropy": ("anisotropy", "[95 %]"), "fabric_direction_deg": ("direction of the fabric", "degrees [95 %]"),
          "volumetric_strain": ("volumetric strain", "%")}
-FORMS = {"direction_deg": ("", 1), "fabric_direction_deg": ("", 1), "volumetric_strain": ("%", 2),
-         "coordination_number": ("", 2)}
+DECIMALS = {"direction_deg": 1, "fabric_direction_deg": 1, "volumetric_strain": 2, "coordination_number": 2}
 BAND = {"angle_deg": ("inclination", "degrees [95 %]"), "width_10_90_d": ("width 10–90", "d [95 %]"),
         "offset_d": ("offset", "d [95 %]"), "jump": ("jump", "of the platens’ travel [95 %]"),
         "dilation_deg": ("dilation", "degrees [95 %]")}
@@ -195,8 +194,7 @@ def _cell(frame, key):
         return "missing"
     if key == "s":
         return number(frame[key])
-    text = rounded(frame[key], *FORMS.get(key, ("", None)))
-    return text.removesuffix(" %").removesuffix("\u00a0%")
+    return rounded(scaled(frame[key], 100 if key == "volumetric_strain" else 1), "", DECIMALS.get(key))
 
 
 def _increments(result):
@@ -204,8 +202,7 @@ def _increments(result):
     across, rows = result.loading_variable, []
     for one in result.record["increments"]:
         place = f"{across.number(one['from'])}–{across.number(one['to'])}"
-        strain = [rounded(one[key], "%", 3).removesuffix("\u00a0%") if one[key] is not None else "missing"
-                  for key in STRAIN]
+        strain = ["missing" if one[key] is None else rounded(100 * one[key], "", 3) for key in STRAIN]
         for band in one["bands"] or [None]:
             values = [rounded(band[key], "", 2 if key == "jump" else 1) for key in BAND if band]
             values = values or [one["band_verdict"]]

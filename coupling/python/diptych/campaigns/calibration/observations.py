@@ -140,7 +140,7 @@ def half_step(scene: _diptych.Scene) -> list[Setting]:
     """Halves the step of the grains, or the accuracy that chooses it."""
     keys = scene.dict()["discrete"]
     key = "accuracy" if keys["step"] == "auto" else "step"
-    return [Setting("discrete", key, repr(0.5 * keys[key]), "the calibration")]
+    return [Setting("discrete", key, repr(0.5 * keys[key]), file="the calibration")]
 
 
 def read_target(target: Target, more: Sequence[Setting] = ()) -> _diptych.Scene:

@@ -66,6 +66,9 @@ def checked(calibration: Calibration) -> Coordinates:
     numbers = pd.to_numeric(pd.Series(values), errors="coerce").dropna().to_dict()
     try:
         coordinates = Coordinates(calibration.parameters, numbers)
+    except ValueError as error:
+        raise SceneError(f"{calibration.file}: parameters: {error}") from error
+    try:
         noise_of([_check_target(calibration, coordinates, target) for target in calibration.targets], calibration.noise)
     except SceneError:
         raise

@@ -18,7 +18,7 @@ import pandas as pd
 from ... import _diptych
 from ...compiled import continuum
 from ...errors import NotConverged, SceneError, Stopped
-from ...files import member_folders, number_name, read_ensemble
+from ...files import key_of_band, member_folders, number_name, read_ensemble
 from . import summary as summaries
 from . import validation
 from ..runs.engine import Options, Outcome, say
@@ -32,6 +32,7 @@ from ..runs.members import Member, member_of
 from ..runs.statistics import line_statistics, statistics, student_quantile
 
 _PANELS = ("discrete", "continuum")
+_MARGINS = {one["margin"] for one in QUANTITIES.values()}  # keys of the section comparison
 _ENDS = ("seeds", "folders", "done", "failed", "interrupted")  # entries of ensemble.json: how the members ended
 
 
@@ -44,7 +45,7 @@ def evaluate(members: Sequence[Member], margins: dict[str, float],
     """quantities, bands, verdicts and validation as ensemble.json has them. margins: comparison/margin_* of the
     scene."""
     quantities: dict[str, dict[str, Any]] = {}
-    for name, (_, unit, line, _place) in (pair for member in members for pair in member.numbers.items()):
+    for name, (_, unit, line) in (pair for member in members for pair in member.numbers.items()):
         if name not in quantities:
             values = _values(members, name)
             found = (line_statistics if line else statistics)(values)
@@ -70,7 +71,7 @@ def _verdicts(margins: dict[str, float], members: Sequence[Member], quantities: 
     verdicts, rows = [], []
     for key, window in validation.compared_by(windows):
         kind, margin = QUANTITIES[key]["difference"], margins[QUANTITIES[key]["margin"]]
-        name = f"{window} band {key.removeprefix('band_')}" if window else key
+        name = f"{window} band {key_of_band(key)}" if window else key
         names = [number_name(panel, key, window) for panel in _PANELS]
         units = [quantities[one]["unit"] for one in names if one in quantities]
         unit = units[0] if units else "degrees" if kind == "line" else "-"
@@ -126,8 +127,7 @@ def _done(scene: Any, record: dict[str, Any]) -> dict[int, str]:
 def _complete(scene: Any, ends: dict[str, Any], runs: Mapping[str, Any]) -> dict[str, Any]:
     """ensemble.json, from the members that finished. ends: with its entries _ENDS; runs: those of
     validation.respond(). Raises ValueError with the file of a member that is broken."""
-    done, members = _done(scene, ends), []
-    margins = {key: value for key, value in scene.dict()["comparison"].items() if key.startswith("margin_")}
+    done, members, keys = _done(scene, ends), [], scene.dict()["comparison"]
     folded, n = scene.is_mirror_symmetric(), len(done)
     for seed, folder in done.items():
         for part in ("", "comparison"):
@@ -137,6 +137,7 @@ def _complete(scene: Any, ends: dict[str, Any], runs: Mapping[str, Any]) -> dict
             raise SceneError(f"the results in '{folder}' are not of this ensemble: {sample or comparison}. Move them "
                              "elsewhere and run the ensemble with --resume, or with --overwrite.")
         members.append(member_of(os.path.join(folder, "comparison.json"), folded))
+    margins = {key: keys[key] for key in _MARGINS}
     found = evaluate(members, margins, validation.responses_of(scene, done, members, runs))
     first = summary_of(next(iter(done.values()))) if done else {}
     return {"format": 1, "scene": scene.name, **{key: ends[key] for key in _ENDS}, "margins": margins,
@@ -216,7 +217,7 @@ def run_ensemble(line: argparse.Namespace, options: Options) -> None:
     compiled.check(scene, seeds, vars(options))  # whether scene, first sample and resources suffice
     if line.check:
         return
-    variations = validation.variations(line.target, settings, validation.draws_of(line.set_file, line.set))
+    variations = validation.variations(line.target, settings, validation.draws_of(line.set_file, settings_of(line.set)))
     with Folder(directory) as folder:
         begin = os.times()
         _open(folder, scene, options, [("the scene", line.target), *(("--set-file", file) for file in line.set_file),
@@ -245,14 +246,16 @@ def run_ensemble(line: argparse.Namespace, options: Options) -> None:
 
 def compare_again(line: argparse.Namespace, options: Options) -> None:
     """diptych compare DIR of an ensemble: statistics and verdicts from the members' files; margins may be changed."""
-    directory, overrides = line.target, [f"{s.section}/{s.key}={s.value}" for s in settings_of(line.set, line.set_file)]
-    for text in overrides:
-        if not text.startswith(("comparison/margin_", "output/")) or text.startswith("output/directory="):
-            raise SceneError(f"--set {text}: only comparison/margin_* and keys of output/ except the directory can be "
-                             "changed without running the members again")
+    directory, settings = line.target, settings_of(line.set, line.set_file)
+    for one in settings:
+        is_margin = one.section == "comparison" and one.key in _MARGINS
+        if not is_margin and (one.section != "output" or one.key == "directory"):
+            raise SceneError(f"--set {one.text()}: only comparison/margin_* and keys of output/ except the directory "
+                             "can be changed without running the members again")
     with Folder(directory):
         begin = os.times()
-        read = _diptych.read_computed_scene(os.path.join(directory, "ensemble.prm"), overrides)
+        read = _diptych.read_computed_scene(os.path.join(directory, "ensemble.prm"), [
+            f"{one.section}/{one.key}={one.value}" for one in settings])
         scene = read.in_folder(directory, _diptych.recorded_scene(directory) or read.name)
         _diptych.check_part(directory, "ensemble")
         earlier = read_ensemble(directory)

@@ -20,7 +20,7 @@ _NAMES = ("relative_rotation", "spin", "couple_stress", "solid_fraction", "veloc
 def profile_arrays(folders: Sequence[str]) -> dict[str, tuple[Any, str, str, str]]:
     """name -> (values, title, unit, meaning) as write_arrays takes them. folders: result folders of the members. Raises
     OSError."""
-    found: dict[str, list[np.ndarray]] = {}
+    found: dict[tuple[str, str], list[np.ndarray]] = {}  # (group, name) -> values of the members
     words: dict[str, tuple[str, str]] = {}
     for folder in folders:
         with h5py.File(os.path.join(folder, "comparison.h5")) as file:
@@ -28,22 +28,21 @@ def profile_arrays(folders: Sequence[str]) -> dict[str, tuple[Any, str, str, str
                 for group in (f"{window}/profile/{panel}" for panel in ("discrete", "continuum")):
                     if not len(file[group]["distance"]):
                         continue
-                    found.setdefault(f"{group}/distance", []).append(file[group]["distance"][()])
+                    found.setdefault((group, "distance"), []).append(file[group]["distance"][()])
                     for name in _NAMES:
                         item = file[group][name]
-                        found.setdefault(f"{group}/{name}", []).append(item[:, 0])
+                        found.setdefault((group, name), []).append(item[:, 0])
                         words[name] = tuple(item.attrs[key].decode() for key in ("title", "unit"))
     arrays: dict[str, tuple[Any, str, str, str]] = {}
-    for path, members in found.items():
-        name = path.rpartition("/")[2]
+    for (group, name), members in found.items():
         if name == "distance":
-            arrays[path] = (members[0], "distance from the band", "mean diameters",
-                            "middles of the strips, along the band's normal")
+            arrays[f"{group}/distance"] = (members[0], "distance from the band", "mean diameters",
+                                           "middles of the strips, along the band's normal")
             continue
         title, unit = words[name]
         for key, values in _means(np.array(members)).items():
-            arrays[f"{path}/{key}"] = (values, title, unit, f"{key.replace('_', ' ')} over the members with a value; "
-                                       "nan: fewer than two")
+            arrays[f"{group}/{name}/{key}"] = (values, title, unit, f"{key.replace('_', ' ')} over the members with a "
+                                               "value; nan: fewer than two")
     return arrays
 
 

@@ -14,7 +14,7 @@ from ... import _diptych
 from ..runs.input_file import Setting
 from .errors import (Refinement, half_interval, refinement, relative_difference, rounded_to_two_digits, samples_for,
                      summary_of)
-from .question import Budget, PanelPlan, Part, Pilot, Question, RunPilot, percent, planned
+from .question import SAMPLES, Budget, PanelPlan, Part, Pilot, Question, RunPilot, percent, planned
 
 # Shares of the accuracy. The rest, at least the last share, is for the scatter of the samples.
 OF_ELEMENTS, OF_LOAD_STEPS, OF_TOLERANCE, OF_MODELS, OF_SAMPLES = 0.4, 0.2, 0.05, 0.15, 0.2
@@ -244,7 +244,7 @@ class ContinuumPlan:
         n = max(1, *needed)
         self.now, self.plan.seeds = point, list(range(first, first + n))
         for parts, scatter in zip(self.parts, self.scatter):
-            parts.append(Part(cause="samples", error=half_interval(scatter, n)))
+            parts.append(Part(cause=SAMPLES, error=half_interval(scatter, n)))
 
     def _conclude(self) -> None:
         plan, now = self.plan, self.now

@@ -16,7 +16,8 @@ from ..studies.levels import LEAST_PAIRS, MOST_RATIO, Variances, numbers_for, pr
 from .errors import (COARSEST_ACCURACY, FINEST_ACCURACY, MOST_SAMPLES_OF_A_PLAN, Estimate, GrainErrors, cheapest_choice,
                      cost_at, half_interval, improved, relative_difference, rounded_to_two_digits, samples_for,
                      summary_of)
-from .question import Budget, PanelPlan, Part, Pilot, Question, RunPilot, percent, planned
+from .question import (SAMPLES, SAMPLES_AND_PAIRS, Budget, PanelPlan, Part, Pilot, Question, RunPilot, percent,
+                       planned)
 from .springs import try_springs
 from ..runs.statistics import Statistics
 
@@ -147,8 +148,8 @@ class GrainsPlan:
         return cheapest_choice(self._errors(), self._cost_at, left, 0 if self.seeds else 1)
 
     def _variances(self, fine: float) -> list[Variances]:
-        """Of the relative means with levels at 0.05 and fine; empty if both have nearly the same step. How far the runs
-        of a sample diverge hardly depends on the fine accuracy, so all levels of the pilot tell it."""
+        """Variances of the relative means with levels at 0.05 and fine; empty if both have nearly the same step. The
+        runs of a sample diverge equally far at any fine accuracy, so all levels of the pilot count."""
         found, cheap, last = [], self.levels[0].point, self.levels[-1]
         ratio = last.point.expected_error["strength"] * fine / last.accuracy / cheap.expected_error["strength"]
         for q, errors in enumerate(self._errors() if ratio <= MOST_RATIO else ()):
@@ -183,7 +184,7 @@ class GrainsPlan:
         return (fine, samples, pairs) if used else None
 
     def _taken(self) -> list[float]:
-        """Of the accuracy, by cheaper settings and by single runs: one number per quantity."""
+        """The part of the accuracy that cheaper settings and a single run use up, for each quantity."""
         return [sum(abs(shifts[q]) for shifts in self.cheaper.values()) + alone for q, alone in enumerate(self.one_run)]
 
     def _conclude(self, accuracy: float, samples: int, two: tuple[float, int, int] | None = None) -> None:
@@ -203,11 +204,11 @@ class GrainsPlan:
             mean = summary_of(self.levels[0].point.values[q], self.quantities[q]["line"])[0].mean
             if two:
                 half = self._variances(two[0])[q].half_interval(*two[1:])
-                parts = [Part(cause="samples, pairs and order", error=half)]
+                parts = [Part(cause=SAMPLES_AND_PAIRS, error=half)]
             else:
                 parts = [Part(cause="step, tolerance", error=errors.at(accuracy), bias=errors.step.mean * accuracy,
                               deviation=errors.step.deviation * accuracy),
-                         Part(cause="samples", error=half_interval(errors.scatter, samples)) if self.seeds
+                         Part(cause=SAMPLES, error=half_interval(errors.scatter, samples)) if self.seeds
                          else Part(cause="one run", error=self.one_run[q])]
             parts += [Part(cause=name, error=abs(shifts[q]), bias=shifts[q]) for name, shifts in self.cheaper.items()]
             plan.quantities.append(Budget(name=self.quantities[q]["name"], mean=mean,

@@ -12,7 +12,7 @@ import numpy as np
 
 from ... import _diptych
 from ...errors import SceneError
-from ...files import number_name
+from ...files import number_name, window_name
 from ..runs.input_file import Setting, settings_of
 from ..runs.key_numbers import QUANTITIES
 from ..runs.members import described
@@ -53,6 +53,9 @@ class Pilot:
 RunPilot = Callable[[str, list[Setting], Sequence[int], list[dict[str, Any]]], Pilot]
 
 
+SAMPLES, SAMPLES_AND_PAIRS = "samples", "samples, pairs and order"  # causes of parts that more samples reduce
+
+
 @dataclass(kw_only=True)
 class Part:
     """One part of the error of a mean, relative. bias: expected, with sign; 0: chance only."""
@@ -61,6 +64,10 @@ class Part:
     error: float  # upper estimate
     bias: float = 0.0
     deviation: float = np.nan  # of that estimate
+
+    @property
+    def is_of_method(self) -> bool:
+        return self.cause not in (SAMPLES, SAMPLES_AND_PAIRS)
 
 
 @dataclass(kw_only=True)
@@ -79,7 +86,7 @@ class Budget:
     @property
     def method(self) -> float:
         """Without half the interval of the samples."""
-        return sum(part.error for part in self.parts if not part.cause.startswith("samples"))
+        return sum(part.error for part in self.parts if part.is_of_method)
 
     @property
     def bias(self) -> float:
@@ -135,7 +142,7 @@ class Plan:
 
     @property
     def settings(self) -> list[Setting]:
-        """Of all panels."""
+        """The settings of all panels."""
         return [one for panel in self.panels for one in panel.settings]
 
     @property
@@ -151,7 +158,7 @@ class Plan:
 def planned(name: str, value: Any) -> Setting:
     """A setting that the plan makes: planned("discrete/step", "auto")."""
     text = value if isinstance(value, str) else _diptych.text_of_number(value)
-    return Setting(*name.split("/"), text, "plan")
+    return Setting(*name.split("/"), text, file="plan")
 
 
 def read_accuracy(text: str) -> float:
@@ -185,9 +192,9 @@ def _key_quantity(key: str, panel: str, scene: _diptych.Scene) -> dict[str, Any]
     asked = key_quantity(key, panel) | {"name": f"{panel}.{key}", "step_error": rule}
     if not of_band:
         return asked
-    low, high = map(_diptych.text_of_number, scene.dict()["comparison"]["window_edges"][-2:])
+    window = window_name(*scene.dict()["comparison"]["window_edges"][-2:])
     return asked | {"source": "comparison", "reduction": "number",
-                    "column": number_name(panel, key, f"window {low}-{high}")}
+                    "column": number_name(panel, key, window)}
 
 
 def _add(question: Question, word: str, panels: set[str], scene: _diptych.Scene) -> None:

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from .errors import half_interval, samples_for
-from .question import Budget, PanelPlan, Part, Question, RunPilot, planned
+from .question import SAMPLES, Budget, PanelPlan, Part, Question, RunPilot, planned
 
 STIFFNESS = planned("discrete/penalty_stiffness", 1e4)
 # Largest relative errors of these springs: of explicit ones against the limit of short steps, of implicit ones against
@@ -26,7 +26,7 @@ def try_springs(plan: PanelPlan, question: Question, run: RunPilot, quantities: 
         return
     settings = [planned("discrete/method", method), STIFFNESS]
     settings = [*plan.settings, *settings] if implicit else [*settings, planned("discrete/penalty_step_fraction", 0.5)]
-    parts = [[*(part for part in q.parts if implicit and not part.cause.startswith("samples")),
+    parts = [[*(part for part in q.parts if implicit and part.is_of_method),
               Part(cause="springs", error=ERROR[asked["step_error"]])] for q, asked in zip(plan.quantities, quantities)]
     needed = [samples_for(q.scatter, question.accuracy - sum(part.error for part in of_q))
               for q, of_q in zip(plan.quantities, parts)]
@@ -45,5 +45,5 @@ def try_springs(plan: PanelPlan, question: Question, run: RunPilot, quantities: 
         plan.seeds = [plan.seeds[0] + k for k in range(samples)]
         plan.cpu_s, plan.peak_memory_mb = pilot.cpu_s, pilot.peak_memory_mb
         plan.quantities = [Budget(name=q.name, mean=q.mean, scatter=q.scatter,
-                                  parts=[*of_q, Part(cause="samples", error=half_interval(q.scatter, samples))])
+                                  parts=[*of_q, Part(cause=SAMPLES, error=half_interval(q.scatter, samples))])
                            for q, of_q in zip(plan.quantities, parts)]

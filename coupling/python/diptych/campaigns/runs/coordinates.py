@@ -54,7 +54,7 @@ class Coordinates:
             referred = [q for q in parameters if q.key == p.other]
             for target in p.targets or ("",):
                 if referred and not any(q.is_of(target) for q in referred):
-                    raise ValueError(f"parameters: {p.key} refers to {p.other}, which belongs to other targets")
+                    raise ValueError(f"{p.key} refers to {p.other}, which belongs to other targets")
                 self._value(p.key, target, [q.start for q in parameters], 0)
 
     def __len__(self) -> int:
@@ -67,7 +67,7 @@ class Coordinates:
 
     def _value(self, key: str, target: str, numbers: Sequence[float], depth: int) -> float:
         if depth > len(self):
-            raise ValueError(f"parameters: {key} refers to itself in a circle")
+            raise ValueError(f"{key} refers to itself in a circle")
         for p, number in zip(self.parameters, numbers):
             if p.key == key and p.is_of(target):
                 if p.coordinate in ("value", "logarithm"):
@@ -75,7 +75,7 @@ class Coordinates:
                 share = number if p.coordinate == "share_of" else 1 - number
                 return share * self._value(p.other, target, numbers, depth + 1)
         if key not in self.others:
-            raise ValueError(f"parameters: {key} is needed by a share or drop, but has no value")
+            raise ValueError(f"{key} is needed by a share or drop, but has no value")
         return self.others[key]
 
     def values(self, point: Array) -> list[float]:
@@ -87,5 +87,5 @@ class Coordinates:
         """Settings of one target. An empty name gives those that all targets share."""
         numbers = self.numbers(point)
         return [Setting(*p.setting, repr(self._value(p.key, target, numbers, 0)),
-                        f"{p.key} = {number:.4g}" + (f" ({p.coordinate} {p.other})" if p.other else ""))
+                        file=f"{p.key} = {number:.4g}" + (f" ({p.coordinate} {p.other})" if p.other else ""))
                 for p, number in zip(self.parameters, numbers) if p.is_of(target)]

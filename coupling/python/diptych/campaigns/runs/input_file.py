@@ -6,7 +6,7 @@ import json
 import os
 import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, NoReturn
 
 from ... import _diptych
@@ -50,18 +50,21 @@ def settings_of(overrides: Sequence[str], set_files: Sequence[str] = ()) -> list
     return [*settings, *(Setting(*_diptych.entry_of_override(text)) for text in overrides)]
 
 
-def read_seeds(text: str) -> list[int]:
-    """Seeds of a list like 1-8 or 1,3,5-7, ascending. Raises SceneError, which begins with --seeds."""
+def _refuse_seeds(why: str) -> NoReturn:
+    raise SceneError("--seeds" + why)
+
+
+def read_seeds(text: str, refuse: Callable[[str], NoReturn] = _refuse_seeds) -> list[int]:
+    """Seeds of a list like 1-8 or 1,3,5-7, ascending. refuse: raises SceneError with " LIST is not allowed; ..."."""
     if not re.fullmatch(r"\d{1,10}(-\d{1,10})?(,\d{1,10}(-\d{1,10})?)*", text):
-        raise SceneError(f"--seeds {text} is not allowed; write a list like 1-8 or 1,3,5-7")
+        refuse(f" {text} is not allowed; write a list like 1-8 or 1,3,5-7")
     ends = [[int(end) for end in item.split("-")] for item in text.split(",")]
     ranges = [range(first, (last or [first])[0] + 1) for first, *last in ends]
     if not all(ranges) or sum(map(len, ranges)) > MOST_SEEDS or max(map(max, ranges)) > LARGEST_SEED:
-        raise SceneError(f"--seeds {text} is not allowed; ranges ascend, with at most {MOST_SEEDS} seeds up to "
-                         f"{LARGEST_SEED}")
+        refuse(f" {text} is not allowed; ranges ascend, with at most {MOST_SEEDS} seeds up to {LARGEST_SEED}")
     seeds = sorted(seed for one in ranges for seed in one)
     if len(set(seeds)) < len(seeds):
-        raise SceneError(f"--seeds {text} is not allowed; a seed is given twice")
+        refuse(f" {text} is not allowed; a seed is given twice")
     return seeds
 
 
@@ -195,10 +198,7 @@ class Part:
 
     def seeds(self, key: str) -> "list[int]":
         """As on the command line: "1-8", "1,3,5-7" or a number. Empty if it is missing."""
-        try:
-            return read_seeds(value_text(self.value[key])) if self.has(key) else []
-        except SceneError as error:
-            self.refuse(str(error).removeprefix("--seeds"), key)
+        return read_seeds(value_text(self.value[key]), lambda why: self.refuse(why, key)) if self.has(key) else []
 
     def settings(self, key: str) -> "list[Setting]":
         """{"section/key": value, ...}, each checked. Empty if it is missing."""
@@ -217,4 +217,5 @@ class Part:
             here = [one for one in _diptych.described_keys() if one.endswith("/" + name)]
             raise SceneError(f"{self._place(line)}: {name} is not a key of a scene; write section/key"
                              + (f", such as {here[0]}" if here else ""), name)
-        return Setting(section, rest, value_text(value), self.file, line, os.path.dirname(self.file)).check()
+        folder = os.path.dirname(self.file)
+        return Setting(section, rest, value_text(value), file=self.file, line=line, folder=folder).check()

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ... import _diptych
+from ...files import stage_name, window_name
 from .folders import read_json
 
 _SINGULAR = {"probes": "probe", "probe_differences": "probe_difference"}
@@ -21,7 +22,7 @@ def _described() -> dict[str, tuple[str, str]]:
             if kind in ("number", "line")}
 
 
-# What a list of a comparison adds to the names of its numbers.
+# Patterns that the lists of a comparison add to the names of their numbers.
 _IN_NAMES = {"bands": "band", "windows": r"window \S+-\S+", "stages": r"stage \S+", "stress": r"stress \S.*",
              **{one: rf"{singular} \S.*" for one, singular in _SINGULAR.items()}}
 
@@ -38,12 +39,13 @@ def described(name: str) -> tuple[str, str, bool] | None:
     return None
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Member:
-    """numbers: name -> (value, unit, True for the angle of a line, place); windows: "window 0-0.01";
-    bands: "window 0-0.01 discrete" -> their number."""
+    """numbers: name -> (value, unit, True for the angle of a line); windows: "window 0-0.01"; bands: "window 0-0.01
+    discrete" -> their number. folded: mirror images of a band count as one."""
 
-    numbers: dict[str, tuple[float, str, bool, str]] = field(default_factory=dict)
+    folded: bool = False
+    numbers: dict[str, tuple[float, str, bool]] = field(default_factory=dict)
     windows: list[str] = field(default_factory=list)
     bands: dict[str, int] = field(default_factory=dict)
 
@@ -63,37 +65,34 @@ class Member:
                     self.collect(entry, f"{place}/{key}", f"{name} {key}")
         elif isinstance(value, (int, float)) and not isinstance(value, bool) and place in _described():
             unit, kind = _described()[place]
-            self.numbers[name] = (float(value), unit, kind == "line", place)
+            self.numbers[name] = (float(value), unit, kind == "line")
 
     def _collect_list(self, entries: list[Any], place: str, name: str, key: str) -> None:
         if key == "bands":
             self.bands[name] = len(entries)
             for band in entries[:1]:
                 self.collect(band, place, f"{name} band")
+                if self.folded:
+                    self._fold(f"{name} band")
             return
         for entry in entries if entries and isinstance(entries[0], dict) else ():
             own = entry.get("name") or entry.get("label") or (f"{entry['of']}-{entry['and']}" if "of" in entry else "")
             if own:
                 self.collect(entry, place, f"{name} {_SINGULAR.get(key, key)} {own}")
 
+    def _fold(self, band: str) -> None:
+        """Folds mirror images of a band: angle and offset lose their sign, the jump changes it with the angle."""
+        turn = -1 if self.value(f"{band} angle_deg") < 0 else 1
+        for key, folded in (("angle_deg", abs), ("offset_d", abs), ("jump", lambda jump: turn * jump)):
+            if f"{band} {key}" in self.numbers:
+                value, *kind = self.numbers[f"{band} {key}"]
+                self.numbers[f"{band} {key}"] = (folded(value), *kind)
+
     def collect_windows(self, windows: list[Any], place: str, prefix: str = "") -> None:
         for window in windows:
-            name = f"window {window['from']:.6g}-{window['to']:.6g}"
+            name = window_name(window["from"], window["to"])
             self.windows += [] if prefix else [name]
             self.collect(window, place, prefix + name)
-
-    def fold(self) -> None:
-        """Folds mirror images of a band: angle and offset lose their sign, the jump changes it with the angle."""
-        negative = {name.rpartition(" ")[0] for name, (value, *_, place) in self.numbers.items()
-                    if place.endswith("/bands/angle_deg") and value < 0}
-        folded = {}
-        for name, (value, unit, line, place) in self.numbers.items():
-            if place.endswith(("/bands/angle_deg", "/bands/offset_d")):
-                value = abs(value)
-            elif place.endswith("/bands/jump") and name.rpartition(" ")[0] in negative:
-                value = -value
-            folded[name] = (value, unit, line, place)
-        self.numbers = folded
 
 
 def member_of(path: str, folded: bool) -> Member:
@@ -103,18 +102,15 @@ def member_of(path: str, folded: bool) -> Member:
 
 
 def member_of_record(record: dict[str, Any], folded: bool = False) -> Member:
-    """The same from the contents of the file."""
-    member = Member()
+    """The numbers from the contents of a comparison.json."""
+    member = Member(folded=folded)
     for panel in ("discrete_summary", "continuum_summary"):
         member.collect(record[panel], panel, panel)
     member.collect_windows(record["windows"], "windows")
-    for stage in record["stages"]:  # six digits: stages of two seeds may differ by rounding
-        member.collect(stage, "stages", f"stage {stage['progress']:.6g}")
+    for stage in record["stages"]:
+        member.collect(stage, "stages", stage_name(stage["progress"]))
     coarse = record.get("continuum_coarse") or {}
     if "windows" in coarse:
         member.collect(coarse, "continuum_coarse", "continuum_coarse")
         member.collect_windows(coarse["windows"], "continuum_coarse/windows", "continuum_coarse ")
-    if folded:
-        member.fold()
     return member
-

@@ -41,7 +41,7 @@ class Statistics(NamedTuple):
 
 
 def _with_interval(n: int, mean: float, square: float) -> Statistics:
-    s = Statistics(n, mean, math.sqrt(square / (n - 1)) if n > 1 else math.nan)
+    s = Statistics(n=n, mean=mean, deviation=math.sqrt(square / (n - 1)) if n > 1 else math.nan)
     return s._replace(low=s.interval().low, high=s.interval().high)
 
 

@@ -100,7 +100,8 @@ def evaluate(study: Study, points: Sequence[Point], results: Results,
         values = [[run.values[q] for run in runs] for q in range(len(study.quantities))]
         record = {
             "family": "reference" if point.family < 0 else study.families[point.family].name,
-            "labels": point.labels, "settings": point.settings, "folders": [f"runs/{run.name}" for run in point.runs],
+            "labels": point.labels, "settings": [one.text() for one in point.settings],
+            "folders": [f"runs/{run.name}" for run in point.runs],
             "words": next((run.words for run in runs if run.words), ""), "warned": sum(run.warned for run in runs),
             "halved_steps": max(run.halved_steps for run in runs), "cut_backs": max(run.cut_backs for run in runs)}
         if study.reference is None:

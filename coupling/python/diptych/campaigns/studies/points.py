@@ -32,7 +32,7 @@ class Point:
     reference: int = 0
     places: tuple[int, ...] = ()  # indices on the axes of the family
     labels: list[str] = field(default_factory=list)
-    settings: list[str] = field(default_factory=list)  # beyond those of all points
+    settings: list[Setting] = field(default_factory=list)  # beyond those of all points
     runs: list[SceneRun] = field(default_factory=list)  # one per sample
 
 
@@ -41,7 +41,7 @@ def on_sample(settings: Sequence[Setting], seed: int | None, file: str) -> list[
     if seed is None:
         return list(settings)
     names_seed = any("{seed}" in setting.value for setting in settings)
-    own = [] if names_seed else [Setting("sample", "seed", str(seed), f"{file}: seeds")]
+    own = [] if names_seed else [Setting("sample", "seed", str(seed), file=f"{file}: seeds")]
     return [setting.with_seed(seed) for setting in [*settings, *own]]
 
 
@@ -51,8 +51,8 @@ def scene_run(scene: str, command: str, settings: Sequence[Setting]) -> SceneRun
     if command != "discrete":
         demand_continuum(command)
     try:
-        read = _diptych.read_changed_scene(scene, [*settings, Setting("output", "report", "false", "")],
-                                           command == "run")
+        no_report = Setting("output", "report", "false", file="")
+        read = _diptych.read_changed_scene(scene, [*settings, no_report], command == "run")
         return SceneRun(command=command, name=run_name(read, command), scene=read)
     except SceneError as error:
         text = "".join(setting.text() + "\n" for setting in settings)
@@ -60,7 +60,7 @@ def scene_run(scene: str, command: str, settings: Sequence[Setting]) -> SceneRun
 
 
 def _point(study: Study, settings: list[Setting], **place: Any) -> Point:
-    point = Point(**place, settings=[setting.text() for setting in settings])
+    point = Point(**place, settings=settings)
     for seed in study.seeds or [None]:
         point.runs.append(scene_run(study.scene, study.command,
                                     on_sample([*study.settings, *settings], seed, study.file)))

@@ -84,7 +84,7 @@ def sobol_indices(points: Array, values: Array) -> Sobol:
     polynomials leave unexplained may belong to any parameter, which widens each interval. At least 20 values.
     """
     parts = np.array_split(np.random.default_rng(1).permutation(len(values)), FOLDS)
-    best, without = Sobol([], [], -math.inf, 0), np.empty(0)
+    best, without = Sobol(first=[], total=[], q2=-math.inf, degree=0), np.empty(0)
     for degree in range(1, _HIGHEST_DEGREE + 1):
         if math.comb(points.shape[1] + degree, degree) > _MOST_TERMS:
             break
@@ -148,7 +148,7 @@ def _indices_of(ranges: Sequence[Parameter], points: Array, values: Array, is_li
     if is_line and len(values):
         centre = line_statistics(values).mean
         values = centre + line_turn(values, centre)
-    found = Sobol([], [], math.nan, 0)
+    found = Sobol(first=[], total=[], q2=math.nan, degree=0)
     if len(values) >= FEWEST_SAMPLES and values.std() > _ROUNDING * np.abs(values).max():
         found = sobol_indices(points, values)
     return {"q2": found.q2, "degree": found.degree, "mean": values.mean() if len(values) else math.nan,

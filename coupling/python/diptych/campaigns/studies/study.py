@@ -210,7 +210,7 @@ def study_csv(study: Study, points: Sequence[Point], results: Results, records: 
     rows = []
     for k, (point, record) in enumerate(zip(points, records)):
         for sample, run in enumerate(results[k]):
-            row = {"point": k, "family": record["family"], "settings": "; ".join(point.settings),
+            row = {"point": k, "family": record["family"], "settings": "; ".join(record["settings"]),
                    "sample": study.seeds[sample] if study.seeds else "", "class": record.get("class"),
                    "exit_code": run.exit_code if run.known else "", "halved_steps": run.halved_steps,
                    "cut_backs": run.cut_backs, "sweeps": run.sweeps, "newton_iterations": run.newton_iterations,
@@ -218,7 +218,7 @@ def study_csv(study: Study, points: Sequence[Point], results: Results, records: 
                    "folder": record["folders"][sample]}
             if study.reference is None:
                 del row["class"]
-                row |= {p.key: setting.partition(" = ")[2] for p, setting in zip(study.ranges, point.settings)}
+                row |= {f"{one.section}/{one.key}": one.value for one in point.settings if study.ranges}
                 row |= dict(zip(map(text_of_quantity, study.quantities), run.values))
             else:
                 references = results[point.reference][sample].values

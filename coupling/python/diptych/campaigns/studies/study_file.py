@@ -159,7 +159,7 @@ def _sample_ranges(root: Part, study: Study) -> list[Family]:
     try:
         coordinates = Coordinates(study.ranges, others)
     except ValueError as error:
-        root.refuse(str(error).removeprefix("parameters"), "ranges")
+        root.refuse(f": {error}", "ranges")
     n = root.number("samples", FEWEST_SAMPLES, MOST_SAMPLES, True)
     study.design = qmc.LatinHypercube(len(study.ranges), seed=1).random(n)
     points = [AxisPoint(str(k), [one._replace(file=study.file) for one in coordinates.settings(point, "")])
@@ -239,7 +239,7 @@ def key_quantity(key: str, panel: str) -> dict[str, Any]:
 
 
 def _quantities(root: Part, study: Study) -> list[dict[str, Any]]:
-    """Those of the file. Without a reference it may name none, and it may set no limit."""
+    """The quantities of the file. A study without a reference may name none, and sets no limit."""
     quantities = [_quantity(part, study.command) for part in root.list("quantities")]
     if study.reference is None:
         for part in root.list("quantities"):

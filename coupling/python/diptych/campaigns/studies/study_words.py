@@ -72,19 +72,21 @@ def study_of_words(line: argparse.Namespace) -> tuple[Study, str]:
         raise SceneError(f"{file} is a scene; give --vary, such as --vary discrete/friction=0.2,0.3,0.5, or a study "
                          "file (.json)")
     read_seeds(line.seeds or "1")
-    _check_panels(file, line, overrides)
+    axes = [_axis(text) for text in line.vary]
+    _check_panels(line, overrides, [axis["key"] for axis in axes])
     record = {"scene": os.path.abspath(file), "command": _COMMANDS[line.panels],
               "set": {} if line.panels in ("discrete", "continuum") else _WITHOUT_COARSE_MESH,
-              "axes": [_axis(text) for text in line.vary], **({"seeds": line.seeds} if line.seeds else {})}
+              "axes": axes, **({"seeds": line.seeds} if line.seeds else {})}
     study = study_of(Part("--vary", {}, record), name_of(file, "scene"), overrides)
     record["set"] = {**record["set"], **{f"{one.section}/{one.key}": one.value for one in overrides}}
     return study, json.dumps(record, indent=1) + "\n"
 
 
-def _check_panels(file: str, line: argparse.Namespace, overrides: list[Any]) -> None:
+def _check_panels(line: argparse.Namespace, overrides: list[Any], varied: list[str]) -> None:
     """A mesh without grains has one panel and no samples."""
+    file = line.target
     mesh = _diptych.read_changed_scene(file, [one.check() for one in overrides], False).dict()["continuum"]["mesh"]
-    if mesh == "outline" or line.panels == "discrete" or any(text.startswith("continuum/mesh=") for text in line.vary):
+    if mesh == "outline" or line.panels == "discrete" or "continuum/mesh" in varied:
         return
     if line.panels != "continuum":
         raise SceneError(f"{file}: continuum/mesh = {mesh} has no grains; give --panels continuum, or mesh = outline")

@@ -33,15 +33,15 @@ def _points(axes, result, numbers):
 
 def _inclination(result):
     caption = ("Angle between the first band and the minor principal stress in it, and theory lines for the "
-               f"parameters of the continuum (φ friction, ψ dilatancy): {', '.join(THEORY.values())}. Bars: 95 % "
-               "intervals, if known.")
+               "parameters of the continuum (φ friction, ψ dilatancy): "
+               f"{', '.join(map(' '.join, THEORY.values()))}. Bars: 95 % intervals, if known.")
     figure, axes = chart(result, "band to minor stress (degrees)")
     if not _points(axes, result, lambda stage, panel: strongest_band(stage, panel).get("to_minor_stress_deg")):
         return None, caption
-    for key, label in THEORY.items():
+    for key, (name, _) in THEORY.items():
         angle = plain(result.part("theory").get(key))
         if angle is not None:
-            axes.axhline(angle, color=INK, linewidth=1, linestyle=DASHES[key], label=f"{label.split()[0]} {angle:.1f}°")
+            axes.axhline(angle, color=INK, linewidth=1, linestyle=DASHES[key], label=f"{name} {angle:.1f}°")
     low, high = axes.get_ylim()
     axes.set_ylim(low - 1, high + 0.45 * (high - low) + 2)
     axes.legend(loc="upper right", ncol=2, fontsize=8)

@@ -113,6 +113,10 @@ class LoadingVariable:
     def text(self, progress):
         return self.number(progress) + self.unit
 
+    def span(self, progress):
+        """The same without a line break."""
+        return self.text(progress).replace(" ", "\u00a0")
+
 
 LOADING_VARIABLES = {"axial_strain": LoadingVariable("axial strain"), "shear_strain": LoadingVariable("shear strain"),
                      "time": LoadingVariable("time", "", 1.0)}

@@ -147,17 +147,17 @@ def load(folder, next_folder):
 
 def _increments(comparison, file, units, described):
     """Windows first, then stages, in the order of comparison.json. Raises InputError if comparison.h5 lacks one."""
-    listed = [(f"window-{k}", f"window_{k}", one["to"], one) for k, one in enumerate(comparison["windows"])]
-    listed += [(f"stage-{k}", f"stage_{k + 1:04d}", one["progress"], one) for k, one in enumerate(comparison["stages"])]
+    listed = [("window", k, f"window_{k}", one["to"], one) for k, one in enumerate(comparison["windows"])]
+    listed += [("stage", k, f"stage_{k + 1:04d}", one["progress"], one) for k, one in enumerate(comparison["stages"])]
     increments = []
-    for key, name, end, record in listed:
+    for kind, k, name, end, record in listed:
         group = _group(file, name, end)
         arrays = _arrays(group, units, described)
         for mesh in [mesh for mesh in ("cells", "grid") if mesh in group]:
             arrays[mesh + "/corners"] = arrays.pop(mesh + "/node_position")[arrays.pop(mesh + "/nodes").astype(int)]
         of_platen = {unit: group.attrs[unit] / units.diameter for unit in ("displacement_unit", "velocity_unit")}
         increments.append(Increment(
-            key=key, kind=key.partition("-")[0], start=float(group.attrs["from"]), end=end, record=record,
+            key=f"{kind}-{k}", kind=kind, start=float(group.attrs["from"]), end=end, record=record,
             loading_variable=loading_variable_of(comparison.get("walk")), arrays=arrays,
             centre=group.attrs["centre"] / units.diameter,
             **{unit: value for unit, value in of_platen.items() if np.isfinite(value) and value > 0}))

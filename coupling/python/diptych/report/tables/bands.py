@@ -81,7 +81,7 @@ def _theory(result, increment):
         if known:
             angles.append(f"{name.lower()} " + "; ".join(rounded(angle, "°") for angle in known))
     theory = result.part("theory")
-    lines = [f"{label} = {rounded(theory[key], '°')}" for key, label in THEORY.items()
+    lines = [f"{' '.join(line)} = {rounded(theory[key], '°')}" for key, line in THEORY.items()
              if plain(theory.get(key)) is not None]
     if not angles:
         return []

@@ -5,7 +5,7 @@ import os
 
 from ..._diptych import key_quantities
 from ...arrays import ends_text
-from ...files import member_folders, number_name
+from ...files import key_of_band, member_folders, number_name
 from ..data.panels import PANEL_NAMES
 from .wording import DECIMALS, UNBROKEN, ending, fixed, number, rounded, shown_unit
 
@@ -18,7 +18,7 @@ AXIS_UNITS = {"": "", "%": " (%)", "°": " (°)", " d": " (d)"}
 def described_at(verdict):
     """Place of the quantity of a verdict in the list of numbers of a comparison."""
     key = verdict["key"]
-    return f"windows/discrete/bands/{key.removeprefix('band_')}" if verdict["window"] else f"discrete_summary/{key}"
+    return f"windows/discrete/bands/{key_of_band(key)}" if verdict["window"] else f"discrete_summary/{key}"
 
 
 def own_text(results, verdict):
@@ -29,7 +29,7 @@ def own_text(results, verdict):
 def text_of(results, verdict):
     """"inclination of the band, 0–1 %"."""
     text, window = own_text(results, verdict)[0], verdict["window"]
-    return f"{text}, {results.place(window)[1]}" if window else text
+    return f"{text}, {results.places.get(window, ('', window))[1]}" if window else text
 
 
 def panel_quantities(results, verdict):
@@ -118,16 +118,15 @@ def curve_caption(results):
     """Explains the lines in the charts of histories."""
     more = "" if len(results.record["done"]) <= MOST_CURVES else f" Curves of the first {MOST_CURVES} seeds."
     across, width = results.loading_variable, results.averaging
-    width = "" if width is None else f", mean over the last {results.span(width)} of {across.word}"
+    width = "" if width is None else f", mean over the last {across.span(width)} of {across.word}"
     return (f" Thin: every seed{width}. Thick: mean of the seeds. Shaded: 95 % interval of this mean (Student)." + more)
 
 
 def band_table(results):
     """Number of bands in every stage and window."""
     texts = {band["name"]: band["text"] for band in results.record["bands"]}
-    places = [name.removesuffix(" discrete") for name in texts if name.endswith(" discrete")]
-    rows = [[" ".join(results.place(place))] + [texts.get(f"{place} {p}", "–") for p in PANEL_NAMES]
-            for place in places]
+    rows = [[" ".join(words)] + [texts.get(f"{place} {p}", "–") for p in PANEL_NAMES]
+            for place, words in results.places.items() if f"{place} discrete" in texts]
     return {"head": ["", "grains", "continuum"], "rows": rows}
 
 

@@ -106,15 +106,16 @@ def fixed(value, unit, decimals=None):
 
 
 def _with_ends(number, unit, form):
-    """form(number), followed by its interval without the unit and without line breaks."""
-    return form(number["value"]) + ends_text(number.get("low"), number.get("high"),
-                                             lambda end: form(end).removesuffix(ending(unit)), "," + UNBROKEN)
+    """form(number, unit), followed by its interval without the unit and without line breaks."""
+    factor = 100 if unit == "%" else 1
+    return form(number["value"], unit) + ends_text(number.get("low"), number.get("high"),
+                                                   lambda end: form(factor * end, ""), "," + UNBROKEN)
 
 
 def number(value, unit="", digits=4):
     """A number as text, with minus signs and powers of ten; its interval follows in brackets."""
     if isinstance(value, dict) and "value" in value:
-        return _with_ends(value, unit, lambda one: number(one, unit, digits))
+        return _with_ends(value, unit, lambda one, unit: number(one, unit, digits))
     if value is None or isinstance(value, (dict, list)):
         return ABSENT
     if isinstance(value, bool):
@@ -136,8 +137,9 @@ def number(value, unit="", digits=4):
 
 def rounded(value, unit, decimals=None):
     """As number(), but with a fixed number of decimals, so that columns align."""
+    decimals = DECIMALS.get(unit, 3) if decimals is None else decimals
     if isinstance(value, dict) and "value" in value:
-        return _with_ends(value, unit, lambda one: rounded(one, unit, decimals))
+        return _with_ends(value, unit, lambda one, unit: rounded(one, unit, decimals))
     if not isinstance(value, float) or not math.isfinite(value):
         return number(value, unit)
     return fixed(value, unit, decimals) + ending(unit)
