@@ -53,6 +53,10 @@ class Interval(NamedTuple):
     low: float
     high: float
 
+    def text(self) -> str:
+        """ "0.35 [0.33, 0.37]", without ends that are unknown; "-" without a value """
+        return f"{self.value:.4g}{ends_text(self.low, self.high)}" if math.isfinite(self.value) else "-"
+
 
 def ends_text(low: float | None, high: float | None, form: Callable[[float], str] = "{:.4g}".format,
               between: str = ", ") -> str:

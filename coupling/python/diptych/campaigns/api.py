@@ -103,8 +103,8 @@ class Campaign(CampaignResult):
 
     @property
     def changes(self) -> pd.DataFrame:
-        """The same study: a row per parameter, quantity and panel with change.value, change.low, change.high, verdict
-        and samples_needed."""
+        """A study without a reference: a row per parameter, quantity and panel with change.value, change.low,
+        change.high, verdict and samples_needed."""
         return pd.json_normalize(self.numbers.get("changes", []))
 
     @property

@@ -11,7 +11,7 @@ from ..words import Parser
 from . import arguments
 from .runs.engine import Options
 
-# command: what adds its arguments, and the function that does it
+# command: function that adds its arguments; module and function that do it
 COMMANDS = {"run": (arguments.add_run, "ensembles.ensemble", "run_ensemble"),
             "compare": (arguments.add_compare, "ensembles.ensemble", "compare_again"),
             "study": (arguments.add_study, "studies.study", "run_study"),

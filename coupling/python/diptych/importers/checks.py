@@ -73,7 +73,7 @@ def _refuse_overlaps(now: Instant) -> NoReturn:
 
 
 def _largest_overlap(now: Instant) -> float:
-    """Of two grains or of a grain and a wall; negative: the smallest gap."""
+    """The largest overlap of two grains, or of a grain and a wall; negative: the smallest gap."""
     x, r, count = now.grains["position"], now.grains["radius"], 0
     largest = np.nanmax(r[:, None] - INWARD * (x[:, AXIS] - now.place), initial=-np.inf)
     for i, j in _near_pairs(now):

@@ -7,7 +7,7 @@ import sys
 
 from ..errors import InputError
 
-# what to draw -> (module with draw(folder), its input files); only a page also takes a folder of newer files
+# picture -> (module with draw(folder), its input files); only a page also takes a folder of newer files
 DRAWINGS = {
     "page": ("page.result_page", "comparison.json, comparison.h5, discrete.csv, continuum.csv, provenance.json"),
     "movie": ("page.movie", "comparison.json, comparison.h5, discrete.csv, continuum.csv, provenance.json"),

@@ -70,7 +70,7 @@ def _column(entries, key):
 
 
 def _middle(one):
-    """Of the bin of an observable [%]."""
+    """The middle of the bin of an observable [%]."""
     return 50 * (one["from"] + one["to"])
 
 

@@ -189,13 +189,13 @@ def run_calibration(line: argparse.Namespace, options: Options) -> None:
             check_data(calibration, paths, runs, record)
             posterior = calibrate(Trials(calibration, coordinates, paths, runs.evaluate, record))
         except (Stopped, NotConverged) as error:
-            record["status"], ended = str(error), error
+            record["status"], ended = error.why if isinstance(error, Stopped) else str(error), error
         write_calibration(directory, record, runs.cpu_s, posterior)
         if not ended:
             tell(summary(record, runs.cpu_s["discrete" if calibration.of_grains else "continuum"]))
             draw(options, directory, "calibration")
             say(options, f"{directory}/calibrated.prm, calibration.json, calibration.csv")
     if isinstance(ended, Stopped):
-        raise Stopped(f"{ended}; what was found is kept in {directory}", options.again)
+        raise Stopped(f"{ended.why}; what was found is kept in {directory}", options.again)
     if ended:
         raise NotConverged(f"{ended}; what was found is kept in {directory}; to go on: {options.again}")

@@ -26,7 +26,7 @@ OF_BANDS = ("ln_width", PROFILE)  # taken in the windows of the comparison
 MOST_PARAMETERS = 12  # the starts are spread over at most so many directions
 KEYS_OF_THE_SEARCH = ("mesh", "element_size", "rectangle_width", "rectangle_height", "initial_step", "max_step")
 CURVE_COLUMNS = {"stress_ratio": "stress_ratio_deviation", "volumetric_strain": "volumetric_strain_deviation"}
-# The same in element.csv: means of samples of grains, and standard errors.
+# Names of these columns in element.csv, which holds means over samples of grains and their standard errors.
 OTHER_NAMES = {f"{name}{ending}": f"grains_{name}{other}" for name in CURVE_COLUMNS
                for ending, other in (("", ""), ("_deviation", "_error"))}
 PRESCRIBED = 1e-9  # a smaller deviation: the path prescribes the quantity

@@ -11,7 +11,7 @@ import numpy as np
 
 from ... import _diptych, operators
 from ...compiled import continuum
-from ...errors import NotConverged, SceneError, Stopped
+from ...errors import NotConverged, SceneError
 from ..runs.engine import Options
 from ..runs.folders import Runs, SceneRun, read_json
 from ..runs.histories import is_beyond, panel_table
@@ -26,7 +26,7 @@ from .search import NORMAL
 
 
 class CalibrationRuns:
-    """What runs something raises Stopped after a stop signal, and NotConverged if grains do not come to their end."""
+    """The methods raise Stopped after a stop signal, and NotConverged if grains do not come to their end."""
 
     def __init__(self, calibration: Calibration, directory: str, options: Options) -> None:
         self.calibration, self.runs, self.options = calibration, Runs(directory), replace(options, resume=False)
@@ -36,20 +36,14 @@ class CalibrationRuns:
 
     def _do(self, runs: Sequence[SceneRun]) -> list[str]:
         """Does the runs, adds their CPU time once, and returns for each why it has no result."""
-        if any(outcome.interrupted for outcome in self.runs.do(runs, self.options).values()):
-            raise Stopped("stopped on request")
-        failures = []
+        self.runs.finish(runs, self.options)
         for run in runs:
             record = self.runs.path(run, "/provenance.json")
             if run.name not in self._counted and os.path.exists(record):
                 self._counted.add(run.name)
                 panel = "discrete" if run.command == "discrete" else "continuum"
                 self.cpu_s[panel] += sum(phase["cpu_s"] for phase in read_json(record)["phases"])
-            end = self.runs.found_end(run) if run.scene else None
-            words = "" if end is None else self.runs.last_words(run)
-            has_result = end and end["exit_code"] == 0
-            failures.append(run.refusal or ("" if has_result else words or "the run was lost"))
-        return failures
+        return [self.runs.failure(run) for run in runs]
 
     def _grains(self, target: Target, seeds: Sequence[int], more: Sequence[Setting] = (), note: str = "") -> list[str]:
         """Runs samples of a target and returns their folders."""
@@ -141,7 +135,7 @@ class CalibrationRuns:
         outline, here = self.outlines[path.target.name], list(path.target.settings)
 
         def add(section: str, **keys: Any) -> None:
-            here.extend(Setting(section, key, str(value), "the calibration") for key, value in keys.items())
+            here.extend(Setting(section, key, str(value), file="the calibration") for key, value in keys.items())
 
         is_point = is_element(path.scene)
         if not fine and not is_point:

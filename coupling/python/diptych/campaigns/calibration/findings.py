@@ -85,7 +85,7 @@ def discrepancy_words(record: dict[str, Any]) -> list[str]:
 
 
 def widened(test: Difference, deviation: float) -> Difference:
-    """The same if its second part has an independent deviation. The squares of the half widths are added."""
+    """The difference if its second part has an independent deviation. The squares of the half widths are added."""
     def wide(interval: Interval, half: float) -> Interval:
         value, low, high = interval
         return Interval(value, value - np.hypot(value - low, half), value + np.hypot(high - value, half))

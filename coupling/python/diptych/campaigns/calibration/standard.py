@@ -12,7 +12,7 @@ from ... import _diptych
 from ...errors import SceneError
 from ..runs.input_file import Setting, read_seeds
 
-# Those of benchmarks/calibration/reference.
+# Fixed keys and parameters are those of benchmarks/calibration/reference.
 SET = {"hardening": "mobilisation", "softening_strain": 0.3, "cohesion": 0.01}
 PARAMETERS = ({"key": "friction_angle_peak", "start": 25, "low": 12, "high": 40},
               {"key": "friction_angle_residual", "start": 0.5, "low": 0.05, "high": 0.9},
@@ -36,8 +36,9 @@ WALLS = {"loading/horizontal_over_vertical": 0, "sample/rough_platens": "false",
 
 
 def _targets(own: dict[str, Any], keys: dict[str, Any], has_length: bool) -> list[dict[str, Any]]:
-    """own: the scene's target. Of a compression between platens: cells give the curves, the platen test only the width
-    of its band. Unseen samples, smooth walls and another direction are predicted. Otherwise only the scene counts."""
+    """own: the scene's target. If platens compress the sample, cells give the curves, and the platen test only the
+    width of its band. Unseen samples, smooth walls and another direction are predicted. For other loadings the scene is
+    the only target."""
     if keys["loading"]["mode"] != "descent" or keys["discrete"]["method"] == "imported":
         return [own]
     seeds, settings = read_seeds(own["seeds"]), own["set"]
@@ -54,7 +55,7 @@ def _targets(own: dict[str, Any], keys: dict[str, Any], has_length: bool) -> lis
 def standard_calibration(scene: str, seeds: str, settings: Sequence[Setting]) -> dict[str, Any]:
     """Contents of a calibration file beside the scene file. Parameters that its law does not read are left out, and
     without an internal length the width of the band, too. Raises SceneError."""
-    fixed = [Setting("continuum", key, str(value), "the standard calibration") for key, value in SET.items()]
+    fixed = [Setting("continuum", key, str(value), file="the standard calibration") for key, value in SET.items()]
     read = _diptych.read_changed_scene(scene, [*settings, *fixed], True)
     keys, unused = read.dict(), read.unused_keys()
     file, n = keys["discrete"]["file"], len(read_seeds(seeds))

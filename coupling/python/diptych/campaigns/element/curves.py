@@ -85,13 +85,13 @@ def table_of(curves: Curves) -> pd.DataFrame:
 
 
 def _largest(values: np.ndarray) -> np.ndarray:
-    """Of (..., BINS): the largest mean over SPAN parts."""
+    """The largest mean over SPAN parts of curves (..., BINS)."""
     spans = np.apply_along_axis(np.convolve, -1, values, np.ones(SPAN) / SPAN, "valid")
     return np.fmax.reduce(spans, axis=-1)
 
 
 def _last(values: np.ndarray, average: Callable[[Sequence[float]], Statistics]) -> np.ndarray:
-    """Of (..., BINS): the mean over the last SPAN parts; NaN without all of them."""
+    """The mean over the last SPAN parts of curves (..., BINS); NaN without all of them."""
     ends = values[..., -SPAN:]
     means = np.apply_along_axis(lambda end: average(end).mean, -1, ends)
     return np.where(np.isfinite(ends).all(axis=-1), means, np.nan)

@@ -3,6 +3,7 @@
 """Runs the grains of every seed and the law's point, and writes element.csv, element.json and report.html."""
 
 import argparse
+import math
 import os
 import shlex
 from collections.abc import Mapping, Sequence
@@ -11,11 +12,12 @@ from typing import Any
 import pandas as pd
 
 from ... import _diptych
+from ...arrays import Interval
 from ...compiled import continuum
 from ...entries import describe
-from ...errors import NotConverged, SceneError, Stopped
+from ...errors import NotConverged, SceneError
 from .curves import BINS, key_numbers, observed, rms_differences, table_of
-from ..runs.engine import DONE, WRONG_INPUT, Options, say
+from ..runs.engine import WRONG_INPUT, Options, columns_text, say
 from ..runs.folders import Folder, Runs, SceneRun, draw, write_json, write_text
 from ..runs.histories import panel_table
 from ..runs.input_file import Setting, read_seeds, settings_of
@@ -69,13 +71,11 @@ def _run(scene: str, command: str, settings: Sequence[Setting]) -> SceneRun:
 
 def _done(runs: Runs, wanted: Sequence[SceneRun], options: Options) -> list[str]:
     """Does the runs and returns why each ended early; empty: it did not. Raises SceneError (wrong input) or Stopped."""
-    if any(outcome.interrupted for outcome in runs.do(wanted, options).values()):
-        raise Stopped("stopped on request", options.again)
-    ends = [(run, runs.found_end(run)) for run in wanted]
-    for run, end in ends:
-        if end and end["exit_code"] == WRONG_INPUT:
+    outcomes = runs.finish(wanted, options)
+    for run in wanted:
+        if outcomes[run.name].exit_code == WRONG_INPUT:
             raise SceneError(runs.last_words(run))
-    return ["" if end and end["exit_code"] == DONE else runs.last_words(run) or "the run was lost" for run, end in ends]
+    return [runs.failure(run) for run in wanted]
 
 
 def _law_settings(settings: Sequence[Setting], scene: Any, tables: Sequence[pd.DataFrame]) -> list[Setting]:
@@ -84,20 +84,14 @@ def _law_settings(settings: Sequence[Setting], scene: Any, tables: Sequence[pd.D
     if law["solid_fraction_start"] != "auto" or not continuum("element").follows_solid_fraction(law["hardening"]):
         return list(settings)
     start = sum(float(table["solid_fraction"].iloc[0]) for table in tables) / len(tables)
-    return [*settings, Setting("continuum", "solid_fraction_start", repr(start), "the grains")]
+    return [*settings, Setting("continuum", "solid_fraction_start", repr(start), file="the grains")]
 
 
 def _text(numbers: Sequence[Mapping[str, Any]]) -> str:
     """The table of a terminal."""
-    def shown(value: Any) -> str:
-        number, *ends = value if isinstance(value, tuple) else (value,)
-        known = f" [{ends[0]:.4g}, {ends[1]:.4g}]" if ends and ends[0] == ends[0] else ""
-        return f"{number:.4g}{known}" if number == number else "-"
-
-    table = [["", "grains [95 %]", "law", "law - grains [95 %]"],
-             *([one["quantity"], *(shown(one[name]) for name in ("grains", "law", "difference"))] for one in numbers)]
-    widths = [max(map(len, column)) for column in zip(*table)]
-    return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in table)
+    return columns_text([["", "grains [95 %]", "law", "law - grains [95 %]"],
+                         *([one["quantity"], one["grains"].text(), Interval(one["law"], math.nan, math.nan).text(),
+                            one["difference"].text()] for one in numbers)])
 
 
 def run_element(line: argparse.Namespace, options: Options) -> None:

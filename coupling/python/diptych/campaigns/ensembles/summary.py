@@ -4,12 +4,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ...arrays import ends_text
 from ...entries import describe
+from ..runs.engine import columns_text
 from ..runs.key_numbers import QUANTITIES
 from ..runs.statistics import Interval, line_statistics, statistics, words_of
 
@@ -155,7 +154,7 @@ def summary(member: Mapping[str, dict[str, Any]], record: dict[str, Any]) -> lis
     ensemble.json.
 
     Differences are continuum - grains in the unit of the row; verdicts are those of the record, with their margins."""
-    # Of the windows only the last: it replaces those before it.
+    # A band has a verdict per window; that of the last window replaces the earlier ones.
     verdicts, validation = ({one["key"]: one for one in record[part]} for part in ("verdicts", "validation"))
     return [{"key": key, "quantity": row["quantity"], "unit": row["unit"],
              "grains": _mean(key, verdicts[key]["discrete"]), "continuum": _mean(key, verdicts[key]["continuum"]),
@@ -168,13 +167,7 @@ def _mean(key: str, values: Sequence[float]) -> Interval:
 
 def text_of(rows: Sequence[dict[str, Any]]) -> str:
     """The table of a terminal, one line per quantity."""
-    table = [["", "grains", "continuum", "difference [95 %]", "verdict"]]
-    table += [[row["quantity"] + ("" if row["unit"] == "-" else f" [{row['unit']}]"),
-               *(_with_ends(row[key]) for key in ("grains", "continuum", "difference")), row["verdict"]]
-              for row in rows]
-    widths = [max(map(len, column)) for column in zip(*table)]
-    return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip() for line in table)
-
-
-def _with_ends(number: Interval) -> str:
-    return f"{number.value:.4g}{ends_text(number.low, number.high)}" if math.isfinite(number.value) else "-"
+    return columns_text([["", "grains", "continuum", "difference [95 %]", "verdict"],
+                         *([row["quantity"] + ("" if row["unit"] == "-" else f" [{row['unit']}]"),
+                            *(row[key].text() for key in ("grains", "continuum", "difference")), row["verdict"]]
+                           for row in rows)])

@@ -20,7 +20,6 @@ import numpy as np
 import pandas as pd
 
 from ... import _diptych
-from ...errors import Stopped
 from ...files import number_name, read_ensemble
 from ..runs.engine import Options
 from ..runs.folders import Runs, SceneRun, run_on
@@ -116,7 +115,7 @@ def coarse_values(folder: str, scene: Any, member: Member) -> dict[str, float]:
 
 def responses_of(scene: Any, folders: Mapping[int, str], members: Sequence[Member],
                  runs: Mapping[str, Any]) -> Responses:
-    """Of the members that are done. folders: their result folders by seed. runs: the record of respond()."""
+    """The responses of the finished members. folders: their result folders by seed. runs: the record of respond()."""
     keys = scene.dict()
     ratio = keys["comparison"]["coarse_element_size"] / keys["continuum"]["element_size"]
     coarse = {seed: coarse_values(folder, scene, member) for (seed, folder), member in zip(folders.items(), members)}
@@ -127,17 +126,17 @@ def responses_of(scene: Any, folders: Mapping[int, str], members: Sequence[Membe
                      base=coarse.get(runs["seed"], {}), half_step=half, draws=draws)
 
 
-def draws_of(set_files: Sequence[str], settings: Sequence[str]) -> list[list[Setting]]:
+def draws_of(set_files: Sequence[str], settings: Sequence[Setting]) -> list[list[Setting]]:
     """Evenly chosen rows of the posterior of a calibration: posterior.csv beside a --set-file, with keys of the section
-    continuum as columns. A key of --set counts as exact. [] without such a file."""
+    continuum as columns. settings: those of --set, whose keys count as exact. [] without such a file."""
     beside = [os.path.join(os.path.dirname(file), "posterior.csv") for file in set_files]
     path = next(filter(os.path.isfile, beside), "")
     table = pd.read_csv(path, dtype=str, comment="#") if path else pd.DataFrame()
-    exact = [text.partition("=")[0].removeprefix("continuum/") for text in settings]
+    exact = [one.key for one in settings if one.section == "continuum"]
     # "key (target)" is not in calibrated.prm
     table = table[[key for key in table if key.isidentifier() and key not in exact]]
     rows = np.unique(np.linspace(0, len(table) - 1, DRAWS).round().astype(int)) if table.size else ()
-    return [[Setting("continuum", key, value, path) for key, value in table.iloc[row].items()] for row in rows]
+    return [[Setting("continuum", key, value, file=path) for key, value in table.iloc[row].items()] for row in rows]
 
 
 def variations(scene_file: str, settings: Sequence[Setting], draws: Sequence[Sequence[Setting]]) -> list[Any]:
@@ -150,10 +149,10 @@ def variations(scene_file: str, settings: Sequence[Setting], draws: Sequence[Seq
     coarse, steps = keys["comparison"]["coarse_element_size"], keys["continuum"]
     if not coarse:
         return []
-    common = [Setting(section, key, value, "validation") for section, key, value in (
+    common = [Setting(section, key, value, file="validation") for section, key, value in (
         ("continuum", "element_size", repr(coarse)), ("comparison", "coarse_element_size", "0"),
         ("output", "report", "false"), ("comparison", "band_resamples", "0"), ("comparison", "probe_resamples", "0"))]
-    halves = [Setting("continuum", key, repr(steps[key] / 2), "validation")
+    halves = [Setting("continuum", key, repr(steps[key] / 2), file="validation")
               for key in ("min_step", "initial_step", "max_step")]
     return [_diptych.read_changed_scene(scene_file, [*settings, *common, *more], True) for more in (halves, *draws)]
 
@@ -163,7 +162,8 @@ def respond(members: Runs, member: SceneRun, scenes: Sequence[Any], is_new: bool
     quantities, a row per run, None after a failure. is_new: the member has just run; else its earlier values count.
 
     Raises Stopped after a stop signal."""
-    source, runs = members.path(member), Runs(os.path.join(members.directory, _FOLDER))
+    source = members.path(member)
+    runs = Runs(os.path.join(members.directory, _FOLDER), "runs of the continuum for the validation")
     if not scenes or not os.path.isdir(os.path.join(source, "coarse")):
         return NO_RUNS
     seed = member.scene.dict()["sample"]["seed"]
@@ -177,9 +177,7 @@ def respond(members: Runs, member: SceneRun, scenes: Sequence[Any], is_new: bool
         if not os.path.isdir(runs.path(run)):
             _copy_grains(source, runs.path(run))
             runs.begin(run)
-    outcomes = runs.do(changed, options)
-    if any(outcome.interrupted for outcome in outcomes.values()):
-        raise Stopped("stopped on request; the seeds are done", options.again)
+    outcomes = runs.finish(changed, options, "stopped on request; the seeds are done")
     found = [{} if outcomes[run.name].exit_code else
              _compared(member_of(runs.path(run, "/comparison.json"), run.scene.is_mirror_symmetric()))
              for run in changed]

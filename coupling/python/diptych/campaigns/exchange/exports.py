@@ -42,7 +42,7 @@ def _files(line: argparse.Namespace) -> dict[str, str]:
 
 
 def _beside(folder: str) -> str:
-    """As it was named, without a slash behind; "." has a name in the folder above."""
+    """The folder as the user named it, without a slash at its end. "." and ".." become their paths."""
     named = os.path.normpath(folder)
     return os.path.realpath(folder) if os.path.basename(named) in (".", "..") else named
 

@@ -14,7 +14,7 @@ import numpy as np
 from ... import _diptych
 from ...compiled import continuum
 from ...entries import describe
-from ...errors import NotConverged, Stopped
+from ...errors import NotConverged
 from ..runs.engine import Options, tell
 from ..runs.folders import Folder, Runs, write_json, write_text
 from ..runs.input_file import Setting
@@ -92,8 +92,7 @@ class PilotRuns:
         for run in runs:
             if run.refusal:  # settings that contradict the scene
                 return Pilot(failure=run.refusal)
-        if any(outcome.interrupted for outcome in self.runs.do(runs, self.options).values()):
-            raise Stopped("stopped on request")
+        self.runs.finish(runs, self.options)
         results = [result_of(self.runs, run, quantities) for run in runs]
         new = {run.name: result for run, result in zip(runs, results) if run.name not in self._counted}
         self.cpu_s += sum(map(_cpu_s, new.values()))
@@ -201,16 +200,13 @@ def main_plan(args: argparse.Namespace, options: Options) -> None:
     with Folder(directory) as folder:
         folder.open_runs("plan", question.scene, options, lambda: inputs)
         pilot = PilotRuns(question, directory, options)
-        try:
-            plan = make_plan(question, scene, pilot)
+        plan = make_plan(question, scene, pilot)
+        write_plan(directory, question, plan)
+        reached = all(panel.reaches for panel in plan.panels)
+        if args.run:
+            reached = all([_carry_out(question, plan, panel, pilot) for panel in plan.panels
+                           if panel.reaches]) and reached
             write_plan(directory, question, plan)
-            reached = all(panel.reaches for panel in plan.panels)
-            if args.run:
-                reached = all([_carry_out(question, plan, panel, pilot) for panel in plan.panels
-                               if panel.reaches]) and reached
-                write_plan(directory, question, plan)
-        except Stopped as stopped:
-            raise Stopped(str(stopped), options.again) from None
     tell(f"{text_of(plan)}\n{directory}/planned.prm, plan.json")
     if not reached:
         raise NotConverged(f"the accuracy of {percent(question.accuracy)} is not reached")

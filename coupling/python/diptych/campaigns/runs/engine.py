@@ -110,6 +110,12 @@ def complain(text: str) -> None:
     _write("stderr", text + "\n")
 
 
+def columns_text(rows: Sequence[Sequence[str]]) -> str:
+    """Rows of cells as a table for a terminal."""
+    widths = [max(map(len, column)) for column in zip(*rows)]
+    return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in rows)
+
+
 def last_words(log: str) -> str:
     """The last line of a log that is not blank; empty if there is none."""
     if not os.path.exists(log):
@@ -236,8 +242,8 @@ def n_processes() -> int:
 class _Progress:
     """One line on a terminal; in a log one line for every twentieth of the runs."""
 
-    def __init__(self, quiet: bool, total: int, done: int) -> None:
-        self.quiet, self.total, self.done = quiet, total, done
+    def __init__(self, quiet: bool, noun: str, total: int, done: int) -> None:
+        self.quiet, self.noun, self.total, self.done = quiet, noun, total, done
         self.failed, self.seconds, self.known = 0, 0.0, 0
         self.terminal, self.shown, self.last_part = sys.stderr.isatty(), 0.0, -1
 
@@ -255,7 +261,7 @@ class _Progress:
         waiting = self.total - ended
         left = (self.seconds / max(1, self.known) * waiting - sum(at_work)) / max(1, min(seats, waiting))
         remaining = f", {timedelta(seconds=round(max(0.0, left)))} remaining" if self.known else ""
-        text = f"{self.done} of {self.total} runs done, {len(at_work)} running, {self.failed} failed{remaining}"
+        text = f"{self.done} of {self.total} {self.noun} done, {len(at_work)} running, {self.failed} failed{remaining}"
         _write("stderr", f"\r\033[K{text}" if self.terminal else text + "\n")
         self.shown, self.last_part = now, part
 
@@ -270,11 +276,12 @@ def n_seats(options: Options) -> int:
     return (options.jobs or (1 if others else max(1, len(os.sched_getaffinity(0)) // options.threads))) + others
 
 
-def execute(runs: Sequence[Run], options: Options, *, finished: int = 0,
+def execute(runs: Sequence[Run], options: Options, *, finished: int = 0, noun: str = "runs",
             on_ended: Callable[[int, Outcome], None] = lambda k, outcome: None) -> list[Outcome]:
     """Does the runs and returns their outcomes in the order of `runs`.
 
     finished  runs that were finished before; they count in the progress
+    noun      of the runs in the line of progress
     on_ended  is called with index and outcome as runs end; if it raises OSError, the run has failed with exit code 4
 
     On a stop request (SIGINT, SIGTERM, SIGHUP) workers are asked to stop, and no further run starts. Failures are
@@ -301,7 +308,7 @@ def execute(runs: Sequence[Run], options: Options, *, finished: int = 0,
         return Outcome(exit_code=code, interrupted=asked and code != 0, seconds=time.monotonic() - started.pop(k))
 
     outcomes, left = [Outcome() for _ in runs], len(runs)
-    progress = _Progress(options.quiet, len(runs) + finished, finished)
+    progress = _Progress(options.quiet, noun, len(runs) + finished, finished)
     # the system ends a worker when the thread that started it ends
     with ThreadPoolExecutor(max(1, free.qsize())) as threads:
         for k in range(len(runs)):

@@ -20,7 +20,7 @@ from ... import _diptych
 from ...arrays import plain
 from ...errors import NotConverged, SceneError, Stopped
 from ...files import part_of, read_json
-from .engine import (KEPT_OPEN, WRONG_INPUT, Options, Outcome, Run, complain, execute, last_words, n_seats, say,
+from .engine import (DONE, KEPT_OPEN, WRONG_INPUT, Options, Outcome, Run, complain, execute, last_words, n_seats, say,
                      stops_raised)
 
 LAST_CODE_OF_A_RESULT = 3  # higher codes: the system failed, or a signal came
@@ -136,10 +136,10 @@ def run_on(scene: Any, seed: int, label: str = "") -> SceneRun:
 
 
 class Runs:
-    """The runs in a campaign's folder."""
+    """The runs in a campaign's folder. noun: for the line of progress."""
 
-    def __init__(self, directory: str) -> None:
-        self.directory = directory
+    def __init__(self, directory: str, noun: str = "runs") -> None:
+        self.directory, self.noun = directory, noun
 
     def path(self, run: SceneRun, ending: str = "") -> str:
         """The result folder of a run; with an ending a file beside it: ".prm", ".log", ".json"."""
@@ -148,6 +148,13 @@ class Runs:
     def last_words(self, run: SceneRun) -> str:
         """The last line of its log, without the folder of the campaign."""
         return last_words(self.path(run, ".log")).replace(f" {self.directory}/", " ")
+
+    def failure(self, run: SceneRun) -> str:
+        """The reason why a run that was done has no result; empty: it has one."""
+        end = self.found_end(run) if run.scene is not None else None
+        if end and end["exit_code"] == DONE:
+            return ""
+        return run.refusal or (self.last_words(run) if end else "") or "the run was lost"
 
     def found_end(self, run: SceneRun) -> dict[str, Any] | None:
         """exit_code, load and at_once of a run that need not be done again.
@@ -209,6 +216,13 @@ class Runs:
         pending = [run for name, run in different.items() if name not in finished]
         return finished | self._execute(pending, options, len(ends))
 
+    def finish(self, runs: Sequence[SceneRun], options: Options, why: str = "stopped on request") -> dict[str, Outcome]:
+        """Does the runs like do(). Raises Stopped with this reason after a stop request."""
+        outcomes = self.do(runs, options)
+        if any(outcome.interrupted for outcome in outcomes.values()):
+            raise Stopped(why, options.again)
+        return outcomes
+
     def _execute(self, runs: Sequence[SceneRun], options: Options, total: int,
                  anew: bool = False) -> dict[str, Outcome]:
         prepared, seats = [self.prepare(run, anew) for run in runs], n_seats(options)
@@ -231,7 +245,7 @@ class Runs:
                      label=run.label or run.name, folder=self.path(run), log=self.path(run, ".log"),
                      resume=goes_on and run.command != "material-point")
                  for run, goes_on in zip(runs, resumes)]
-        outcomes = execute(tasks, options, finished=total - len(runs), on_ended=on_ended)
+        outcomes = execute(tasks, options, finished=total - len(runs), noun=self.noun, on_ended=on_ended)
         ended = {run.name: outcome for run, outcome in zip(runs, outcomes)}
         damaged = [run for k, run in enumerate(runs) if is_damaged(k, outcomes[k])]
         if damaged:

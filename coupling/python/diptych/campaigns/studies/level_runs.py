@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ... import _diptych
-from ...errors import SceneError, Stopped
+from ...errors import SceneError
 from ..runs.engine import Options, say
 from ..runs.folders import Runs, SceneRun
 from ..runs.input_file import Setting
@@ -33,7 +33,7 @@ class Levels(NamedTuple):
 
     def setting(self, of: str) -> Setting:
         """The accuracy of a level: "cheap" or "fine"."""
-        return Setting("discrete", "accuracy", _diptych.text_of_number(getattr(self, of)), "--levels")
+        return Setting("discrete", "accuracy", _diptych.text_of_number(getattr(self, of)), file="--levels")
 
 
 def read_levels(text: str, n_samples: int) -> Levels | None:
@@ -112,9 +112,8 @@ def paired_points(runs: Runs, fine: Sequence[Sequence[SceneRun]], cheap: Sequenc
     """Runs the pairs. fine, cheap: [point][sample]. Raises Stopped on a stop request."""
     n, pairs = len(fine[0]), min(LEAST_PAIRS, len(fine[0]))
     while True:
-        outcomes = runs.do([run for of_point in fine for run in of_point[:pairs]], options)
-        if any(outcome.interrupted for outcome in outcomes.values()):
-            raise Stopped(f"stopped on request, finished runs are kept in {runs.directory}", options.again)
+        runs.finish([run for of_point in fine for run in of_point[:pairs]], options,
+                    f"stopped on request, finished runs are kept in {runs.directory}")
         results = [[result_of(runs, run, quantities) for run in of_point[:pairs]] for of_point in fine]
         points = [PairedPoint(*both, quantities) for both in zip(cheap, results)]
         if all(math.isnan(point.ratio) for point in points):

@@ -34,7 +34,7 @@ def pair(increment):
 
 
 def of_means(curves, title):
-    """The same from means over samples. curves: {panel: {"distance": (n), name: (n, 3)}}."""
+    """Pictures of profiles that are means over samples. curves: {panel: {"distance": (n), name: (n, 3)}}."""
     limits = _limits(curves)
     return Pair(*[_panel(panel, curves[panel], {}, limits, title) for panel in PANEL_NAMES])
 
