@@ -124,7 +124,7 @@ def test_running_means_and_curves():
     rows = table([0, 1, 2, 3], y=[0, 2, 4, 6])
     mean = histories.running_mean(rows, "y", 2.0)
     assert np.isnan(mean[:2]).all() and mean[2:] == pytest.approx([2, 4])  # y = 2 x: the value in the middle
-    curve = histories.resampled(rows, mean, np.array([1.5, 2, 2.5, 3, 3.5]))
+    curve = histories.curve_of(rows, "y", 2.0, np.array([1.5, 2, 2.5, 3, 3.5]))
     assert np.isnan(curve[[0, 4]]).all() and curve[1:4] == pytest.approx([2, 3, 4])
 
 

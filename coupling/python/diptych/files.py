@@ -64,7 +64,7 @@ def window_name(start: float, end: float) -> str:
 
 
 def stage_name(progress: float) -> str:
-    """The same of a stage."""
+    """Name of a stage in ensemble.json."""
     return f"stage {progress:.6g}"
 
 

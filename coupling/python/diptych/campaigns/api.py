@@ -206,6 +206,8 @@ def _result(kind: type[Result], command: str, contents: Mapping[str, Any] | Path
         words += ["--set", f"{key}={text_of(value)}"]
     for key, values in options.get("vary", {}).items():
         words += ["--vary", f"{key}={text_of(values)}"]
+    if "seeds" in options:
+        options["seeds"] = _seeds(options["seeds"])
     holds_scene = bool(options.pop("vary", None)) or command not in ("study", "calibrate")
     for name, value in options.items():
         if value is not False:
@@ -239,8 +241,6 @@ def study(contents: Mapping[str, Any] | PathLike, output: PathLike, **options: A
     """
     if isinstance(contents, Mapping) and "seeds" in contents:
         contents = {**contents, "seeds": _seeds(contents["seeds"])}
-    if "seeds" in options:
-        options["seeds"] = _seeds(options["seeds"])
     return _result(Campaign, "study", contents, output, options)
 
 
@@ -250,15 +250,13 @@ def ensemble(scene: SceneLike, seeds: str | Iterable[int], output: PathLike, **o
     scene  path of a scene file, or a dict as in diptych.scene()
     seeds  range(1, 9), a list of numbers, or a text such as "1-8" or "1,3,5-7"
     """
-    return _result(Campaign, "run", scene, output, {"seeds": _seeds(seeds), **options})
+    return _result(Campaign, "run", scene, output, {"seeds": seeds, **options})
 
 
 def calibrate(contents: Mapping[str, Any] | PathLike, output: PathLike, **options: Any) -> CalibrationResult:
     """Runs a calibration file, or its contents as a dict, and returns its results. Options and errors: see study().
 
     A scene file (.prm) with seeds=range(1, 5) takes the standard parameters."""
-    if "seeds" in options:
-        options["seeds"] = _seeds(options["seeds"])
     return _result(CalibrationResult, "calibrate", contents, output, options)
 
 

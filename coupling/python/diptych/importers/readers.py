@@ -100,7 +100,7 @@ def check(format: str, files: Sequence[str], **options: Any) -> dict[str, Any]:
 
 
 def check_frames(format: str, frames: Sequence[Frame], options: Options) -> dict[str, Any]:
-    """The same for frames of your own."""
+    """Checks your own frames as check() does those of files."""
     arrival = arrive(format, frames, options)
     results_of(arrival)
     return plain(arrival.record())

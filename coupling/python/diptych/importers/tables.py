@@ -57,7 +57,7 @@ class Table:
             raise refused(self.path, f"column {self.columns[k]} {found}", line) from None
 
     def optional(self, options: Options, *names: str) -> np.ndarray | None:
-        """The same; None if there is no such column, or, with a note, if a cell of it is no number."""
+        """As numbers(); None if there is no such column, or, with a note, if a cell of it is no number."""
         if self.find(*names) is None:
             return None
         try:
@@ -78,7 +78,7 @@ class Table:
         return np.column_stack([self.numbers(x), self.numbers(y)])
 
     def optional_vectors(self, options: Options, x: Sequence[str], y: Sequence[str]) -> np.ndarray | None:
-        """The same from the first of the columns `x` and `y` that exist, or None."""
+        """(n, 2) from the first of the columns `x` and `y` that exist, or None."""
         parts = self.optional(options, *x), self.optional(options, *y)
         return None if parts[0] is None or parts[1] is None else np.column_stack(parts)
 

@@ -58,5 +58,5 @@ def int_of(path: str, line: int, word: str, what: str) -> int:
 
 
 def floats_of(path: str, line: int, words: Sequence[str], what: str) -> list[float]:
-    """The same for several numbers."""
+    """Several finite numbers, as float_of() reads one."""
     return [float_of(path, line, word, what) for word in words]

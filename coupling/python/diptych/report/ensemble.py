@@ -32,8 +32,7 @@ def draw(folder):
     lines = [(_curve(results, "stress_ratio", "stress ratio t/s"), "Stress ratio of the whole sample." + thin),
              (_curve(results, "volumetric_strain", "volumetric strain (%)", 100),
               "Volumetric strain 1 − V/V₀; dilation is negative." + thin)]
-    last = max(results.profiles, default=None)
-    across = None if last is None else profiles.of_means(results.profiles[last], "means over the samples")
+    across = profiles.of_means(results.profile, "means over the samples") if results.profile else None
     write(folder, "ensemble.html", record=results.record, first=summary.first(results.record), verdicts=rows,
           validation=tables.validation_table(results), differences=differences(labelled), dots=marks, curves=lines,
           across=across, bands=tables.band_table(results), members=tables.members(results),
@@ -47,8 +46,8 @@ class Ensemble:
     also of stages. averaging: width of the running means; None: not stored.
 
     curves: {"discrete/stress_ratio": {"members": (m, n), "mean": (n), "low": (n), "high": (n)}} over progress (n); {}
-    if absent. profiles: {window number: {panel: {"distance": (k), name: (k, 3) mean, low, high}}} of windows in which
-    both panels have profiles.
+    if absent. profile: {panel: {"distance": (k), name: (k, 3) mean, low, high}} of the last window in which both panels
+    have one; {} without such a window.
     """
 
     folder: str
@@ -61,7 +60,7 @@ class Ensemble:
     progress: np.ndarray = None
     averaging: float = None
     curves: dict = field(default_factory=dict)
-    profiles: dict = field(default_factory=dict)
+    profile: dict = field(default_factory=dict)
 
 
 def load(folder):
@@ -81,7 +80,7 @@ def load(folder):
             results.progress, results.averaging = file["progress"][()], file.attrs.get("averaging_width")
             results.curves = {f"{panel}/{name}": {key: item[()] for key, item in group.items()}
                               for panel in PANEL_NAMES for name, group in file.get(panel, {}).items()}
-            results.profiles = _profiles(file, member.get("pressure", 1) * member.get("mean_diameter", 1))
+            results.profile = _profile(file, member)
     return results
 
 
@@ -93,16 +92,14 @@ def _places(member, across):
                       for one in member.get("stages", [])}
 
 
-def _profiles(file, couple_unit):
-    found = {}
-    for window in (name for name in file if name.startswith("window_")):
-        panels = {panel: {name: item[()] if name == "distance"
-                          else np.column_stack([item[key][()] for key in ("mean", "low", "high")])
-                          for name, item in group.items()} for panel, group in file[window + "/profile"].items()}
-        if len(panels) == len(PANEL_NAMES):
-            for panel in panels.values():
-                panel["couple_stress"] /= couple_unit
-            found[int(window.rpartition("_")[2])] = panels
+def _profile(file, member):
+    both = [groups for k, _ in enumerate(member.get("windows", []))
+            if len(groups := file.get(f"window_{k}/profile", ())) == len(PANEL_NAMES)]
+    found = {panel: {name: item[()] if name == "distance"
+                     else np.column_stack([item[key][()] for key in ("mean", "low", "high")])
+                     for name, item in group.items()} for panel, group in (both[-1].items() if both else ())}
+    for of_panel in found.values():
+        of_panel["couple_stress"] /= member["pressure"] * member["mean_diameter"]
     return found
 
 

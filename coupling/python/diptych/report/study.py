@@ -42,7 +42,9 @@ def _draw_errors(study, curves):
     charts = [(_error_against_cost(study, k, reference), ", ".join([q["name"], *study.points[reference]["labels"]]))
               for reference in study.references for k, q in enumerate(study.quantities)]
     judged = any(q["limit"] for q in study.quantities)  # else no point is right or wrong
-    maps = [(family["name"], _class_maps(study, family)) for family in study.record["families"]] if judged else []
+    maps = [(family["name"], [(title, _class_map(study, family, pair, points))
+                              for title, pair, points in parts_of(study, family)])
+            for family in study.record["families"]] if judged else []
     write(study.folder, "study.html", record=study.record, judged=judged, counts=tables.counts(study),
           n_points=len(study.points) - len(study.references), cheapest=tables.cheapest(study),
           disturbed=tables.disturbed(study), charts=[chart for chart in charts if chart[0]],
@@ -69,7 +71,7 @@ def _error_against_cost(study, place, reference):
 
 
 def draw_error_against_cost(axes, study, place, reference):
-    """The same, drawn into axes. Returns False without points."""
+    """Draws |error| over CPU seconds into axes. Returns False without points."""
     ruled(axes)
     quantity, scatter = study.quantities[place], study.points[reference]["quantities"][place]["scatter"]
     shown = []
@@ -150,11 +152,6 @@ def parts_of(study, family):
         title = ", ".join(f"{axis['name']} {label}" for axis, label in zip(axes[2:], others))
         parts.append((title, pair, {labels: point for labels, point in by_labels.items() if labels[2:] == others}))
     return parts
-
-
-def _class_maps(study, family):
-    """[(title, picture)] of a family."""
-    return [(title, _class_map(study, family, pair, points)) for title, pair, points in parts_of(study, family)]
 
 
 def _class_map(study, family, pair, points):

@@ -28,7 +28,7 @@ COARSE = 5 / 3  # coarse / own elements
 SMALLEST_COARSE = 4  # mean diameters
 
 
-# The same grains without edges: their strength, dilatancy and modulus are the material's, whatever the platens.
+# Grains in a cell have no edges: strength, dilatancy and modulus are the material's, whatever the platens.
 CELL = {"loading/mode": "path", "loading/path": "drained", "discrete/lateral": "cell", "sample/width_over_height": 1}
 WALLS = {"loading/horizontal_over_vertical": 0, "sample/rough_platens": "false", "discrete/platen_friction": 0,
          "discrete/wall_friction": 0, "discrete/lateral": "rigid_walls", "discrete/side_motion": "pressure",

@@ -24,7 +24,7 @@ from . import validation
 from ..runs.engine import Options, Outcome, say
 from .profiles import profile_arrays
 from ..runs.folders import Folder, Runs, SceneRun, draw, run_on, write_arrays, write_json, write_text
-from ..runs.histories import panel_table, resampled, running_mean
+from ..runs.histories import curve_of, panel_table
 from ..runs.input_file import read_seeds, settings_of
 from ..studies.level_runs import add_summary, demand_rule, ensemble_levels, fine_runs, read_levels
 from ..runs.key_numbers import QUANTITIES, summary_of
@@ -105,7 +105,7 @@ def _write_curves(directory: str, scene: Any, folders: dict[int, str]) -> None:
               "seeds": (np.array(list(folders), np.int32), "seeds", "-", "seeds of the members, one per row")}
     for panel in _PANELS:
         for name in ("stress_ratio", "volumetric_strain"):
-            members = np.array([resampled(table, running_mean(table, name, width), grid) for table in tables[panel]])
+            members = np.array([curve_of(table, name, width, grid) for table in tables[panel]])
             mean, low, high = with_means(members.reshape(-1, len(grid)))
             group = f"{panel}/{name}/"
             arrays[group + "members"] = (members, "every member", "-",

@@ -202,14 +202,12 @@ class Worker:
         return code if code >= 0 else 128 - code
 
 
-@functools.cache
-def _remote_worker() -> Worker:
-    """The one worker of another process of mpirun."""
-    return Worker()
+_one_worker = functools.cache(Worker)
 
 
 def _remote(line: str) -> tuple[int, bool]:
-    return _remote_worker().run(line)
+    """Does a task on another process of mpirun, by its one worker."""
+    return _one_worker().run(line)
 
 
 @contextmanager

@@ -62,8 +62,10 @@ def peak_of_running_mean(table: pd.DataFrame, name: str, width: float) -> float:
     return _diptych.peak_of_running_mean(table["progress"], table[name], width)
 
 
-def resampled(table: pd.DataFrame, values: np.ndarray, grid: np.ndarray) -> np.ndarray:
-    """Values of the rows at the progress of a grid, linear between rows; NaN beyond the ends of the history."""
+def curve_of(table: pd.DataFrame, name: str, width: float, grid: np.ndarray) -> np.ndarray:
+    """The running mean of a column at the progress of a grid, linear between rows; NaN beyond the ends of the
+    history."""
+    values = running_mean(table, name, width)
     return np.interp(grid, table["progress"].to_numpy(), values, left=np.nan, right=np.nan)
 
 

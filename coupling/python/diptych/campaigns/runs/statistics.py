@@ -52,7 +52,7 @@ def statistics(values: Sequence[float]) -> Statistics:
 
 
 def line_statistics(degrees: Sequence[float]) -> Statistics:
-    """The same for angles of lines [degrees], which repeat after 180.
+    """Statistics of angles of lines [degrees], which repeat after 180.
 
     The mean is half the direction of the sum of the doubled unit vectors, in (-90, 90]. The deviation is that of the
     rotations from it. NaN: no mean direction. Source: Mardia and Jupp, Directional Statistics (2000), section 2.2.

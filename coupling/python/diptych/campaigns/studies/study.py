@@ -23,7 +23,7 @@ from ..runs.engine import Options, complain, say
 from .effects import changes_of, effects_table, text_of_changes, text_of_means, text_of_quantity
 from .evaluation import CLASSES, Results, cost_of, evaluate, orders_of
 from ..runs.folders import Folder, Runs, draw, write_arrays, write_json, write_text
-from ..runs.histories import resampled, running_mean
+from ..runs.histories import curve_of
 from .level_runs import demand_rule, study_levels
 from .points import Point, points_of, result_of
 from .sensitivity import need_openturns, sensitivity_of, sensitivity_table, text_of_indices, warnings_of
@@ -243,8 +243,7 @@ def write_curves(directory: str, study: Study, points: Sequence[Point], results:
         arrays[source + "/progress"] = (grid, "progress", "strain or time", "points of the curves")
         attributes[source] = {"averaging_width": width}
         for name, title, meaning in _CURVES:
-            curves = [[np.full(len(grid), np.nan) if table is None
-                       else resampled(table, running_mean(table, name, width), grid)
+            curves = [[np.full(len(grid), np.nan) if table is None else curve_of(table, name, width, grid)
                        for table in of_point] for of_point in tables]
             arrays[f"{source}/{name}"] = (np.mean(curves, axis=1), title, "-", meaning)
     write_arrays(os.path.join(directory, "study.h5"), arrays, attributes)

@@ -114,7 +114,7 @@ class LoadingVariable:
         return self.number(progress) + self.unit
 
     def span(self, progress):
-        """The same without a line break."""
+        """Text of a progress without a line break."""
         return self.text(progress).replace(" ", "\u00a0")
 
 
