@@ -20,7 +20,7 @@ from diptych.campaigns.runs import histories, members
 from diptych.campaigns.runs import statistics
 from diptych.campaigns.ensembles.profiles import profile_arrays
 from diptych.campaigns.runs.input_file import read_seeds
-from diptych.campaigns.runs.members import member_of_record
+from diptych.campaigns.runs.members import member_of
 from diptych.campaigns.studies.study_file import quantity
 
 FOUR = [1, 2, 3, 4]  # mean 2.5, deviation sqrt(5/3): the standard error of the mean is half of that
@@ -163,7 +163,7 @@ def comparison(seed, grains, continuum):
 
 
 def ensemble_of(*comparisons, folded=False):
-    return ensemble.evaluate([member_of_record(one, folded) for one in comparisons], MARGINS)
+    return ensemble.evaluate([member_of(one, folded) for one in comparisons], MARGINS)
 
 
 def named(record, key="name"):

@@ -18,7 +18,7 @@ import pandas as pd
 from ... import _diptych
 from ...compiled import continuum
 from ...errors import NotConverged, SceneError, Stopped
-from ...files import key_of_band, member_folders, number_name, read_ensemble
+from ...files import key_of_band, member_folders, number_name, read_ensemble, read_json
 from . import summary as summaries
 from . import validation
 from ..runs.engine import Options, Outcome, say
@@ -36,10 +36,6 @@ _MARGINS = {one["margin"] for one in QUANTITIES.values()}  # keys of the section
 _ENDS = ("seeds", "folders", "done", "failed", "interrupted")  # entries of ensemble.json: how the members ended
 
 
-def _values(members: Sequence[Member], name: str) -> list[float]:
-    return [member.value(name) for member in members]
-
-
 def evaluate(members: Sequence[Member], margins: dict[str, float],
              responses: validation.Responses = validation.Responses()) -> dict[str, Any]:
     """quantities, bands, verdicts and validation as ensemble.json has them. margins: comparison/margin_* of the
@@ -47,7 +43,7 @@ def evaluate(members: Sequence[Member], margins: dict[str, float],
     quantities: dict[str, dict[str, Any]] = {}
     for name, (_, unit, line) in (pair for member in members for pair in member.numbers.items()):
         if name not in quantities:
-            values = _values(members, name)
+            values = [member.value(name) for member in members]
             found = (line_statistics if line else statistics)(values)
             quantities[name] = {"name": name, "unit": unit, **found._asdict(), "values": values}
     bands = [_band_count(name, members) for name in dict.fromkeys(name for member in members for name in member.bands)]
@@ -75,7 +71,7 @@ def _verdicts(margins: dict[str, float], members: Sequence[Member], quantities: 
         names = [number_name(panel, key, window) for panel in _PANELS]
         units = [quantities[one]["unit"] for one in names if one in quantities]
         unit = units[0] if units else "degrees" if kind == "line" else "-"
-        first, second = (_values(members, one) for one in names)
+        first, second = ([member.value(one) for member in members] for one in names)
         parts = validation.uncertainties(key, window, members, responses)
         found, row = validation.validated(kind, (first, second), parts, len(responses.draws))
         verdict = found.verdict(margin)
@@ -136,7 +132,7 @@ def _complete(scene: Any, ends: dict[str, Any], runs: Mapping[str, Any]) -> dict
         if sample or comparison:
             raise SceneError(f"the results in '{folder}' are not of this ensemble: {sample or comparison}. Move them "
                              "elsewhere and run the ensemble with --resume, or with --overwrite.")
-        members.append(member_of(os.path.join(folder, "comparison.json"), folded))
+        members.append(member_of(read_json(os.path.join(folder, "comparison.json")), folded))
     margins = {key: keys[key] for key in _MARGINS}
     found = evaluate(members, margins, validation.responses_of(scene, done, members, runs))
     first = summary_of(next(iter(done.values()))) if done else {}

@@ -20,7 +20,7 @@ import numpy as np
 import pandas as pd
 
 from ... import _diptych
-from ...files import number_name, read_ensemble
+from ...files import number_name, read_ensemble, read_json
 from ..runs.engine import Options
 from ..runs.folders import Runs, SceneRun, run_on
 from ..runs.histories import panel_table
@@ -179,7 +179,7 @@ def respond(members: Runs, member: SceneRun, scenes: Sequence[Any], is_new: bool
             runs.begin(run)
     outcomes = runs.finish(changed, options, "stopped on request; the seeds are done")
     found = [{} if outcomes[run.name].exit_code else
-             _compared(member_of(runs.path(run, "/comparison.json"), run.scene.is_mirror_symmetric()))
+             _compared(member_of(read_json(runs.path(run, "/comparison.json")), run.scene.is_mirror_symmetric()))
              for run in changed]
     if all(found):
         shutil.rmtree(runs.directory)

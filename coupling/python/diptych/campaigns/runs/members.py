@@ -10,7 +10,6 @@ from typing import Any
 
 from ... import _diptych
 from ...files import stage_name, window_name
-from .folders import read_json
 
 _SINGULAR = {"probes": "probe", "probe_differences": "probe_difference"}
 
@@ -95,14 +94,9 @@ class Member:
             self.collect(window, place, prefix + name)
 
 
-def member_of(path: str, folded: bool) -> Member:
+def member_of(record: dict[str, Any], folded: bool = False) -> Member:
     """The numbers of a comparison.json. Names: "stage 0.04 discrete probe zone t_over_s", "window 0.02-0.04 continuum
-    band angle_deg" (of the strongest band), "discrete_summary peak_stress_ratio". Raises ValueError."""
-    return member_of_record(read_json(path), folded)
-
-
-def member_of_record(record: dict[str, Any], folded: bool = False) -> Member:
-    """The numbers from the contents of a comparison.json."""
+    band angle_deg" (of the strongest band), "discrete_summary peak_stress_ratio"."""
     member = Member(folded=folded)
     for panel in ("discrete_summary", "continuum_summary"):
         member.collect(record[panel], panel, panel)

@@ -159,7 +159,8 @@ def result_of(runs: Runs, run: SceneRun, quantities: Sequence[dict[str, Any]]) -
     if result.exit_code == 0:
         numbers: dict[str, tuple[Any, ...]] = {}
         if any(q["source"] == "comparison" for q in quantities):
-            numbers = member_of(os.path.join(folder, "comparison.json"), run.scene.is_mirror_symmetric()).numbers
+            comparison = read_json(os.path.join(folder, "comparison.json"))
+            numbers = member_of(comparison, run.scene.is_mirror_symmetric()).numbers
         has_keys = any(q["reduction"] == "key number" for q in quantities)
         keys = key_values(folder, run.scene, result.tables) if has_keys else {}
         result.values = [numbers.get(q["column"], (math.nan,))[0] if q["source"] == "comparison"

@@ -15,20 +15,16 @@ NUMERICAL = ("grains_step", "mesh", "load_step")  # parts of u_num
 AXIS_UNITS = {"": "", "%": " (%)", "°": " (°)", " d": " (d)"}
 
 
-def described_at(verdict):
-    """Place of the quantity of a verdict in the list of numbers of a comparison."""
+def unit_of(results, verdict):
+    """The unit of the quantity of a verdict, as wording.rounded takes it."""
     key = verdict["key"]
-    return f"windows/discrete/bands/{key_of_band(key)}" if verdict["window"] else f"discrete_summary/{key}"
-
-
-def own_text(results, verdict):
-    """("inclination of the band", unit of wording.rounded)."""
-    return NAMES[verdict["key"]], shown_unit(results.numbers, described_at(verdict))
+    place = f"windows/discrete/bands/{key_of_band(key)}" if verdict["window"] else f"discrete_summary/{key}"
+    return shown_unit(results.numbers, place)
 
 
 def text_of(results, verdict):
     """"inclination of the band, 0–1 %"."""
-    text, window = own_text(results, verdict)[0], verdict["window"]
+    text, window = NAMES[verdict["key"]], verdict["window"]
     return f"{text}, {results.places.get(window, ('', window))[1]}" if window else text
 
 
@@ -48,7 +44,7 @@ def verdict_rows(results):
     """One row per verdict: text, means, difference, intervals, margin, pairs, verdict."""
     rows = []
     for verdict in results.record["verdicts"]:
-        own_unit = own_text(results, verdict)[1]
+        own_unit = unit_of(results, verdict)
         unit, decimals = ("%", 1) if verdict["relative"] else (own_unit, DECIMALS.get(own_unit, 3))
         means = panel_quantities(results, verdict)
         margin = 100 * verdict["margin"] if unit == "%" else verdict["margin"]
@@ -68,7 +64,7 @@ def validation_table(results):
         if not one["n"]:
             continue
         verdict = verdicts[one["quantity"]]
-        unit, missing = own_text(results, verdict)[1], one["not_known"]
+        unit, missing = unit_of(results, verdict), one["not_known"]
         label = text_of(results, verdict) + (f" [{unit.strip()}]" if unit else "")
         factor = 100 if unit == "%" else 1
         cells = [_digits(value, factor, 3) for value in (one["S"], one["D"], one["E"]["value"])]
@@ -105,12 +101,12 @@ def captions(results):
     found = {band["name"]: band["text"] for band in results.record["bands"]}
     rows = []
     for verdict in results.record["verdicts"]:
-        text, unit = own_text(results, verdict)
-        caption = text_of(results, verdict)
+        unit, caption = unit_of(results, verdict), text_of(results, verdict)
         if verdict["window"]:
             texts = [found.get(f"{verdict['window']} {panel}", "–") for panel in PANEL_NAMES]
             caption += ". Bands found, grains: " + "; continuum: ".join(texts)
-        rows.append((verdict, text + AXIS_UNITS.get(unit, ""), 100 if unit == "%" else 1, caption + "."))
+        label = NAMES[verdict["key"]] + AXIS_UNITS.get(unit, "")
+        rows.append((verdict, label, 100 if unit == "%" else 1, caption + "."))
     return rows
 
 
