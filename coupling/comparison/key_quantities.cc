@@ -35,6 +35,11 @@ namespace diptych::coupling
     return peak_of_running_mean(nominal, "ratio", basis.averaging_width).value;
   }
 
+  double nominal_friction_angle(const QuantityBasis &basis, const HistoryTable &h)
+  {
+    return std::asin(peak_nominal_stress_ratio(basis, h)) * 180 / M_PI;
+  }
+
   double peak_stress_ratio(const QuantityBasis &basis, const HistoryTable &h)
   {
     return peak_of_running_mean(h, "stress_ratio", basis.averaging_width).value;

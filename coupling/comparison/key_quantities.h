@@ -52,6 +52,7 @@ namespace diptych::coupling
   double              peak_outline_stress_ratio(const QuantityBasis &basis, const HistoryTable &history);
   double              peak_core_stress_ratio(const QuantityBasis &basis, const HistoryTable &history);
   double              peak_nominal_stress_ratio(const QuantityBasis &basis, const HistoryTable &history);
+  double              nominal_friction_angle(const QuantityBasis &basis, const HistoryTable &history); // [degrees]
   double              early_strength(const QuantityBasis &basis, const HistoryTable &history);
   double              strength(const QuantityBasis &basis, const HistoryTable &history);
   double              platen_force(const QuantityBasis &basis, const HistoryTable &history);
@@ -82,6 +83,8 @@ namespace diptych::coupling
     {"peak_nominal_stress_ratio", "nominal peak t/s", "-",
      "largest running mean of (F/W - P) / (F/W + P), as laboratories plot it: platen force F, width W, pressure P on the sides",
      of_ratio, peak_nominal_stress_ratio, nullptr},
+    {"friction_angle_deg", "friction angle of the nominal peak", "degrees", "arcsine of the nominal peak t/s", of_ratio,
+     nominal_friction_angle, nullptr},
     {"strength", "strength T/S from 0.3 % strain", "-", "strength T/S from 0.3 % strain to the end", of_ratio, strength, nullptr},
     {"platen_force_pd", "platen force from 0.3 % strain", "P d",
      "mean vertical force of the platens from 0.3 % strain to the end", of_ratio, platen_force, nullptr},

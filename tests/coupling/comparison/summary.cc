@@ -86,6 +86,7 @@ namespace
     basis.force           = 1;
     basis.side_pressure   = 1;
     EXPECT_NEAR(peak_nominal_stress_ratio(basis, h), 0.5, 1e-12);
+    EXPECT_NEAR(nominal_friction_angle(basis, h), 30, 1e-12);
     EXPECT_NEAR(peak_outline_stress_ratio(basis, h), 1.7 / 3.9, 1e-12) << "the continuum's sides are the outline";
     h["side_sxx"] = {0.9, 0.9};
     EXPECT_NEAR(peak_outline_stress_ratio(basis, h), 1.6 / 4.0, 1e-12);

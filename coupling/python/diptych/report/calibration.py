@@ -223,7 +223,8 @@ def predictions(calibration):
         for one in path["predictions"]:
             difference = one["difference"]
             ends = ends_text(difference["low"], difference["high"], lambda end: text(end, 2))
-            rows.append([f"{path['name']} ({'fitted' if path['use'] == 'fit' else 'predicted'})",
+            use = "predicted" if path["use"] == "predict" else "fitted" if one.get("is_fitted", True) else "not fitted"
+            rows.append([f"{path['name']} ({use})",
                          QUANTITIES[one["quantity"]], *(text(one[of]) for of in ("data", "before", "after")),
                          text(difference["value"], 2) + ends, text(one["margin"], 2), one["verdict"]])
     return {"head": ["path", "", calibration.data, "before", "calibrated", "difference [95 %]", "margin", "verdict"],

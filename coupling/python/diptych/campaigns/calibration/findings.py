@@ -26,7 +26,7 @@ from ..runs.statistics import Difference, line_statistics, paired, statistics
 NORMAL_95 = 1.6448536269514722  # 95 % quantile
 CUT = 0.04  # to a bound, in the unit cube: an interval ends there
 LARGEST_SHARE = 2 / 3  # of the prior deviation that an identified parameter keeps
-STRENGTHS = (PEAK, "peak_nominal_stress_ratio", "peak_core_stress_ratio", "platen_force_pd")
+STRENGTHS = (PEAK, "peak_nominal_stress_ratio", "friction_angle_deg", "peak_core_stress_ratio", "platen_force_pd")
 COLUMNS = ("kind", "from", "to", "count", "mean", "deviation", "deviation_of_mean", "before", "after",
            "parameter_deviation", "half_step", "counts", "discrepancy", "discrepancy_deviation")
 
@@ -127,7 +127,8 @@ def predictions(path: Path, runs: Sequence[Observation], deviations: Array) -> l
             deviation = deviations[k] * (1 / peak if quantity in STRENGTHS else now / mean if quantity == "width_10_90"
                                          else 1)
             test = widened(test, deviation)
-        found.append({"quantity": quantity, "data": mean,
+        is_fitted = path.target.is_fitted and k is not None and not path.left_out[k]
+        found.append({"quantity": quantity, "is_fitted": is_fitted, "data": mean,
                       "before": earlier, "after": now, "difference": test.difference, "margin": margins[margin],
                       "verdict": test.verdict(margins[margin]), "parameter_deviation": deviation})
 
