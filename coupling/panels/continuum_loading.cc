@@ -182,8 +182,8 @@ namespace diptych::coupling
     void check_sides(const discrete::LateralOptions &lateral, const continuum::Options &o, const LoadingMode mode)
     {
       const bool periodic = lateral.lateral == Lateral::periodic;
-      if (periodic && lateral.side_motion == SideMotion::pressure && o.platens == continuum::Platens::rough)
-        refuse("continuum/platens", "rough",
+      if (periodic && lateral.side_motion == SideMotion::pressure && o.platens != continuum::Platens::smooth)
+        refuse("continuum/platens", continuum::name_of(o.platens),
                "a free period under pressure (discrete/side_motion = pressure) needs continuum/platens = smooth");
       if (periodic && o.refinement == continuum::Refinement::adaptive)
         refuse("continuum/refinement", "adaptive",
