@@ -313,13 +313,10 @@ namespace diptych::coupling
 
   std::vector<std::string> warnings_of(const Scene &scene, const std::vector<Entry> &entries, const bool compares)
   {
-    Scene derived = scene;
-    derive_keys(derived, {});
-    const auto values = values_of(scene), defaults = values_of(Scene()), derived_values = values_of(derived);
+    const auto values = values_of(scene), defaults = values_of(Scene());
     const auto is_default = [&](const std::string &key) {
       const auto standard = defaults.find(key); // parameters of a library have none
-      return (standard != defaults.end() && values.at(key) == standard->second) ||
-             (is_derived(key) && values.at(key) == derived_values.at(key));
+      return is_derived(key) || (standard != defaults.end() && values.at(key) == standard->second);
     };
     std::map<std::string, Entry> last;
     for (const Entry &entry : entries)
