@@ -116,7 +116,7 @@ class GrainSamples(Folder):
         comparison = read_json(self.folder, "comparison.json")
         for stage in comparison["stages"]:
             self.assertLess(stage["mapping"]["total_relative_error"], 1e-12)
-        self.assertEqual(comparison["continuum_summary"]["internal_length_d"], 1.922)
+        self.assertEqual(comparison["continuum_summary"]["internal_length_d"], 2.286)
         self.assertEqual(comparison["continuum_summary"]["viscous_share"], 0)
         self.assertIn("localisation_strain", comparison["continuum_summary"])
         with h5py.File(self.path("comparison.h5"), "r") as file:

@@ -263,9 +263,8 @@ class Formulas(unittest.TestCase):
         self.assertAlmostEqual(_turn({"angle_deg": -89.0}, 89.0), 2.0)  # not 178
 
     def test_an_ensembles_places_keep_their_ends_apart(self):
-        others = ("folder", "record", "quantities", "numbers", "provenance")
-        results = ensemble.Ensemble(**dict.fromkeys(others), loading_variable=LOADING_VARIABLES["axial_strain"])
-        self.assertEqual(results.place("window 1e-05-0.02"), ("window", "0.001–2\u00a0%"))
+        places = ensemble._places({"windows": [{"from": 1e-5, "to": 0.02}]}, LOADING_VARIABLES["axial_strain"])
+        self.assertEqual(places, {"window 1e-05-0.02": ("window", "0.001–2\u00a0%")})
 
     def test_a_calibration_writes_numbers_without_exponents(self):
         self.assertEqual([calibration.text(x, 2) for x in (-2.9, -110.4, 1e5)], ["−2.9", "−110", "100000"])

@@ -32,12 +32,13 @@ ORDER = ("grains", "cells", "unknowns", "element_size_d", "preparation_solid_fra
          "friction_angle_deg", "strain_at_peak", "early_strength", "strength", "platen_force_pd", "mean_sxx",
          "sides_sxx", "platens_sxx", "final_volumetric_strain", "max_equivalent_plastic_strain", "internal_length_d",
          "localisation_strain", "localisation_angle_deg", "unstable_share", "viscous_share", "platen_unbalance",
-         "share_zz_not_intermediate", "processes", "steps", "step_length", "step", "step_bound", "halved_steps", "cut_backs", "newton_iterations",
-         "sweeps", "residual", "solver_noise", "grain_stress_error", "max_penetration_d", "impact_share",
-         "energy_residual", "momentum_residual", "spin_term_share", "kinetic_energy_ratio_median",
-         "kinetic_energy_ratio_largest", "kinetic_energy_bursts", "platen_difference_share_below_1_percent",
-         "platen_difference_mean", "platen_difference_largest", "contacts", "coordination_number", "rattlers",
-         "preparation_cpu_s", "discrete_cpu_s", "continuum_cpu_s", "comparison_cpu_s", "peak_memory_mb")
+         "share_zz_not_intermediate", "processes", "steps", "step_length", "step", "step_bound", "halved_steps",
+         "cut_backs", "newton_iterations", "sweeps", "residual", "solver_noise", "grain_stress_error",
+         "max_penetration_d", "impact_share", "energy_residual", "momentum_residual", "spin_term_share",
+         "kinetic_energy_ratio_median", "kinetic_energy_ratio_largest", "kinetic_energy_bursts",
+         "platen_difference_share_below_1_percent", "platen_difference_mean", "platen_difference_largest", "contacts",
+         "coordination_number", "rattlers", "preparation_cpu_s", "discrete_cpu_s", "continuum_cpu_s",
+         "comparison_cpu_s", "peak_memory_mb")
 
 # key -> expected value
 EXPECTED = {
