@@ -22,7 +22,7 @@ def calibration(**changes):
         "targets": [{"name": "fitted", "scene": QUICK, "set": TINY, "seeds": "1-2"},
                     {"name": "unseen", "scene": QUICK, "set": TINY, "seeds": "3", "use": "predict"}],
         "quantities": ["stress_ratio", "volumetric_strain"], "bins": [0.002, 0.005, 0.01, 0.015, 0.02],
-        "parameters": [{"key": "friction_angle_peak", "start": 20, "low": 14, "high": 40},
+        "parameters": [{"key": "friction_angle_peak", "start": 21, "low": 14, "high": 40},
                        {"key": "dilatancy_angle_peak", "start": 0.4, "low": 0, "high": 1}],
         "starts": 1, "load_step": 0.002, "check_samples": 1}
     return {**asked, **changes}
@@ -187,7 +187,7 @@ class Interruption(Calibrate):
 
 class Refused(Calibrate):
     def test_a_wrong_file_is_told_where_it_is_wrong(self):
-        parameter = {"key": "friction_angle_peak", "start": 20, "low": 14, "high": 40}
+        parameter = {"key": "friction_angle_peak", "start": 21, "low": 14, "high": 40}
         target = {"name": "fitted", "scene": QUICK, "seeds": "1-2"}
         for changes, words in [
                 ({"taget": 1}, ["taget"]),

@@ -85,7 +85,7 @@ class Inputs(Folder):
                  "quantities": [{"column": "volumetric_strain", "at": 0.005}]}
         calibration = {"targets": [{"name": "a", "scene": QUICK, "seeds": "1"}], "quantities": ["stress_ratio"],
                        "bins": [0.005],
-                       "parameters": [{"key": "friction_angle_peak", "start": 20, "low": 14, "high": 40}]}
+                       "parameters": [{"key": "friction_angle_peak", "start": 21, "low": 14, "high": 40}]}
         inputs = {"mine.prm": content(QUICK).decode(), "study.json": json.dumps(study),
                   "fit.json": json.dumps(calibration),
                   "grains.csv": "x,y,r\n" + "".join(f"{x},{y},0.5\n" for x in range(12) for y in (0.5, 1.5))}

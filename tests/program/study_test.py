@@ -252,7 +252,7 @@ class Effects(Folder):
 
     def test_means_follow_from_the_summaries_of_the_runs(self):
         table, record = pandas.read_csv(os.path.join(self.done, "effects.csv")), read_json(self.done, "study.json")
-        self.assertEqual(len(table), 2 * 9 * 3)  # points, key numbers, panels
+        self.assertEqual(len(table), 2 * 10 * 3)  # points, key numbers, panels
         peaks = table[(table["discrete/friction"] == 0.6) & (table.quantity == "peak t/s")].set_index("panel")["mean"]
         summaries = [pandas.read_csv(os.path.join(self.done, folder, "summary.csv"))
                      for folder in record["points"][1]["folders"]]
@@ -300,7 +300,7 @@ class Comparisons(Study):
                  "set": {"sample/grains": 150, "loading/inertial_number": 1e-3, "loading/axial_strain": 0.01,
                          "comparison/window_edges": [0, 0.01], "discrete/step": 0.1, "discrete/tolerance": 1e-4,
                          "continuum/element_size": 2.5, "comparison/coarse_element_size": 3},
-                 "reference": {}, "axes": [{"key": "continuum/friction_angle_peak", "values": [20]}],
+                 "reference": {}, "axes": [{"key": "continuum/friction_angle_peak", "values": [21]}],
                  "quantities": [{"number": "continuum_summary peak_stress_ratio", "limit": {"relative": 0.01}},
                                 {"number": "discrete_summary peak_stress_ratio", "limit": {"absolute": 1e-9}}]}
         self.run_study(study)

@@ -57,7 +57,7 @@ CALIBRATION = {
                  "set": {"sample/grains": 100, "loading/axial_strain": 0.01, "loading/stage_strain": 0.005,
                          "loading/inertial_number": 1e-3, "comparison/window_edges": "0, 0.01"}}],
     "quantities": ["stress_ratio"], "bins": [0.002, 0.005, 0.01],
-    "parameters": [{"key": "friction_angle_peak", "start": 20, "low": 14, "high": 40}],
+    "parameters": [{"key": "friction_angle_peak", "start": 21, "low": 14, "high": 40}],
     "starts": 1, "load_step": 0.005, "check_samples": 0}
 
 
