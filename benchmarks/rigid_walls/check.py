@@ -16,7 +16,7 @@ import claims  # noqa: E402
 
 SCENE = os.path.join(HERE, "scene.prm")
 
-# Grains and prediction: mean and four standard deviations over the first ten seeds of the README. The mean forces on
+# Grains and prediction: mean and four standard deviations over ten seeds (1-6, 11-14). The mean forces on
 # opposite walls differ by the grains' momentum at the end over the time: 0.3 % at the sides.
 CLAIMS = [("grains: peak t/s", 0.356, 0.445), ("grains: t/s, 1.5-4 %", 0.339, 0.414),
           ("grains: t/s, 7-8 %", 0.266, 0.378),

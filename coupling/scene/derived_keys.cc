@@ -183,8 +183,10 @@ namespace diptych::coupling
       {"continuum/platens",
        "rough; in compression of grains with an outline: smooth for discrete/platen_friction = 0, frictional if they can roll",
        [](Scene &s, const Given &) { s.continuum.platens = platens_like_the_grains(s); }},
-      {"continuum/platen_friction", by_friction,
-       [](Scene &s, const Given &) { s.continuum.platen_friction = fitting(s).platens; }},
+      {"continuum/platen_friction", "from samples, by discrete/friction; at most discrete/platen_friction",
+       [](Scene &s, const Given &) {
+         s.continuum.platen_friction = std::min(fitting(s).platens, s.discrete.law.platen_friction);
+       }},
       {"continuum/platen_slip_length", by_friction,
        [](Scene &s, const Given &) { s.continuum.platen_slip_length = fitting(s).slip_length; }},
       {"continuum/hardening", "mobilisation",

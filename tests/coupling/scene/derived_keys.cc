@@ -121,6 +121,7 @@ namespace
     EXPECT_EQ(of({"discrete/lateral=periodic", "discrete/side_motion=velocity", "loading/mode=shear"}).platens, Platens::rough);
     EXPECT_EQ(of({"continuum/platens=rough"}).platens, Platens::rough);
     EXPECT_EQ(of({"discrete/friction=0.4"}).platen_friction, 0.17);
+    EXPECT_EQ(of({"discrete/friction=0.4", "discrete/platen_friction=0.05"}).platen_friction, 0.05) << "Coulomb's limit";
     EXPECT_GT(of({"discrete/friction=0.6"}).platen_friction, of({"discrete/friction=0.3"}).platen_friction);
   }
 
