@@ -20,7 +20,9 @@ def draw(calibration, to):
     for k, path in enumerate(calibration.paths):
         for row, kind in enumerate(page.CURVES):
             page.draw_curve(style.ruled(axes[row][k]), path, kind, calibration.model)
-        axes[0][k].set_title(f"{path['name']}, {'fitted' if path['use'] == 'fit' else 'predicted'}")
+        fitted = any(one["counts"] and one["kind"] in page.CURVES for one in path["observables"])
+        use = "predicted" if path["use"] == "predict" else "fitted" if fitted else "band width fitted"
+        axes[0][k].set_title(f"{path['name']}, {use}", fontsize=9)
     axes[0][0].legend(loc="lower right", fontsize=7)
     FigureCanvasAgg(figure).print_figure(to, dpi=110)
 
