@@ -182,13 +182,13 @@ def columns(path):
 
 
 def numbers(value, place=""):
-    """Every leaf of comparison.json by its place."""
+    """Every leaf of comparison.json by its place; rows of a list by their key."""
     if isinstance(value, dict) and "value" in value and value["value"] is None:
         return {place: None}
     if isinstance(value, dict):
         items = value.items()
     elif isinstance(value, list):
-        items = enumerate(value)
+        items = [(part.get("key", k) if isinstance(part, dict) else k, part) for k, part in enumerate(value)]
     else:
         return {place: value}
     return {at: leaf for key, part in items if key not in NOT_RESULTS
