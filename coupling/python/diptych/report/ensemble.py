@@ -42,8 +42,8 @@ def draw(folder):
 
 @dataclass(kw_only=True)
 class Ensemble:
-    """quantities: by name. numbers: those of a member's comparison. places: {"window 0.01-0.02": ("window", "1–2 %")},
-    also of stages. averaging: width of the running means; None: not stored.
+    """quantities: by name. numbers: those of a member's comparison. places: windows and stages by name, such as
+    {"window 0.01-0.02": ("window", "1–2 %")}. averaging: width of the running means; None: not stored.
 
     curves: {"discrete/stress_ratio": {"members": (m, n), "mean": (n), "low": (n), "high": (n)}} over progress (n); {}
     if absent. profile: {panel: {"distance": (k), name: (k, 3) mean, low, high}} of the last window in which both panels
@@ -86,8 +86,10 @@ def load(folder):
 
 def _places(member, across):
     """member: a comparison.json, {} without one."""
-    windows = {window_name(one["from"], one["to"]): ("window", f"{across.number(one['from'])}–{across.span(one['to'])}")
-               for one in member.get("windows", [])}
+    windows = {}
+    for one in member.get("windows", []):
+        words = f"{across.number(one['from'])}–{across.span(one['to'])}"
+        windows[window_name(one["from"], one["to"])] = ("window", words)
     return windows | {stage_name(one["progress"]): ("stage", across.span(one["progress"]))
                       for one in member.get("stages", [])}
 
