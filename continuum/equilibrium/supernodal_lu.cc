@@ -51,6 +51,13 @@ namespace diptych::continuum
   SupernodalLu::SupernodalLu()
   {
     use_one_blas_thread();
+    // Without room for its buffer OpenBLAS would ask for it without end; this throws std::bad_alloc.
+    static const std::size_t buffer = [] {
+      std::vector<char> room;
+      room.reserve(std::size_t(1) << 27);
+      return room.capacity();
+    }();
+    static_cast<void>(buffer);
   }
 
   // Rows of the matrix from the diagonal on are the columns of its lower half, because the pattern is symmetric.

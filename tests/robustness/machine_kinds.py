@@ -97,12 +97,12 @@ def disk(case):
 
 
 def memory(case):
-    """Little memory. Below 400 MB the libraries do not load."""
+    """Little memory. Below 490 MB the libraries do not load."""
     command, out = case.dice.choice(sorted(COMMANDS)), case.path("out")
     words = ["--threads", case.dice.choice(["1", "2", "64", "1024"])] if command != "continuum" else []
     case.run(command, *COMMANDS[command], *words, "--output", out, "--quiet", output=out,
              names=(out, "memory", "TMPDIR", "--threads"), codes=(0, 3, 4),
-             patience=30, preexec=functools.partial(limit, memory=case.dice.randrange(400, 1500) << 20))
+             patience=30, preexec=functools.partial(limit, memory=case.dice.randrange(520, 1500) << 20))
 
 
 KINDS = {"disk": disk, "memory": memory}

@@ -37,8 +37,8 @@ def results(folder, without=()):
     """The contents of all files by their relative path. `without`: damaged files that need not be readable. Folders
     NAME.1 hold what a repeated run has set aside."""
     paths = [os.path.join(root, name) for root, _, names in os.walk(folder) for name in names
-             if not root.endswith(".1") and name.endswith((".h5", ".csv", ".json")) and name not in OWN_STATE
-             + NOT_COMPARED]
+             if (root == folder or not root.endswith(".1")) and name.endswith((".h5", ".csv", ".json"))
+             and name not in OWN_STATE + NOT_COMPARED]
     return {os.path.relpath(path, folder): content_of(path) for path in paths if os.path.relpath(path, folder)
             not in without}
 

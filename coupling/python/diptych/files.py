@@ -18,7 +18,9 @@ def part_of(path: str) -> Iterator[str]:
     try:
         yield part
         os.replace(part, path)
-    except BaseException:
+    except BaseException as error:
+        if isinstance(error, OSError) and error.filename is None:  # a full disk
+            error.filename = path
         if os.path.isfile(part):
             os.remove(part)
         raise
