@@ -241,7 +241,7 @@ namespace diptych::continuum
         row.mobilised_friction_angle  = std::asin(row.stress_ratio) / degree;
         row.dilatancy_angle           = shear > 0 ? std::asin(std::clamp(sum / shear, -1., 1.)) / degree : 0;
         row.equivalent_plastic_strain = state.equivalent_plastic_strain;
-        row.overstress_share          = state.overstress / law.shear_strength(state);
+        row.overstress_share          = state.overstress > 0 ? state.overstress / law.shear_strength(state) : 0;
         row.dissipation               = state.dissipation;
         row.verdict                   = now.verdict;
         row.variables                 = part_of<LibraryState>(state);
