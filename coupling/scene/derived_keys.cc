@@ -16,46 +16,67 @@ namespace diptych::coupling
   {
     using Given = std::set<std::string>;
 
-    // The law of dense samples with one friction between the grains, from cells without edges, and the friction along flat
+    // The law of dense samples with these frictions between the grains, from cells without edges, and the friction along flat
     // platens on which they roll. The data hardly determine the modulus; its values are smoothed.
     struct CalibratedLaw
     {
-      double friction;       // discrete/friction [-]
-      double peak;           // friction angle if fully mobilised [degrees]
-      double start;          // friction angle at the start / peak
-      double residual;       // residual friction angle / peak
-      double dilatancy;      // dilatancy angle / friction angle at the start
-      double youngs_modulus; // [loading/pressure]
-      double platens;        // platen_friction [-]
-      double slip_length;    // platen_slip_length [mean diameters]
+      double friction;         // discrete/friction [-]
+      double rolling_friction; // discrete/rolling_friction [-]
+      double peak;             // friction angle if fully mobilised [degrees]
+      double start;            // friction angle at the start / peak
+      double residual;         // residual friction angle / peak
+      double dilatancy;        // dilatancy angle / friction angle at the start
+      double youngs_modulus;   // [loading/pressure]
+      double platens;          // platen_friction [-]
+      double slip_length;      // platen_slip_length [mean diameters]
     };
 
-    constexpr std::array<CalibratedLaw, 6> calibrated = {{{0.2, 19.4, 0.725, 0.678, 0.648, 4000, 0.12, 22},
-                                                          {0.3, 21.9, 0.782, 0.703, 0.672, 5000, 0.15, 15},
-                                                          {0.4, 23.4, 0.840, 0.656, 0.693, 6500, 0.17, 13},
-                                                          {0.5, 24.9, 0.876, 0.603, 0.702, 8500, 0.185, 9},
-                                                          {0.6, 26.2, 0.890, 0.551, 0.710, 10000, 0.22, 9.5},
-                                                          {0.8, 27.3, 0.930, 0.547, 0.690, 15000, 0.23, 12}}};
+    constexpr std::array<std::array<CalibratedLaw, 6>, 3> calibrated = {
+      {{{{0.2, 0, 19.4, 0.725, 0.678, 0.648, 4000, 0.12, 22},
+         {0.3, 0, 21.9, 0.782, 0.703, 0.672, 5000, 0.15, 15},
+         {0.4, 0, 23.4, 0.84, 0.656, 0.693, 6500, 0.17, 13},
+         {0.5, 0, 24.9, 0.876, 0.603, 0.702, 8500, 0.185, 9},
+         {0.6, 0, 26.2, 0.89, 0.551, 0.71, 10000, 0.22, 9.5},
+         {0.8, 0, 27.3, 0.93, 0.547, 0.69, 15000, 0.23, 12}}},
+       {{{0.2, 0.1, 27.8, 0.763, 0.792, 0.565, 3200, 0.18, 3.8},
+         {0.3, 0.1, 32.1, 0.802, 0.726, 0.598, 3500, 0.2, 3.6},
+         {0.4, 0.1, 34.8, 0.824, 0.664, 0.662, 4000, 0.21, 3.4},
+         {0.5, 0.1, 36.7, 0.867, 0.617, 0.685, 4500, 0.225, 3.3},
+         {0.6, 0.1, 38.1, 0.913, 0.57, 0.68, 5500, 0.235, 3.2},
+         {0.8, 0.1, 40.6, 0.919, 0.546, 0.719, 7200, 0.27, 3}}},
+       {{{0.2, 0.3, 30.2, 0.755, 0.763, 0.542, 3400, 0.25, 1.7},
+         {0.3, 0.3, 37.1, 0.828, 0.826, 0.519, 4200, 0.28, 1.8},
+         {0.4, 0.3, 42.1, 0.857, 0.765, 0.564, 5300, 0.3, 2},
+         {0.5, 0.3, 45.3, 0.881, 0.599, 0.611, 6300, 0.31, 2.2},
+         {0.6, 0.3, 47.5, 0.909, 0.528, 0.645, 7300, 0.32, 2.3},
+         {0.8, 0.3, 52.1, 0.901, 0.45, 0.709, 10000, 0.34, 2.6}}}}};
 
     using discrete::tidy;
 
-    // Linear between two neighbours, constant beyond the ends.
-    CalibratedLaw law_at(const double friction)
+    // The law at a value of one key, in laws sorted by it: linear between two neighbours, constant beyond the ends.
+    template <std::size_t n>
+    CalibratedLaw between(const std::array<CalibratedLaw, n> &laws, double CalibratedLaw::*const key, const double at)
     {
-      const auto upper = std::upper_bound(calibrated.begin(), calibrated.end(), friction,
-                                          [](const double f, const CalibratedLaw &law) { return f < law.friction; });
-      if (upper == calibrated.begin())
-        return calibrated.front();
-      if (upper == calibrated.end())
-        return calibrated.back();
-      const CalibratedLaw &a = *(upper - 1), &b = *upper;
-      const double         w = (friction - a.friction) / (b.friction - a.friction);
-      using Law              = CalibratedLaw;
-      Law law;
-      for (double Law::*const value : {&Law::friction, &Law::peak, &Law::start, &Law::residual, &Law::dilatancy,
-                                       &Law::youngs_modulus, &Law::platens, &Law::slip_length})
+      using Law        = CalibratedLaw;
+      const auto upper = std::upper_bound(laws.begin(), laws.end(), at,
+                                          [&](const double x, const Law &law) { return x < law.*key; });
+      if (upper == laws.begin() || upper == laws.end())
+        return upper == laws.end() ? laws.back() : laws.front();
+      const Law   &a = *(upper - 1), &b = *upper;
+      const double w = (at - a.*key) / (b.*key - a.*key);
+      Law          law;
+      for (double Law::*const value : {&Law::friction, &Law::rolling_friction, &Law::peak, &Law::start, &Law::residual,
+                                       &Law::dilatancy, &Law::youngs_modulus, &Law::platens, &Law::slip_length})
         law.*value = tidy((1 - w) * a.*value + w * b.*value);
       return law;
+    }
+
+    CalibratedLaw fitting(const Scene &scene)
+    {
+      std::array<CalibratedLaw, calibrated.size()> laws;
+      std::transform(calibrated.begin(), calibrated.end(), laws.begin(),
+                     [&](const auto &row) { return between(row, &CalibratedLaw::friction, scene.discrete.law.friction); });
+      return between(laws, &CalibratedLaw::rolling_friction, scene.discrete.law.rolling_friction);
     }
 
     // benchmarks/studies/grains_inertia: 1e-3 is slow enough up to 2000 grains and 4e-4 for 4000. Beyond, the ratio of the
@@ -122,8 +143,7 @@ namespace diptych::coupling
       return law.platen_friction == 0 ? continuum::Platens::smooth : continuum::Platens::frictional;
     }
 
-    // True if the default law was calibrated on such grains: friction, grading, preparation, number, sides, speed; no rolling
-    // resistance.
+    // True if the default law was calibrated on such grains: frictions, grading, preparation, number, sides, speed.
     bool default_law_suits(const Scene &scene)
     {
       const discrete::SampleOptions &o = scene.sample;
@@ -132,8 +152,9 @@ namespace diptych::coupling
       const bool                     is_dense = o.file.empty() && o.preparation_friction == 0 && o.target_solid_fraction == 0 &&
                             o.radius_distribution == discrete::RadiusKind::uniform_by_number && o.radius_min >= 0.25 &&
                             o.radius_min <= 0.35 && n >= 1000 && n <= 2500;
-      const bool is_like = f >= calibrated.front().friction && f <= calibrated.back().friction &&
-                           scene.discrete.law.rolling_friction == 0 && scene.discrete.method.method == discrete::Method::nscd &&
+      const bool is_like = f >= calibrated[0].front().friction && f <= calibrated[0].back().friction &&
+                           scene.discrete.law.rolling_friction <= calibrated.back()[0].rolling_friction &&
+                           scene.discrete.method.method == discrete::Method::nscd &&
                            scene.discrete.lateral.lateral != discrete::Lateral::none &&
                            scene.loading.mode == discrete::LoadingMode::descent && inertial_number(scene) <= largest_quasi_static;
       return is_dense && is_like && c.mesh.kind == continuum::MeshOption::Kind::outline &&
@@ -160,12 +181,7 @@ namespace diptych::coupling
       return scene.continuum.material;
     }
 
-    CalibratedLaw fitting(const Scene &scene)
-    {
-      return law_at(scene.discrete.law.friction);
-    }
-
-    constexpr char by_friction[] = "from calibrations on dense samples, by discrete/friction";
+    constexpr char by_friction[] = "from calibrations on dense samples, by discrete/friction and discrete/rolling_friction";
 
     // The rule of a key needs only keys that stand before it.
     const DerivedKey derived_keys[] = {
@@ -183,7 +199,7 @@ namespace diptych::coupling
       {"continuum/platens",
        "rough; in compression of grains with an outline: smooth for discrete/platen_friction = 0, frictional if they can roll",
        [](Scene &s, const Given &) { s.continuum.platens = platens_like_the_grains(s); }},
-      {"continuum/platen_friction", "from samples, by discrete/friction; at most discrete/platen_friction",
+      {"continuum/platen_friction", "from samples, by both frictions of the grains; at most discrete/platen_friction",
        [](Scene &s, const Given &) {
          s.continuum.platen_friction = std::min(fitting(s).platens, s.discrete.law.platen_friction);
        }},
@@ -195,11 +211,11 @@ namespace diptych::coupling
        [](Scene &s, const Given &) { law(s).elastic.youngs_modulus = fitting(s).youngs_modulus; }},
       {"continuum/friction_angle_peak", by_friction,
        [](Scene &s, const Given &) { law(s).friction_angle_peak = fitting(s).peak; }},
-      {"continuum/friction_angle_start", "a share of the peak angle, by discrete/friction",
+      {"continuum/friction_angle_start", "a share of the peak angle, by both frictions of the grains",
        [](Scene &s, const Given &) { law(s).friction_angle_start = tidy(fitting(s).start * law(s).friction_angle_peak); }},
-      {"continuum/friction_angle_residual", "a share of the peak angle, by discrete/friction",
+      {"continuum/friction_angle_residual", "a share of the peak angle, by both frictions of the grains",
        [](Scene &s, const Given &) { law(s).friction_angle_residual = tidy(fitting(s).residual * law(s).friction_angle_peak); }},
-      {"continuum/dilatancy_angle_peak", "a share of friction_angle_start, by discrete/friction",
+      {"continuum/dilatancy_angle_peak", "a share of friction_angle_start, by both frictions of the grains",
        [](Scene &s, const Given &) {
          law(s).dilatancy_angle_peak = tidy(fitting(s).dilatancy *
                                             std::min(law(s).friction_angle_start, law(s).friction_angle_peak));

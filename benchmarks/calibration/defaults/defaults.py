@@ -44,7 +44,7 @@ def calibration(word):
                 "continuum/mobilisation_strain": 0.007},
         "load_step": 0.0004,
         "parameters": [
-            {"key": "friction_angle_peak", "start": 25, "low": 12, "high": 45},
+            {"key": "friction_angle_peak", "start": 25, "low": 12, "high": 60},
             {"key": "friction_angle_residual", "start": 0.5, "low": 0.05, "high": 0.9},
             {"key": "friction_angle_start", "start": 0.7, "low": 0.2, "high": 1},
             {"key": "dilatancy_angle_peak", "of": "friction_angle_start", "start": 0.5, "low": 0.05, "high": 1},

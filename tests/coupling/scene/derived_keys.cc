@@ -110,6 +110,18 @@ namespace
     EXPECT_EQ(part.friction_angle_peak, 20);
   }
 
+  TEST(DerivedKeys, TheLawIsLinearInRollingFrictionBetweenItsCalibrations)
+  {
+    const auto peak = [](const char *rolling) {
+      return scene_with({"discrete/friction=0.45", std::string("discrete/rolling_friction=") + rolling})
+        .continuum.material.friction_angle_peak;
+    };
+    EXPECT_NEAR(peak("0.05"), (peak("0") + peak("0.1")) / 2, 1e-9);
+    EXPECT_NEAR(peak("0.2"), (peak("0.1") + peak("0.3")) / 2, 1e-9);
+    EXPECT_LT(peak("0"), peak("0.1"));
+    EXPECT_EQ(peak("0.3"), peak("0.5"));
+  }
+
   TEST(DerivedKeys, PlatensAreThoseOfTheGrains)
   {
     using diptych::continuum::Platens;
@@ -131,11 +143,12 @@ namespace
     EXPECT_EQ(origin({}), "") << "4000 grains";
     EXPECT_NE(origin({"sample/grains=1500"}).find("calibrated"), std::string::npos);
     EXPECT_NE(origin({"sample/grains=1500", "discrete/friction=0.3", "loading/horizontal_over_vertical=0"}), "");
+    EXPECT_NE(origin({"sample/grains=1500", "discrete/rolling_friction=0.1"}), "");
     EXPECT_NE(origin({"sample/grains=1500", "continuum/max_step=0.001"}), "") << "not a key of the law";
-    for (const char *change :
-         {"discrete/friction=0.1", "sample/preparation_friction=0.3", "sample/radius_distribution=uniform_by_mass",
-          "sample/grains=600", "loading/inertial_number=0.01", "continuum/element_size=8", "continuum/friction_angle_peak=25",
-          "continuum/law=mohr_coulomb", "discrete/method=penalty"})
+    for (const char *change : {"discrete/friction=0.1", "discrete/rolling_friction=0.4", "sample/preparation_friction=0.3",
+                               "sample/radius_distribution=uniform_by_mass", "sample/grains=600", "loading/inertial_number=0.01",
+                               "continuum/element_size=8", "continuum/friction_angle_peak=25", "continuum/law=mohr_coulomb",
+                               "discrete/method=penalty"})
       EXPECT_EQ(origin({"sample/grains=1500", change}), "") << change;
     EXPECT_EQ(origin({"discrete/friction=0.1", "comparison/parameters_from=my fit"}), "my fit");
   }
