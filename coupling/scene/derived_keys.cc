@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <vector>
 
@@ -53,17 +54,17 @@ namespace diptych::coupling
 
     using discrete::tidy;
 
-    // The law at a value of one key, in laws sorted by it: linear between two neighbours, constant beyond the ends.
-    template <std::size_t n>
-    CalibratedLaw between(const std::array<CalibratedLaw, n> &laws, double CalibratedLaw::*const key, const double at)
+    // The law at a measure by which the laws are sorted: linear in it between two neighbours, constant beyond the ends.
+    template <std::size_t n, class Measure>
+    CalibratedLaw between(const std::array<CalibratedLaw, n> &laws, const Measure &measure, const double at)
     {
       using Law        = CalibratedLaw;
       const auto upper = std::upper_bound(laws.begin(), laws.end(), at,
-                                          [&](const double x, const Law &law) { return x < law.*key; });
+                                          [&](const double x, const Law &law) { return x < measure(law); });
       if (upper == laws.begin() || upper == laws.end())
         return upper == laws.end() ? laws.back() : laws.front();
       const Law   &a = *(upper - 1), &b = *upper;
-      const double w = (at - a.*key) / (b.*key - a.*key);
+      const double w = (at - measure(a)) / (measure(b) - measure(a));
       Law          law;
       for (double Law::*const value : {&Law::friction, &Law::rolling_friction, &Law::peak, &Law::start, &Law::residual,
                                        &Law::dilatancy, &Law::youngs_modulus, &Law::platens, &Law::slip_length})
@@ -71,12 +72,15 @@ namespace diptych::coupling
       return law;
     }
 
+    // In rolling friction the strength rises steeply at first, nearly with its square root.
     CalibratedLaw fitting(const Scene &scene)
     {
+      const discrete::ContactLawOptions &o          = scene.discrete.law;
+      const auto                         of_rolling = [](const CalibratedLaw &law) { return std::sqrt(law.rolling_friction); };
       std::array<CalibratedLaw, calibrated.size()> laws;
       std::transform(calibrated.begin(), calibrated.end(), laws.begin(),
-                     [&](const auto &row) { return between(row, &CalibratedLaw::friction, scene.discrete.law.friction); });
-      return between(laws, &CalibratedLaw::rolling_friction, scene.discrete.law.rolling_friction);
+                     [&](const auto &row) { return between(row, std::mem_fn(&CalibratedLaw::friction), o.friction); });
+      return between(laws, of_rolling, std::sqrt(o.rolling_friction));
     }
 
     // benchmarks/studies/grains_inertia: 1e-3 is slow enough up to 2000 grains and 4e-4 for 4000. Beyond, the ratio of the
