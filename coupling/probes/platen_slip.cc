@@ -55,7 +55,8 @@ namespace diptych::coupling
           const double a = high - golden * (high - low), b = low + golden * (high - low);
           (at(a).misfit < at(b).misfit ? high : low) = at(a).misfit < at(b).misfit ? b : a;
         }
-      return at((low + high) / 2);
+      // Traction in proportion to the slip has no largest value.
+      return low > std::log(2.) ? Fit() : at((low + high) / 2);
     }
 
     // value and 95 % interval from the values without each of the n groups.

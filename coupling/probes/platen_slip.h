@@ -51,6 +51,7 @@ namespace diptych::coupling
 
   // Fits the law to the means over several windows or samples, by least squares weighted with the normal forces. The slip
   // of few grains is too uncertain for a fit to single windows. The 95 % intervals come from a jackknife over the windows or
-  // samples and are NaN for a single one. All values are NaN if nothing slips.
+  // samples and are NaN for a single one. All values are NaN if nothing slips, or if the traction does
+  // not bend over the slip.
   PlatenFriction platen_friction(const std::vector<PlatenParts> &windows);
 } // namespace diptych::coupling

@@ -105,6 +105,14 @@ namespace
     EXPECT_NEAR(upper[0].shear, 0.1, 1e-12);
   }
 
+  // Slip far below the slip length: the traction says nothing of its largest value.
+  TEST(PlatenSlip, ProportionalTractionHasNoLaw)
+  {
+    std::mt19937_64 random(1);
+    EXPECT_TRUE(std::isnan(platen_friction({window(0.2 * mu * L, 0, true, random)}).friction.value));
+    EXPECT_FALSE(std::isnan(platen_friction({window(mu * L, 0, true, random)}).friction.value));
+  }
+
   // Nothing slips: no law.
   TEST(PlatenSlip, WithoutSlipThereIsNoLaw)
   {
