@@ -130,6 +130,16 @@ namespace diptych::coupling
     return "\n" + text;
   }
 
+  std::string platens_text_of(const PlatenFriction &grains, const continuum::Options &o)
+  {
+    if (o.platens != continuum::Platens::frictional)
+      return "";
+    return "\nplatens: friction " + number(o.platen_friction) + ", slip length " + number(o.platen_slip_length) +
+           " d; fitted to these grains: " +
+           (std::isnan(grains.friction.value) ? "not determined"
+                                              : with_ends(grains.friction) + ", " + with_ends(grains.slip_length) + " d");
+  }
+
   std::string origin_of_law(const std::string &parameters_from)
   {
     if (!parameters_from.empty())

@@ -60,6 +60,10 @@ namespace diptych::coupling
   // A line with the mean sxx of both panels / pressure and what causes it; empty unless a pressure acts on the sides.
   std::string sxx_text_of(const Comparison &c, double pressure);
 
+  // A line with the friction along the platens that the continuum took, and its fit to the grains of this run; empty unless
+  // frictional.
+  std::string platens_text_of(const PlatenFriction &grains, const continuum::Options &o);
+
   // Where the parameters of the continuum come from; bold on a terminal if they are not fitted.
   std::string origin_of_law(const std::string &parameters_from);
 } // namespace diptych::coupling
