@@ -184,7 +184,8 @@ namespace diptych::coupling
       const bool periodic = lateral.lateral == Lateral::periodic;
       if (periodic && lateral.side_motion == SideMotion::pressure && o.platens != continuum::Platens::smooth)
         refuse("continuum/platens", continuum::name_of(o.platens),
-               "a free period under pressure (discrete/side_motion = pressure) needs continuum/platens = smooth");
+               "a free period under pressure (discrete/side_motion = pressure) needs continuum/platens = smooth (and "
+               "discrete/platen_friction = 0)");
       if (periodic && o.refinement == continuum::Refinement::adaptive)
         refuse("continuum/refinement", "adaptive",
                "periodic sides (discrete/lateral) must match node by node; use continuum/refinement = uniform");
