@@ -71,8 +71,11 @@ class Results(Calibrate):
             for o in path["observables"]:
                 self.assertLess(abs(o["half_step"]), o["deviation"], o)
             self.assertEqual([p["quantity"] for p in path["predictions"]],
-                             ["peak_stress_ratio", "peak_nominal_stress_ratio", "friction_angle_deg",
-                              "peak_core_stress_ratio", "platen_force_pd", "volumetric_strain"])
+                             ["peak_stress_ratio", "peak_outline_stress_ratio", "peak_core_stress_ratio",
+                              "peak_nominal_stress_ratio", "friction_angle_deg", "platen_force_pd",
+                              "volumetric_strain"])
+        self.assertEqual([{p["use"] for p in path["predictions"]} for path in record["paths"]],
+                         [{"fitted"}, {"predicted"}])
         with open(self.path("calibration.csv"), encoding="utf-8") as file:
             self.assertEqual(len(list(csv.DictReader(file))), 16)
         # The fragment is what a scene takes, before what --set says.

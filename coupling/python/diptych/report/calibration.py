@@ -223,8 +223,7 @@ def predictions(calibration):
         for one in path["predictions"]:
             difference = one["difference"]
             ends = ends_text(difference["low"], difference["high"], lambda end: text(end, 2))
-            use = "predicted" if path["use"] == "predict" else "fitted" if one.get("is_fitted", True) else "not fitted"
-            rows.append([f"{path['name']} ({use})",
+            rows.append([f"{path['name']} ({one.get('use', path['use'])})",
                          QUANTITIES[one["quantity"]], *(text(one[of]) for of in ("data", "before", "after")),
                          text(difference["value"], 2) + ends, text(one["margin"], 2), one["verdict"]])
     return {"head": ["path", "", calibration.data, "before", "calibrated", "difference [95 %]", "margin", "verdict"],

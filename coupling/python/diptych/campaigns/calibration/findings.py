@@ -26,7 +26,8 @@ from ..runs.statistics import Difference, line_statistics, paired, statistics
 NORMAL_95 = 1.6448536269514722  # 95 % quantile
 CUT = 0.04  # to a bound, in the unit cube: an interval ends there
 LARGEST_SHARE = 2 / 3  # of the prior deviation that an identified parameter keeps
-STRENGTHS = (PEAK, "peak_nominal_stress_ratio", "friction_angle_deg", "peak_core_stress_ratio", "platen_force_pd")
+STRENGTHS = (PEAK, "peak_outline_stress_ratio", "peak_core_stress_ratio", "peak_nominal_stress_ratio",
+             "friction_angle_deg", "platen_force_pd")
 COLUMNS = ("kind", "from", "to", "count", "mean", "deviation", "deviation_of_mean", "before", "after",
            "parameter_deviation", "half_step", "counts", "discrepancy", "discrepancy_deviation")
 
@@ -127,8 +128,9 @@ def predictions(path: Path, runs: Sequence[Observation], deviations: Array) -> l
             deviation = deviations[k] * (1 / peak if quantity in STRENGTHS else now / mean if quantity == "width_10_90"
                                          else 1)
             test = widened(test, deviation)
-        is_fitted = path.target.is_fitted and k is not None and not path.left_out[k]
-        found.append({"quantity": quantity, "is_fitted": is_fitted, "data": mean,
+        use = ("predicted" if not path.target.is_fitted else
+               "fitted" if k is not None and not path.left_out[k] else "not fitted")
+        found.append({"quantity": quantity, "use": use, "data": mean,
                       "before": earlier, "after": now, "difference": test.difference, "margin": margins[margin],
                       "verdict": test.verdict(margins[margin]), "parameter_deviation": deviation})
 
@@ -256,7 +258,7 @@ def summary(record: dict[str, Any], cpu_s: float) -> str:
         for one in path["predictions"]:
             data, before, after = (f"{x:.4g}" if np.isfinite(x) else "-"
                                    for x in (one["data"], one["before"], one["after"]))
-            lines.append(f"  {path['name']} ({path['use']}): {one['quantity']} {data}, before {before}, "
+            lines.append(f"  {path['name']} ({one['use']}): {one['quantity']} {data}, before {before}, "
                          f"after {after}: {one['verdict']}")
     return "\n".join(lines + ["  " + words for words in record["words"]])
 
