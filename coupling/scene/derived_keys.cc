@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <vector>
 
@@ -32,19 +31,31 @@ namespace diptych::coupling
       double slip_length;      // platen_slip_length [mean diameters]
     };
 
-    constexpr std::array<std::array<CalibratedLaw, 6>, 3> calibrated = {
+    constexpr std::array<std::array<CalibratedLaw, 6>, 5> calibrated = {
       {{{{0.2, 0, 19.4, 0.725, 0.678, 0.648, 4000, 0.12, 22},
          {0.3, 0, 21.9, 0.782, 0.703, 0.672, 5000, 0.15, 15},
          {0.4, 0, 23.4, 0.84, 0.656, 0.693, 6500, 0.17, 13},
          {0.5, 0, 24.9, 0.876, 0.603, 0.702, 8500, 0.185, 9},
          {0.6, 0, 26.2, 0.89, 0.551, 0.71, 10000, 0.22, 9.5},
          {0.8, 0, 27.3, 0.93, 0.547, 0.69, 15000, 0.23, 12}}},
+       {{{0.2, 0.05, 25.5, 0.744, 0.724, 0.61, 3000, 0.15, 7.2},
+         {0.3, 0.05, 28.5, 0.803, 0.75, 0.63, 3600, 0.17, 5.5},
+         {0.4, 0.05, 31.1, 0.801, 0.602, 0.697, 4300, 0.19, 4.5},
+         {0.5, 0.05, 32.5, 0.834, 0.618, 0.723, 5200, 0.21, 4.3},
+         {0.6, 0.05, 34, 0.874, 0.531, 0.709, 6600, 0.22, 4},
+         {0.8, 0.05, 36, 0.895, 0.545, 0.737, 8800, 0.26, 4.3}}},
        {{{0.2, 0.1, 27.8, 0.763, 0.792, 0.565, 3200, 0.18, 3.8},
          {0.3, 0.1, 32.1, 0.802, 0.726, 0.598, 3500, 0.2, 3.6},
          {0.4, 0.1, 34.8, 0.824, 0.664, 0.662, 4000, 0.21, 3.4},
          {0.5, 0.1, 36.7, 0.867, 0.617, 0.685, 4500, 0.225, 3.3},
          {0.6, 0.1, 38.1, 0.913, 0.57, 0.68, 5500, 0.235, 3.2},
          {0.8, 0.1, 40.6, 0.919, 0.546, 0.719, 7200, 0.27, 3}}},
+       {{{0.2, 0.2, 29.5, 0.769, 0.783, 0.537, 3300, 0.22, 1.9},
+         {0.3, 0.2, 35.3, 0.845, 0.81, 0.525, 4000, 0.245, 2},
+         {0.4, 0.2, 39.5, 0.844, 0.715, 0.604, 4600, 0.26, 2.2},
+         {0.5, 0.2, 41.8, 0.89, 0.579, 0.626, 5500, 0.26, 2.3},
+         {0.6, 0.2, 43.6, 0.92, 0.587, 0.651, 6200, 0.27, 2.3},
+         {0.8, 0.2, 46.7, 0.939, 0.574, 0.702, 8400, 0.29, 2.5}}},
        {{{0.2, 0.3, 30.2, 0.755, 0.763, 0.542, 3400, 0.25, 1.7},
          {0.3, 0.3, 37.1, 0.828, 0.826, 0.519, 4200, 0.28, 1.8},
          {0.4, 0.3, 42.1, 0.857, 0.765, 0.564, 5300, 0.3, 2},
@@ -54,17 +65,17 @@ namespace diptych::coupling
 
     using discrete::tidy;
 
-    // The law at a measure by which the laws are sorted: linear in it between two neighbours, constant beyond the ends.
-    template <std::size_t n, class Measure>
-    CalibratedLaw between(const std::array<CalibratedLaw, n> &laws, const Measure &measure, const double at)
+    // The law at a value of one key, in laws sorted by it: linear between two neighbours, constant beyond the ends.
+    template <std::size_t n>
+    CalibratedLaw between(const std::array<CalibratedLaw, n> &laws, double CalibratedLaw::*const key, const double at)
     {
       using Law        = CalibratedLaw;
       const auto upper = std::upper_bound(laws.begin(), laws.end(), at,
-                                          [&](const double x, const Law &law) { return x < measure(law); });
+                                          [&](const double x, const Law &law) { return x < law.*key; });
       if (upper == laws.begin() || upper == laws.end())
         return upper == laws.end() ? laws.back() : laws.front();
       const Law   &a = *(upper - 1), &b = *upper;
-      const double w = (at - measure(a)) / (measure(b) - measure(a));
+      const double w = (at - a.*key) / (b.*key - a.*key);
       Law          law;
       for (double Law::*const value : {&Law::friction, &Law::rolling_friction, &Law::peak, &Law::start, &Law::residual,
                                        &Law::dilatancy, &Law::youngs_modulus, &Law::platens, &Law::slip_length})
@@ -72,15 +83,12 @@ namespace diptych::coupling
       return law;
     }
 
-    // In rolling friction the strength rises steeply at first, nearly with its square root.
     CalibratedLaw fitting(const Scene &scene)
     {
-      const discrete::ContactLawOptions &o          = scene.discrete.law;
-      const auto                         of_rolling = [](const CalibratedLaw &law) { return std::sqrt(law.rolling_friction); };
       std::array<CalibratedLaw, calibrated.size()> laws;
       std::transform(calibrated.begin(), calibrated.end(), laws.begin(),
-                     [&](const auto &row) { return between(row, std::mem_fn(&CalibratedLaw::friction), o.friction); });
-      return between(laws, of_rolling, std::sqrt(o.rolling_friction));
+                     [&](const auto &row) { return between(row, &CalibratedLaw::friction, scene.discrete.law.friction); });
+      return between(laws, &CalibratedLaw::rolling_friction, scene.discrete.law.rolling_friction);
     }
 
     // benchmarks/studies/grains_inertia: 1e-3 is slow enough up to 2000 grains and 4e-4 for 4000. Beyond, the ratio of the
@@ -147,7 +155,7 @@ namespace diptych::coupling
       return law.platen_friction == 0 ? continuum::Platens::smooth : continuum::Platens::frictional;
     }
 
-    // True if the default law was calibrated on such grains: frictions, grading, preparation, number, sides, speed.
+    // True if the default law was calibrated on such grains: frictions, grading, preparation, number, shape, sides, speed.
     bool default_law_suits(const Scene &scene)
     {
       const discrete::SampleOptions &o = scene.sample;
@@ -155,7 +163,8 @@ namespace diptych::coupling
       const double                   f = scene.discrete.law.friction, n = discrete::expected_grains(o);
       const bool                     is_dense = o.file.empty() && o.preparation_friction == 0 && o.target_solid_fraction == 0 &&
                             o.radius_distribution == discrete::RadiusKind::uniform_by_number && o.radius_min >= 0.25 &&
-                            o.radius_min <= 0.35 && n >= 1000 && n <= 2500;
+                            o.radius_min <= 0.35 && n >= 1000 && n <= 2500 && o.width_over_height >= 0.5 &&
+                            o.width_over_height <= 1;
       const bool is_like = f >= calibrated[0].front().friction && f <= calibrated[0].back().friction &&
                            scene.discrete.law.rolling_friction <= calibrated.back()[0].rolling_friction &&
                            scene.discrete.method.method == discrete::Method::nscd &&
@@ -201,7 +210,8 @@ namespace diptych::coupling
       {"loading/stage_time", "about 1, so that the end is a stage; at most 40 stages",
        [](Scene &s, const Given &) { s.loading.stage_time = stage_length(s.loading.duration, 1); }},
       {"continuum/platens",
-       "rough; in compression of grains with an outline: smooth for discrete/platen_friction = 0, frictional if they can roll",
+       "rough; in compression of grains with an outline: smooth for discrete/platen_friction = 0, else frictional if"
+       " discrete/platen_rolling_friction = 0",
        [](Scene &s, const Given &) { s.continuum.platens = platens_like_the_grains(s); }},
       {"continuum/platen_friction", "from samples, by both frictions of the grains; at most discrete/platen_friction",
        [](Scene &s, const Given &) {
