@@ -123,7 +123,8 @@ paths/: fitted and predicted paths
         discrepancy_deviation: its standard deviation
     predictions/: single numbers with verdicts
         quantity (text): peak_stress_ratio, peak_outline_stress_ratio, peak_core_stress_ratio, \
-            peak_nominal_stress_ratio, friction_angle_deg, platen_force_pd, volumetric_strain (last bin), width_10_90 (last window, mean diameters) or angle_deg
+            peak_nominal_stress_ratio, friction_angle_deg, platen_force_pd, volumetric_strain (last bin), \
+            width_10_90 (last window, mean diameters) or angle_deg
         use (text): fitted, not fitted (the fit used only other kinds of observables of this path) or predicted
         data [as the quantity says]: mean of the grains
         before [as the quantity says]: value of the continuum before the calibration
