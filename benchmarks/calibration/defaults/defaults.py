@@ -17,7 +17,8 @@ LOADINGS = ("vertical", "oblique")
 SHOWN = ("platen_force_pd", "strength", "peak_outline_stress_ratio", "peak_core_stress_ratio",
          "peak_nominal_stress_ratio", "final_volumetric_strain")
 RESULTS = "results/defaults"
-FRICTIONS = [f"{friction}{rolling}" for rolling in ("", "/0.1", "/0.3") for friction in (0.2, 0.3, 0.4, 0.5, 0.6, 0.8)]
+FRICTIONS = [f"{friction}{rolling}" for rolling in ("", "/0.05", "/0.1", "/0.2", "/0.3")
+             for friction in (0.2, 0.3, 0.4, 0.5, 0.6, 0.8)]
 
 
 def grains(word):
