@@ -12,8 +12,9 @@ namespace diptych::continuum
     // on the nonlocal one.
     template <class H> constexpr bool accepts(const LawTraits &law)
     {
-      return !(law.has_edges() && std::is_same_v<H, KinematicHardening>)&&!(law.is_gradient &&
-                                                                            std::is_base_of_v<CriticalStateHardening, H>);
+      constexpr bool moves           = std::is_same_v<H, KinematicHardening>,
+                     follows_density = std::is_base_of_v<CriticalStateHardening, H>;
+      return !(moves && law.has_edges()) && !(follows_density && law.is_gradient);
     }
   } // namespace
 
