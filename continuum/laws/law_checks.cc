@@ -47,13 +47,34 @@ namespace diptych::continuum
       return difference;
     }
 
-    double largest_entry(const Tangent &t, const Tangent &stiffness)
+    struct LargestEntry
     {
-      double largest = 0;
+      unsigned int i = 0, k = 0;
+      double       size = 0;
+    };
+
+    LargestEntry largest_entry(const Tangent &t, const Tangent &stiffness)
+    {
+      LargestEntry largest;
       for (unsigned int i = 0; i < n_components; ++i)
         for (unsigned int k = 0; k < n_components; ++k)
-          largest = std::max(largest, std::abs(t[i][k]) / (unit_of(stiffness, i) * unit_of(stiffness, k)));
+          if (const double size = std::abs(t[i][k]) / (unit_of(stiffness, i) * unit_of(stiffness, k)); size > largest.size)
+            largest = {i, k, size};
       return largest;
+    }
+
+    // "; d s_xx / d e_yy = 2, but differences give -2: the sign is turned", for the entry with the largest error.
+    std::string text_of_error(const Tangent &tangent, const Tangent &difference, const Tangent &stiffness)
+    {
+      const char *strain[]     = {"e_xx", "e_yy", "gamma_xy", "rotation", "curvature_x", "curvature_y"},
+                 *stress[]     = {"s_xx", "s_yy", "s_xy", "skew part", "m_x", "m_y"};
+      const LargestEntry e     = largest_entry(tangent - difference, stiffness);
+      const double       given = tangent[e.i][e.k], right = difference[e.i][e.k];
+      std::ostringstream text;
+      text << "; d " << stress[e.i] << " / d " << strain[e.k] << " = " << given << ", but differences give " << right;
+      if (std::abs(given + right) < 1e-3 * std::abs(given))
+        text << ": a sign is turned; tension is positive, in stress and in strain";
+      return text.str();
     }
 
     bool same_regime_around(const Law &law, const MaterialState &s0, const Strain &e, const double step)
@@ -172,7 +193,10 @@ namespace diptych::continuum
         note(repeatability, same_bits(answer, answer_of(law, state, e)) ? 0 : 1);
         const DifferenceRule rule{1e-4, 1e-6};
         if (const auto error = tangent_error(law, state, e, rule))
-          note(tangent, *error);
+          note(tangent, *error,
+               *error > std::max(tangent.deviation, tangent.allowed)
+                 ? text_of_error(answer.tangent, central_difference(law, state, e, rule.step * e.norm()), stiffness)
+                 : "");
         else
           ++tangent.n_not_judged;
         judge_objectivity(state, e, answer);
@@ -181,7 +205,20 @@ namespace diptych::continuum
         state = answer.state;
         if (largest_in_tension(state) < 0)
           note(dissipation, std::max(0., s0.dissipation - state.dissipation) / units.stress);
+        judge_plastic_strain(s0, state);
         return true;
+      }
+
+      // A law from a library gives plastic strain and plastic work independently.
+      void judge_plastic_strain(const MaterialState &s0, const MaterialState &s1)
+      {
+        const PlasticStrain &a = s0.plastic_strain, &b = s1.plastic_strain;
+        const double         work = s1.stress[xx] * (b.xx - a.xx) + s1.stress[yy] * (b.yy - a.yy) + s1.stress_zz * (b.zz - a.zz) +
+                            s1.stress[xy] * (b.xy - a.xy);
+        const double given = s1.dissipation - s0.dissipation, least = dissipation.allowed * units.stress;
+        if (given > least && work < -least && dissipation.trouble.empty())
+          dissipation.trouble = "plastic_strain has a turned sign, its work on the stress is " + std::to_string(work) +
+                                "; tension is positive, in stress and in strain; " + place;
       }
 
       void judge_objectivity(const MaterialState &s0, const Strain &e, const MaterialUpdate &answer)
@@ -199,13 +236,13 @@ namespace diptych::continuum
         note(objectivity, largest / units.stress);
       }
 
-      void note(LawCheck &check, const double deviation)
+      void note(LawCheck &check, const double deviation, const std::string &more = "")
       {
         ++check.n_judged;
         if (deviation > check.deviation || check.where.empty())
           {
             check.deviation = std::max(check.deviation, deviation);
-            check.where     = place;
+            check.where     = place + more;
           }
       }
 
@@ -265,8 +302,8 @@ namespace diptych::continuum
     if (!same_regime_around(law, s0, e, step))
       return {};
     const Tangent difference = central_difference(law, s0, e, step);
-    if (rule.kink < 1 && largest_entry(central_difference(law, s0, e, step / 2) - difference, unit) > rule.kink)
+    if (rule.kink < 1 && largest_entry(central_difference(law, s0, e, step / 2) - difference, unit).size > rule.kink)
       return {};
-    return largest_entry(answer_of(law, s0, e).tangent - difference, unit);
+    return largest_entry(answer_of(law, s0, e).tangent - difference, unit).size;
   }
 } // namespace diptych::continuum

@@ -29,7 +29,7 @@ namespace diptych::continuum
   //   tangent        against central differences, relative to the stiffness at rest
   //   objectivity    turned stress, tensors and strain give the turned answer, relative to units.stress
   //   dissipation    plastic work is not negative where the end is in compression, relative to units.stress: contraction does
-  //                  negative work in tension, which only cohesion can carry
+  //                  negative work in tension, which only cohesion can carry; and it has the sign of stress : plastic strain
   std::vector<LawCheck> check_law(const Law &law, const Units &units);
 
   // Sum of the outer two principal stresses, or of those in the plane, whichever is larger; tension positive.

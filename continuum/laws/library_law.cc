@@ -50,10 +50,15 @@ namespace diptych::continuum
     start(rest);
     const MaterialUpdate answer = update(rest, {}, 0);
     require_keys(answer.verdict != Verdict::failed, {"law_library"}, "law_library fails at rest: ", failure(rest, {}, 0).text);
+    const char *signs = "; tension is positive, in stress and in strain";
+    for (const auto &[name, stress] : {std::pair("s_xx", answer.state.stress[xx]), std::pair("s_yy", answer.state.stress[yy]),
+                                       std::pair("s_zz", answer.state.stress_zz)})
+      require_keys(!(std::abs(stress - units.stress) < 1e-6 * units.stress), {"law_library"}, "law_library = ", path,
+                   ": a step without strain turns the sign of ", name, ", from ", -units.stress, " to ", stress, signs);
     elastic = answer.tangent;
     require_keys(elastic[xx][xx] > 0 && elastic[xy][xy] > 0, {"law_library"}, "law_library = ", path,
                  ": the tangent at rest has no positive stiffness: d s_xx / d e_xx = ", elastic[xx][xx],
-                 ", d s_xy / d gamma_xy = ", elastic[xy][xy]);
+                 ", d s_xy / d gamma_xy = ", elastic[xy][xy], signs);
     moduli_.shear = elastic[xy][xy];
   }
 

@@ -51,7 +51,7 @@ namespace diptych::coupling
         text << ", " << check.n_not_judged << " not judged";
       if (!check.trouble.empty())
         text << "; " << check.trouble;
-      else if (!check.where.empty())
+      else if (!check.holds())
         text << "; " << check.where;
       return text.str();
     }

@@ -1,7 +1,8 @@
 /* diptych: a law of the tests that misbehaves: linear elastic until its strain reaches what FAULT says
  * SPDX-License-Identifier: LGPL-2.1-or-later
  *
- * Environment: FAULT = crash, divide, abort, nan, fail or none. Macros: VERSION, NO_UPDATE, TANGENT (a factor).
+ * Environment: FAULT = crash, divide, abort, nan, fail or none. Macros: VERSION, NO_UPDATE, factors TANGENT and ZZ, and DECAY
+ * (rate at which s_xy decays, as Maxwell's).
  */
 #include <math.h>
 #include <stdlib.h>
@@ -14,6 +15,12 @@
 #endif
 #ifndef TANGENT
 #define TANGENT 1
+#endif
+#ifndef ZZ
+#define ZZ 1
+#endif
+#ifndef DECAY
+#define DECAY 0
 #endif
 
 static const struct diptych_parameter parameters[1] = {{"stiffness", DIPTYCH_STRESS, "Young's modulus", 500, 1, 1e6}};
@@ -55,9 +62,9 @@ enum diptych_verdict diptych_law_update(const struct diptych_step *step, struct 
       for (int k = 0; k < 2; ++k)
         answer->tangent[3 * i + k] = TANGENT * (1.25 / 3 * E / 2 + E / 1.5 * ((i == k) - 1. / 3));
     }
-  answer->stress[2] += E / 3 * e[2];
-  answer->stress_zz += 1.25 / 3 * E * volume / 2 - E / 1.5 * volume / 3;
-  answer->tangent[8] = TANGENT * E / 3;
+  answer->stress[2] = (answer->stress[2] + E / 3 * e[2]) / (1 + DECAY * step->time);
+  answer->stress_zz = ZZ * (answer->stress_zz + 1.25 / 3 * E * volume / 2 - E / 1.5 * volume / 3);
+  answer->tangent[8] = TANGENT * E / 3 / (1 + DECAY * step->time);
   answer->variables[0] += fabs(e[1]);
   return answer->variables[0] > 0.0047 && misbehave(answer) ? DIPTYCH_FAILED : DIPTYCH_RELIABLE;
 }

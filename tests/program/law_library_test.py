@@ -43,7 +43,9 @@ class Libraries(Folder):
                                      ["cc", "-std=c99", "-pedantic"]),
                                     ("faulty", FAULTY, ["cc"]), ("old", FAULTY, ["cc", "-DVERSION=0"]),
                                     ("empty", FAULTY, ["cc", "-DNO_UPDATE"]),
-                                    ("bent", FAULTY, ["cc", "-DTANGENT=0.999"])):
+                                    ("bent", FAULTY, ["cc", "-DTANGENT=0.999"]),
+                                    ("turned", FAULTY, ["cc", "-DTANGENT=-1"]), ("zz", FAULTY, ["cc", "-DZZ=-1"]),
+                                    ("maxwell", FAULTY, ["cc", "-DDECAY=2"])):
             subprocess.run([*words, "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", "-O2", "-I" + HEADER, "-o",
                             os.path.join(cls.libraries, name + ".so"), source, "-lm"], check=True)
 
@@ -62,12 +64,41 @@ class Libraries(Folder):
         for library in ("mohr_coulomb", "von_mises"):
             told = finished("check-law", os.path.join(self.libraries, library + ".so")).stdout
             self.assertEqual(told.count(": holds, largest deviation"), 5, told)
+            self.assertNotIn("strain increment", told)  # no place without a fault
         self.assertIn("law.hardening_modulus = 10 [loading/pressure]", told)
 
     def test_a_wrong_tangent_is_found(self):
         result = self.expect(2, ["check-law", os.path.join(self.libraries, "bent.so")])
-        self.assertRegex(result.stdout, r"tangent: FAILS, largest deviation 0.001 .*; path \d+, step \d+, strain ")
+        self.assertRegex(result.stdout, r"tangent: FAILS, largest deviation 0.001 .*; path \d+, step \d+, strain .*; "
+                                        r"d s_.. / d \w+ = \S+, but differences give")
         self.assertEqual(result.stdout.count(": holds"), 4, result.stdout)
+
+    def test_a_turned_sign_is_named(self):
+        turned = os.path.join(self.work, "turned")
+        for name, words in (("turned", ["no positive stiffness", "d s_xx / d e_xx = -"]),
+                            ("zz", ["turns the sign of s_zz, from -1 to 1"])):
+            self.expect(2, ["check-law", os.path.join(self.libraries, name + ".so")], *words, "tension is positive")
+        text = content(os.path.join(EXAMPLES, "von_mises.c")).decode()
+        for right, wrong, words in (("*e = step->strain;", "*o = step->strain, e[3] = {-o[0], -o[1], -o[2]};",
+                                     "tangent: FAILS.* = 5.*, but differences give -5.*: a sign is turned"),
+                                    ("plastic_strain[i] = flow", "plastic_strain[i] = -flow",
+                                     "dissipation: FAILS.*; plastic_strain has a turned sign")):
+            self.assertIn(right, text)
+            write(turned + ".c", text.replace(right, wrong))
+            subprocess.run(["cc", "-shared", "-fPIC", "-I" + HEADER, "-o", turned + ".so", turned + ".c", "-lm"],
+                           check=True)
+            result = self.expect(2, ["check-law", turned + ".so"])
+            self.assertRegex(result.stdout, words)
+            os.remove(turned + ".so")
+
+    def test_a_creeping_law_relaxes_over_a_hold(self):
+        """Maxwell: s_xy decays by exp(-2 t); the implicit steps of a hold leave at most 0.27/1024 of its start."""
+        table = write(os.path.join(self.work, "hold.csv"), "progress, exx, eyy, exy\n0, 0, 0, 0\n1e-9, 0, 0, 0.001\n"
+                      "0.5, 0, 0, 0.001\n1.5, 0, 0, 0.001\n")
+        finished("material-point", self.scene("maxwell"), "--path", table, "--output", self.folder)
+        rows = history(self.folder, "material_point.csv")
+        found = rows["sxy"][rows["progress"].searchsorted([1e-9, 0.5, 1.5])]
+        numpy.testing.assert_allclose(found / found[0], numpy.exp([0, -1, -3]), atol=3e-4)
 
     def test_an_answer_that_is_not_finite_is_found(self):
         result = self.with_fault("nan", "check-law", os.path.join(self.libraries, "faulty.so"))
