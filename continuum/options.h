@@ -119,6 +119,7 @@ namespace diptych::continuum
     double         platen_slip_length    = 0;
     PlatenRotation platen_rotation       = PlatenRotation::free;
     InitialStress  initial_stress        = InitialStress::isotropic;
+    double         k0                    = 1;
     MeshOption     mesh                  = {};
     double         rectangle_width       = 0;
     double         rectangle_height      = 0;
@@ -166,6 +167,8 @@ namespace diptych::continuum
     visitor("initial_stress", o.initial_stress, "-",
             "isotropic: the pressure everywhere; mapped: the stress of the prepared grain sample, cell by cell, then brought to "
             "equilibrium");
+    visitor("k0", o.k0, "-", {0.01, 100.},
+            "the law's point alone: lateral over axial stress at the start of its path; the lateral stress is the pressure");
     visitor("mesh", o.mesh, "-",
             "outline: outline of the prepared grain sample; rectangle: rectangle_width x rectangle_height; otherwise the path of "
             "a .msh file with the physical lines lower_platen, upper_platen, left_side, right_side (and free)");

@@ -75,9 +75,10 @@ namespace diptych::continuum
       double advance(const std::size_t row, MaterialPointStatus &status)
       {
         const double length = path.progress_at(row) - path.progress_at(row - 1);
-        double       share = 0, size = 1;
-        now.verdict = PointVerdict::reliable;
-        while (share < 1 && size >= 1. / 1024)
+        double       share = 0, size = relaxes_before(row) ? 1. / 1024 : 1;
+        const double least = size / 1024;
+        now.verdict        = PointVerdict::reliable;
+        while (share < 1 && size >= least)
           {
             const double end = std::min(1., share + size), d_progress = (end - share) * length;
             target                      = target_at(row, end);
@@ -95,7 +96,16 @@ namespace diptych::continuum
             last        = trial.d_strain;
             last_length = d_progress;
           }
+        target = target_at(row, 1); // for the message
         return share;
+      }
+
+      // Time alone leads to the row. A stress that decays by steps of n-ths of a row is wrong there by at most 0.27/n of its
+      // start.
+      bool relaxes_before(const std::size_t row) const
+      {
+        const bool creeps = std::is_same_v<AnyLaw, LibraryLaw> || law.yield_function(now.state) > 1e-9 * path.pressure;
+        return creeps && !path.progress.empty() && path.values[row] == path.values[row - 1];
       }
 
       // Tension positive.
@@ -253,23 +263,51 @@ namespace diptych::continuum
         const MaterialPointRow &end = report.rows.back();
         std::ostringstream      text;
         text.precision(6);
-        if (report.status == MaterialPointStatus::law_failed)
-          text << "the law found no stress after ";
-        if (report.status == MaterialPointStatus::strain_not_found)
-          {
-            text << "no strain was found that gives";
-            for (int k = 0; k < 3; ++k)
-              if (is_stress(path.controls[k]))
-                text << ' ' << name_of(path.controls[k]) << " = " << -target[k] << ',';
-            text << " which may be beyond the strength (to pass a peak, prescribe a strain); reached sxx = " << end.sxx
-                 << ", syy = " << end.syy << ", sxy = " << end.sxy << " at ";
-          }
         if (report.status == MaterialPointStatus::finished)
           text << "finished at ";
+        else
+          text << reason_of(report.status) << "reached sxx = " << end.sxx << ", syy = " << end.syy << ", sxy = " << end.sxy
+               << " at ";
         text << "progress " << end.progress;
         if (report.status == MaterialPointStatus::law_failed)
           text << library_failure;
         return text.str();
+      }
+
+      // Why no state follows the present one. Each sentence ends with its way out.
+      std::string reason_of(const MaterialPointStatus status) const
+      {
+        std::ostringstream text;
+        text.precision(6);
+        const Stress &s              = now.state.stress;
+        const double  strength       = law.shear_strength(now.state);
+        const bool    is_at_strength = law.yield_function(now.state) > -0.01 * strength;
+        if (is_at_strength)
+          text << "the strength is reached at stress ratio " << -2 * shear_radius(s) / (s[xx] + s[yy]) << "; ";
+        if (missing_stress(now.state).norm() > tolerance())
+          {
+            text << (is_at_strength ? "it does not carry" : "no strain was found that gives");
+            for (int k = 0; k < 3; ++k)
+              if (is_stress(path.controls[k]))
+                text << ' ' << name_of(path.controls[k]) << " = " << -target[k] << ',';
+            text << (is_at_strength ? " so prescribe a strain to pass a peak; " : " ");
+          }
+        if (const double fall = softening(); status == MaterialPointStatus::law_failed && fall > law.moduli().shear)
+          text << "per plastic strain the strength falls by " << fall << ", more than elastic unloading (shear modulus "
+               << law.moduli().shear << "), so no state is next to the last one (snap-back): a larger softening_strain or "
+               << "youngs_modulus or a viscosity helps; ";
+        else if (status == MaterialPointStatus::law_failed)
+          text << "the law found no stress; ";
+        return text.str();
+      }
+
+      // Loss of strength per hardening variable.
+      double softening() const
+      {
+        constexpr double d_kappa = 1e-7;
+        MaterialState    later   = now.state;
+        later.equivalent_plastic_strain += d_kappa;
+        return (law.shear_strength(now.state) - law.shear_strength(later)) / d_kappa;
       }
 
       void note_failure(const Trial &trial, const double d_progress)

@@ -79,6 +79,14 @@ namespace diptych::continuum
     throw std::logic_error("form_of: a control without a form");
   }
 
+  PointPath PointPath::from(const double pressure_, const double k0)
+  {
+    PointPath path;
+    path.pressure = path.stress_zz = pressure_;
+    path.stress                    = Eigen::Vector2d(pressure_, pressure_ / k0).asDiagonal();
+    return path;
+  }
+
   void validate(const PathSize &size)
   {
     std::ostringstream wrong;
@@ -95,20 +103,15 @@ namespace diptych::continuum
   PointPath named_path(const NamedPath name, const PathSize &size)
   {
     validate(size);
-    PointPath path;
-    path.pressure  = size.pressure;
-    path.stress    = size.pressure * Eigen::Matrix2d::Identity();
-    path.stress_zz = size.pressure;
-    double second  = size.pressure; // value of the second control
+    PointPath path = PointPath::from(size.pressure, size.k0);
     if (name == NamedPath::constant_volume)
-      {
-        path.controls[1] = Control::volume;
-        second           = 0;
-      }
+      path.controls[1] = Control::volume;
     else if (name == NamedPath::constant_mean_stress)
       path.controls[1] = Control::mean_stress;
     else if (name == NamedPath::simple_shear)
       path.controls = {Control::exy, Control::syy, Control::exx};
+    const Eigen::Vector3d stress(path.stress(0, 0), path.stress(1, 1), 0);
+    const double          second = is_stress(path.controls[1]) ? form_of(path.controls[1]) * stress : 0;
 
     const unsigned int n_steps = std::max(1., std::ceil(size.strain / size.step - 1e-9));
     for (unsigned int k = 0; k <= n_steps; ++k)

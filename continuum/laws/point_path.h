@@ -54,9 +54,12 @@ namespace diptych::continuum
     std::vector<double>          progress; // one per row, ascending, for viscosity; empty: rate independent, 0, 1, 2, ...
 
     double progress_at(std::size_t row) const { return progress.empty() ? double(row) : progress[row]; }
+
+    // Starts with sxx = szz = `pressure_` and syy = `pressure_` / k0.
+    static PointPath from(double pressure_, double k0);
   };
 
-  // Paths from an isotropic stress, without shear strain unless stated.
+  // Paths from a stress without shear, without shear strain unless stated.
   enum class NamedPath
   {
     drained,              // eyy grows, sxx is constant: the biaxial test
@@ -73,9 +76,10 @@ namespace diptych::continuum
 
   struct PathSize
   {
-    double pressure = 1;    // isotropic stress of the start [pressure], positive
+    double pressure = 1;    // lateral stress of the start, also out of the plane [pressure], positive
     double strain   = 0.1;  // final 1 - h/h0, in (0, 1); simple_shear: final 2 exy
     double step     = 1e-3; // increment of this strain; the last step may be shorter
+    double k0       = 1;    // lateral over axial stress of the start, positive
   };
 
   // Throws std::invalid_argument with the member of `size` that is out of range.

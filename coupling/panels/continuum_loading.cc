@@ -313,6 +313,8 @@ namespace diptych::coupling
       (void)load_imported(scene);
     if (scene.loading.mode == LoadingMode::path)
       refuse("loading/mode", "path", "a cell follows it, which `diptych element` compares with a point of the law");
+    if (scene.continuum.k0 != 1)
+      refuse("continuum/k0", text_of(scene.continuum.k0), "only the law's point (material-point, element tests) starts with it");
     if (scene.sample.rough_platens)
       refuse("sample/rough_platens", "true", "the forces on grains that are part of a platen are not mapped");
     const WallDrives                drives  = drives_of(scene.discrete.drives);

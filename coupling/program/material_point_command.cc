@@ -24,7 +24,7 @@ namespace diptych::coupling
     // Refined to the steps of the scene.
     continuum::PointPath path_of_table(const std::string &file, const Scene &scene)
     {
-      const continuum::PointPath path = read_path_table(file, scene.loading.pressure);
+      const continuum::PointPath path = read_path_table(file, scene.loading.pressure, scene.continuum.k0);
       if (path.progress.empty() && scene.continuum.material.viscosity > 0 && continuum::traits(scene.continuum.law).is_plastic)
         throw SceneError(file +
                          ", header line: column 'progress' is missing, which continuum/viscosity needs; give strain or time of "
@@ -46,7 +46,8 @@ namespace diptych::coupling
         return path_of_table(line.path, scene);
       try
         {
-          return continuum::named_path(*name, {scene.loading.pressure, scene.loading.axial_strain, scene.continuum.initial_step});
+          return continuum::named_path(
+            *name, {scene.loading.pressure, scene.loading.axial_strain, scene.continuum.initial_step, scene.continuum.k0});
         }
       catch (const std::invalid_argument &error)
         {

@@ -74,8 +74,8 @@ namespace diptych::python
 
     py::tuple named_path(const coupling::Scene &scene, const std::string &name, const double strain, const double step)
     {
-      return drive(scene,
-                   continuum::named_path(choice_of<continuum::NamedPath>(name, "path"), {scene.loading.pressure, strain, step}));
+      return drive(scene, continuum::named_path(choice_of<continuum::NamedPath>(name, "path"),
+                                                {scene.loading.pressure, strain, step, scene.continuum.k0}));
     }
   } // namespace
 

@@ -13,7 +13,7 @@ namespace diptych::coupling
     return !continuum::value_of<continuum::NamedPath>(text);
   }
 
-  continuum::PointPath read_path_table(const std::string &file, const double pressure)
+  continuum::PointPath read_path_table(const std::string &file, const double pressure, const double k0)
   {
     std::vector<std::string> controls;
     for (const auto &choice : choices(continuum::Control()))
@@ -21,7 +21,7 @@ namespace diptych::coupling
     discrete::CsvHeader header{{}, controls};
     header.optional.push_back("progress");
     const discrete::CsvTable table = discrete::read_csv(file, header);
-    continuum::PointPath     path{pressure, pressure * Eigen::Matrix2d::Identity(), pressure, {}, {}, {}};
+    continuum::PointPath     path  = continuum::PointPath::from(pressure, k0);
     std::vector<std::size_t> places;
     for (std::size_t c = 0; c < table.columns.size(); ++c)
       if (const auto control = continuum::value_of<continuum::Control>(table.columns[c]))

@@ -21,9 +21,9 @@ namespace diptych::coupling
     return option.text;
   }
 
-  // Path of a CSV file from the isotropic `pressure`. Three columns are named like controls; a column `progress` is optional.
-  // Throws SceneError with file, line, column and range.
-  continuum::PointPath read_path_table(const std::string &file, double pressure);
+  // Path of a CSV file from the lateral stress `pressure` and the axial one pressure / k0. Three columns are named like controls;
+  // a column `progress` is optional. Throws SceneError with file, line, column and range.
+  continuum::PointPath read_path_table(const std::string &file, double pressure, double k0 = 1);
 
   // Path of the cell of grains that `option` names. The size holds the pressure; a name also takes its strain and step.
   discrete::CellPath cell_path(const PathOption &option, const continuum::PathSize &size);

@@ -36,12 +36,23 @@ class MaterialPoint(Folder):
         table = write(os.path.join(self.work, "path.csv"), "# an unloading\nprogress, syy, sxx, exy\n"
                       "0, 1, 1, 0\n1, 3, 1, 0\n2, 1.5, 1, 0\n3, 4, 1, 0\n")
         self.expect(3, ["material-point", QUICK, *words, "--path", table, "--output", self.folder],
+                    "the strength is reached at stress ratio 0.5398", "prescribe a strain",
                     "reached sxx = 1, syy = 3.346")
         rows = history(self.folder, "material_point.csv")
         self.assertAlmostEqual(rows["syy"][-1], 3 + 0.2 * math.sqrt(3), places=4)
         unloading = rows["progress"].searchsorted([1, 2])
         (syy, again), (eyy, end) = rows["syy"][unloading], rows["eyy"][unloading]
         self.assertAlmostEqual((syy - again) / (eyy - end), 500 / 0.96, places=4)
+
+    def test_the_point_starts_at_k0(self):
+        """syy = P / K0 = 2, so t/s = 1/3; a table starts there too."""
+        table = write(os.path.join(self.work, "path.csv"), "eyy, syy, exy\n0, 2, 0\n0.001, 2, 0\n")
+        for path, row in (("drained", 0), (table, -1)):
+            finished("material-point", QUICK, *PLASTIC, "--set", "continuum/k0=0.5", "--path", path, "--output",
+                     self.folder, "--overwrite")
+            self.assertAlmostEqual(history(self.folder, "material_point.csv")["syy"][row], 2, places=9)
+        self.expect(2, ["continuum", QUICK, "--set", "continuum/k0=0.5", "--output", self.folder, "--overwrite"],
+                    "continuum/k0 = 0.5", "law's point")
 
     def test_a_wrong_table_is_refused_with_file_line_and_column(self):
         for text, place, words in (

@@ -46,8 +46,8 @@ def integrate(law: Any, path: Any, stress: Any = None, pressure: float = 1.0, ti
     path      three columns by name, numbers or (n), such as {"eyy": numpy.linspace(0, 0.04, 81), "sxx": 1, "exy": 0}.
               Strains: exx, eyy, exy, volume (exx + eyy); stresses [pressure]: sxx, syy, sxy, mean_stress ((sxx +
               syy)/2). Also strains alone: (n, 2, 2), or (n, 3) with xx, yy, xy. The first row is the start; every row
-              is one step. Strains are total; exy is the tensor's component. The law takes the increments as given: use
-              logarithmic strain for finite deformation.
+              is one step, or a hold of 1024 steps if only the time changes. Strains are total; exy is the tensor's
+              component. The law takes the increments as given: use logarithmic strain for finite deformation.
     stress    (2, 2) at the start; default: the isotropic `pressure`, also out of the plane
     pressure  unit of the law's moduli and cohesion [pressure]
     time      (n) ascending, or a column "progress" of the path; only for laws with viscosity; default: rate independent
@@ -77,8 +77,9 @@ def integrate(law: Any, path: Any, stress: Any = None, pressure: float = 1.0, ti
 
 def biaxial(law: Any, axial_strain: float = 0.1, pressure: float = 1.0, step: float = 1e-3,
             path: str = "drained") -> History:
-    """Drives a law along a named path from an isotropic stress, in plane strain. The axial strain grows in equal steps
-    to `axial_strain`. Newton's iteration finds the other strains to 1e-10 of the pressure.
+    """Drives a law along a named path from an isotropic stress (the law's key k0: another one), in plane strain. The
+    axial strain grows in equal steps to `axial_strain`. Newton's iteration finds the other strains to 1e-10 of the
+    pressure.
 
     law   as in integrate()
     path  "drained": the lateral stress stays at `pressure` (the biaxial test); "constant_volume" (undrained);

@@ -186,6 +186,67 @@ namespace
         EXPECT_EQ(report.status, MaterialPointStatus::strain_not_found);
         EXPECT_NEAR(report.rows.back().syy, 3.346410, 2e-5) << name_of(law);
         EXPECT_NE(report.message.find("syy = 3.34641"), std::string::npos) << report.message;
+        for (const char *text : {"the strength is reached at stress ratio 0.5398", "not carry syy = 3.35, sxx = 1, so prescribe"})
+          EXPECT_NE(report.message.find(text), std::string::npos) << report.message;
+      }
+  }
+
+  // phi falls from 35 to 20 degrees over 1e-4, so at the peak the strength falls by cos 35 (15 degrees)/1e-4 = 2145 times s =
+  // (1 + 3.690)/2 per plastic strain, 5030, and elastic unloading by G = 100/2.4 = 41.67 only.
+  TEST(MixedControl, SnapBackStopsWithItsReason)
+  {
+    LawOptions options;
+    options.elastic.youngs_modulus  = 100;
+    options.friction_angle_peak     = 35;
+    options.friction_angle_residual = 20;
+    options.dilatancy_angle_peak = options.cohesion = 0;
+    options.softening_strain                        = 1e-4;
+    const auto report = drive_material_point(LawKind::mohr_coulomb, options, {}, named_path(NamedPath::drained, {1, 0.03, 1e-3}));
+    EXPECT_EQ(report.status, MaterialPointStatus::law_failed);
+    for (const char *text :
+         {"stress ratio 0.5735", "strength falls by 502", "shear modulus 41.6667", "snap-back", "softening_strain"})
+      EXPECT_NE(report.message.find(text), std::string::npos) << report.message;
+    EXPECT_EQ(report.message.find("prescribe"), std::string::npos) << report.message;
+  }
+
+  // Perzyna's law during a hold. At constant volume and psi = 0 the mean stress stays 1 and the strength 1/2. t falls by G d
+  // kappa, and the overstress is viscosity x d kappa/d time: it decays as exp(-time G/viscosity). Each row is right to 0.27/1024
+  // of the overstress at its start.
+  TEST(MixedControl, AnOverstressRelaxesOverTheDurationOfAHold)
+  {
+    LawOptions options       = constant(30, 0, 0);
+    options.viscosity        = 0.5;
+    const double decay       = options.elastic.youngs_modulus / 2.4 / options.viscosity;
+    PointPath    path        = path_of({Control::eyy, Control::volume, Control::exy}, {{0, 0, 0}, {0.02, 0, 0}});
+    path.progress            = {0, 0.02};
+    const double durations[] = {0.1 / decay, 1 / decay, 1 / decay, 30 / decay};
+    for (const double duration : durations)
+      {
+        path.values.push_back(path.values.back());
+        path.progress.push_back(path.progress.back() + duration);
+      }
+    for (const LawKind law : {LawKind::mohr_coulomb, LawKind::cosserat_mohr_coulomb})
+      {
+        const auto rows = rows_of(law, options, path);
+        ASSERT_EQ(rows.size(), path.values.size());
+        for (std::size_t row = 2; row < rows.size(); ++row)
+          {
+            const double before = rows[row - 1].stress_ratio - 0.5;
+            EXPECT_GT(before, row < 5 ? 0.01 : 0);
+            EXPECT_NEAR(rows[row].stress_ratio - 0.5, before * std::exp(-decay * durations[row - 2]), 3e-4 * before);
+          }
+      }
+  }
+
+  // K0 = 0.5: t/s = (2 - 1)/(2 + 1) at the start.
+  TEST(MixedControl, NamedPathsStartAtTheGivenK0)
+  {
+    for (const auto &[name, title] : choices(NamedPath()))
+      {
+        const auto rows = rows_of(LawKind::linear_elastic, {}, named_path(name, {1, 1e-3, 1e-3, 0.5}));
+        EXPECT_NEAR(rows[0].stress_ratio, 1. / 3, 1e-15) << title;
+        const double kept[] = {rows[1].sxx - 1, rows[1].volumetric_strain, rows[1].sxx + rows[1].syy - 3, rows[1].syy - 2};
+        EXPECT_NEAR(kept[int(name)], 0, 1e-9) << title;
       }
   }
 

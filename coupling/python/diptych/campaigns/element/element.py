@@ -102,6 +102,9 @@ def run_element(line: argparse.Namespace, options: Options) -> None:
     if scene.dict()["discrete"]["lateral"] != "cell":
         raise SceneError(f"{line.target}: discrete/lateral = {scene.dict()['discrete']['lateral']}; an element test "
                          "needs discrete/lateral = cell and loading/mode = path")
+    if scene.dict()["continuum"]["k0"] != 1:
+        raise SceneError(f"{line.target}: continuum/k0 = {scene.dict()['continuum']['k0']}: the grains start at the "
+                         "isotropic pressure; `diptych material-point` runs the law alone")
     seeds = read_seeds(line.seeds) if line.seeds else [scene.dict()["sample"]["seed"]]
     grains = [_run(line.target, "discrete", on_sample(settings, seed, line.target)) for seed in seeds]
     _run(line.target, "material-point", settings)  # a wrong law is refused before the grains run
