@@ -157,6 +157,25 @@ class Results(Calibrate):
         self.assertIn(b"<h2>Measured curve and grains</h2>", content(self.path("report.html")))
 
 
+class Curves(Calibrate):
+    def asked(self, rows, **target):
+        """An element test whose law is fitted to a curve of t/s."""
+        write(os.path.join(self.work, "curve.csv"), "progress,stress_ratio,stress_ratio_deviation\n" + rows)
+        scene = write(os.path.join(self.work, "cell.prm"), content(QUICK).decode())
+        keys = {"loading/mode": "path", "loading/axial_strain": 0.02, "discrete/lateral": "cell",
+                "continuum/law": "mohr_coulomb", "continuum/hardening": "exponential"}
+        lab = {"name": "lab", "scene": scene, "set": keys, "curve": "curve.csv", **target}
+        return calibration(targets=[lab], quantities=["stress_ratio"])
+
+    def test_a_curve_that_starts_elsewhere_than_its_model_is_refused(self):
+        rows = "0,0.3333,0.01\n0.01,0.45,0.01\n0.02,0.45,0.01\n"
+        self.calibrate(self.asked(rows), code=2, told=["curve.csv", "stress_ratio = 0.3333", '"k0": 0.5'])
+        self.calibrate(self.asked("0,0,0.01\n0.02,0.45,0.01\n", k0=0.5), code=2, told=["starts at 0.333", '"k0": 1'])
+        asked = self.asked(rows, k0=0.5)  # starts; no run of the law follows
+        asked["set"] = {"continuum/softening_strain": 1e-6, "continuum/friction_angle_residual": 1}
+        self.calibrate(asked, code=3, told=["the continuum did not finish at any start", "most often", "snap-back"])
+
+
 class Interruption(Calibrate):
     def finished_runs(self):
         """Names of the runs that came to their end."""

@@ -3,7 +3,9 @@
 """A material point stands instead of the boundary problem, so the program does not run."""
 
 import math
+import re
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,7 +16,7 @@ from diptych.campaigns.calibration import noise
 from diptych.campaigns.calibration.calibration import calibrate, empty_record
 from diptych.campaigns.runs.coordinates import Coordinates, Parameter
 from diptych.campaigns.calibration.calibration_file import Calibration, Target, read_curve
-from diptych.campaigns.calibration.findings import predictions
+from diptych.campaigns.calibration.findings import predictions, summary
 from diptych.campaigns.calibration.grains import mean_of
 from diptych.campaigns.calibration.noise import Data, Noise, Observable
 from diptych.campaigns.calibration.profiles import PROFILE, STRIPS
@@ -23,6 +25,7 @@ from diptych.campaigns.calibration.search import least_squares
 from diptych.campaigns.calibration.trials import Trials
 from diptych.campaigns.runs.histories import mean_over
 from diptych.campaigns.runs.input_file import Setting
+from diptych.report.calibration import misfits
 
 BINS = [0, 0.001, 0.002, 0.004, 0.006, 0.008, 0.01, 0.0125, 0.015, 0.02, 0.025, 0.03]
 
@@ -292,6 +295,26 @@ def test_a_law_is_fitted_to_a_measured_curve():
     record = calibrated(c, [path_of(c.targets[0], Data(observables=observables, values=truth, given=given))])
     assert [p["number"] for p in record["parameters"]] == pytest.approx(TRUTHS, rel=1e-3)
     assert all(p["number_low"] < truth < p["number_high"] for p, truth in zip(record["parameters"], TRUTHS))
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_calibration_whose_own_meshes_fail_rests_on_the_coarse_one():
+    """Neither the scene's parameters nor the calibrated ones have numbers there."""
+    def run(settings, path, is_fine):
+        values = response(settings, path.data.observables)
+        return Observation(values=np.nan * values, failure="no answer") if is_fine else Observation(values=values)
+
+    c = calibration([parameter("friction_angle_peak", "logarithm", 25, 14, 40)])
+    c.targets[0].curve, c.targets[0].seeds = "lab.csv", []
+    truth, observables = truth_of(c, "", [23]), c.observables_of(SCENE)
+    data = Data(observables=observables, values=truth, given=np.full(len(truth), 1e-3))
+    record = calibrated(c, [path_of(c.targets[0], data)], run)
+    assert record["parameters"][0]["value"] == pytest.approx(23, rel=1e-3)
+    told = summary(record, 1.0)
+    assert re.match(r"c: chi\^2 of \d+ observables \(not finished\) -> [\d.]+(e-\d+)?; ", told), told
+    assert "with the calibrated parameters 'only' did not finish: no answer" in told
+    rows = misfits(SimpleNamespace(paths=record["paths"]))["rows"]
+    assert rows and not any("nan" in cell for row in rows for cell in row)
 
 
 def test_friction_of_noisy_grains_is_found_within_its_interval():

@@ -66,6 +66,12 @@ def ends_text(low: float | None, high: float | None, form: Callable[[float], str
     return f" [{form(low)}{between}{form(high)}]"
 
 
+def rms(values: Array) -> float:
+    """Root mean square of the numbers that are known; NaN if none is."""
+    known = values[np.isfinite(values)]
+    return float(np.sqrt(np.mean(known ** 2))) if known.size else math.nan
+
+
 def plain(value: Any) -> Any:
     """The value as JSON has it: NaN is null, an interval an object."""
     if isinstance(value, Interval):

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from scipy.integrate import trapezoid
 
 from .._diptych import key_quantities
-from ..arrays import ends_text
+from ..arrays import ends_text, rms
 from ..errors import InputError
 from ..files import read_json
 from .charts.style import CONTINUUM, FAINT, GRAINS, INK, ruled, signed, svg
@@ -30,8 +30,7 @@ COORDINATES = {"value": "", "logarithm": "", "share_of": "share of ", "drop_from
 def draw(folder):
     calibration, paths = load(folder), []
     for path in calibration.paths:
-        shown = [curve(path, kind, calibration.model) for kind in CURVES
-                 if any(o["kind"] == kind for o in path["observables"])]
+        shown = [curve(path, kind, calibration.model) for kind in CURVES if _known(path, kind, "mean")]
         paths.append((path, shown + [residuals(path)] + ([discrepancy(path)] if path["use"] == "fit" else [])))
     write(folder, "calibration.html", record=calibration.record, data=calibration.data, paths=paths,
           parameters=parameters(calibration), predictions=predictions(calibration), misfits=misfits(calibration),
@@ -247,7 +246,7 @@ def misfits(calibration):
 
 
 def _rms(values):
-    return text(np.sqrt(np.nanmean(values ** 2)), 2)
+    return text(rms(values), 2)
 
 
 def minima(calibration):

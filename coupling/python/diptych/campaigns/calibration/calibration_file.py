@@ -168,7 +168,7 @@ def _results(part: Part) -> tuple[list[str], list[int]]:
 
 
 def _target(part: Part) -> Target:
-    part.allow("name", "scene", "set", "seeds", "results", "curve", "use", "before", "quantities")
+    part.allow("name", "scene", "set", "seeds", "results", "curve", "k0", "use", "before", "quantities")
     part.at("name")
     target = Target(name=part.word("name"), scene="", settings=part.settings("set"),
                     is_fitted=part.choice("use", ("fit", "predict"), "fit") == "fit",
@@ -187,6 +187,8 @@ def _target(part: Part) -> Target:
         if part.has("results"):
             part.refuse(" replaces grains; leave out results", "curve")
         target.curve = part.existing_file("curve")
+    if part.has("k0"):
+        target.settings.append(part.setting("k0", "continuum/k0", part.number("k0", 0.01, 100)))
     if part.has("before"):
         fragment = part.existing_file("before")
         section = "discrete" if target.curve and target.seeds else "continuum"

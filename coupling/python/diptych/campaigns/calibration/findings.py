@@ -219,9 +219,14 @@ def predict(trials: Trials, best: Array, jacobian: Array, draws: Draws) -> None:
         trials.record["paths"].append(path_record(path, trials.noise, runs, deviations))
         for one in trials.record["paths"][-1]["observables"] if path.target.is_fitted else ():
             one["counts"], (one["discrepancy"], one["discrepancy_deviation"]) = bool(next(used)), next(curve)
-    for key, runs in (("chi2_before", before), ("chi2", after)):
+    for key, runs, words in (("chi2_before", before, "with the parameters before the calibration"),
+                             ("chi2", after, "with the calibrated parameters")):
         values = [one.values for path, one in zip(trials.paths, runs) if path.target.is_fitted]
-        trials.record[key] = trials.chi2(trials.data.residual(np.concatenate(values)))
+        chi2 = trials.chi2(trials.data.residual(np.concatenate(values)))
+        if np.isfinite(chi2):  # else that of the search stays
+            trials.record[key] = chi2
+        trials.record["words"] += [f"{words} '{path.target.name}' did not finish: {one.failure}"
+                                   for path, one in zip(trials.paths, runs) if one.failure]
 
 
 def _jacobian_on(trials: Trials, path: Path, best: Array, jacobian: Array) -> Array:
@@ -244,12 +249,16 @@ def _jacobian_on(trials: Trials, path: Path, best: Array, jacobian: Array) -> Ar
     return result
 
 
+def _chi2(value: float) -> str:
+    return f"{value:.4g}" if np.isfinite(value) else "(not finished)"
+
+
 def summary(record: dict[str, Any], cpu_s: float) -> str:
     """The result for the terminal."""
     runs = (f"{record['coarse_runs']} coarse and {record['fine_runs']} fine runs, " if record["model"] == "continuum"
             else f"{record['coarse_runs']} runs of all seeds, ")
-    lines = [f"{record['title']}: chi^2 of {record['n_observables']} observables {record['chi2_before']:.4g} -> "
-             f"{record['chi2']:.4g}; {runs}{record['other_runs']} of predictions, {cpu_s:.4g} CPU s"]
+    lines = [f"{record['title']}: chi^2 of {record['n_observables']} observables {_chi2(record['chi2_before'])} -> "
+             f"{_chi2(record['chi2'])}; {runs}{record['other_runs']} of predictions, {cpu_s:.4g} CPU s"]
     for p in record["parameters"]:
         share = f" {p['coordinate']} {p['of']} {p['number']:.3g}" if p["of"] else ""
         lines.append(f"  {p['key']} = {p['value']:.4g}{share}{ends_text(p['number_low'], p['number_high'])}"
@@ -277,8 +286,8 @@ def _fragment(record: dict[str, Any]) -> str:
     origin, section = _origin(record), "continuum" if record["model"] == "continuum" else "discrete"
     lines = [f"# {origin}, by diptych {_diptych.git_revision}"]
     if record["status"] == "finished":
-        lines += [f"# chi^2 of {record['n_observables']} observables: {record['chi2_before']:.4g} before, "
-                  f"{record['chi2']:.4g} now; calibration.json holds intervals"]
+        lines += [f"# chi^2 of {record['n_observables']} observables: {_chi2(record['chi2_before'])} before, "
+                  f"{_chi2(record['chi2'])} now; calibration.json holds intervals"]
     lines += [f"subsection {section}", *("  set " + one.removeprefix(section + "/") for one in record["settings"])]
     lines += [f"  # {own['target']}: set {own['key'].removeprefix(section + '/')} = "
               f"{_diptych.text_of_number(own['value'])}"

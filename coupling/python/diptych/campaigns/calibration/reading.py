@@ -13,12 +13,28 @@ from ...compiled import continuum, demand_continuum
 from ...errors import SceneError
 from ..runs.coordinates import Coordinates
 from ..runs.input_file import settings_of
-from .calibration_file import OF_BANDS, Calibration, Target, is_element
+from .calibration_file import OF_BANDS, Calibration, Target, is_element, read_curve
 from .calibration_runs import CalibrationRuns
 from .noise import Data, noise_of
 from .observations import Path, observe_curve, read_target
 from .profiles import PROFILE
 from .standard import standard_calibration
+
+FAR_FROM_START = 0.05  # t/s; a measured curve begins less exactly than its model
+
+
+def _check_start(target: Target, scene: _diptych.Scene) -> None:
+    """A curve that begins at another stress than the model would be fitted by wrong parameters."""
+    table, k0 = read_curve(target.curve), scene.dict()["continuum"]["k0"]
+    if "stress_ratio" not in table or table["progress"][0] != 0:  # a first row of grains is a step, not a state
+        return
+    found, start = table["stress_ratio"][0], abs((1 - k0) / (1 + k0))
+    if abs(abs(found) - start) > FAR_FROM_START:
+        way = "only an element test of the law (loading/mode = path) can start there"
+        if is_element(scene) and not target.seeds:
+            way = f'give the target "k0": {(1 - found) / (1 + found):.3g}, lateral over axial stress at the start'
+        raise SceneError(f"{target.curve}: stress_ratio = {found:g} in the first row, but the model starts at "
+                         f"{start:.3g} (k0 = {k0:g}); {way}")
 
 
 def _check_target(calibration: Calibration, coordinates: Coordinates, target: Target) -> Data:
@@ -51,7 +67,10 @@ def _check_target(calibration: Calibration, coordinates: Coordinates, target: Ta
         if p.is_of(target.name) and p.key in (unused := scene.unused_keys()):
             raise SceneError(f"{calibration.file}: parameters: {p.key} is read by no law of target '{target.name}': "
                              f"continuum/{unused[p.key]}")
+    if scene.dict()["continuum"]["k0"] != 1 and (target.seeds or target.results):
+        raise SceneError(f"{place}k0: grains start at the isotropic pressure; only the law's point starts elsewhere")
     if target.curve:
+        _check_start(target, scene)
         sample, deviations = observe_curve(scene, observables, target.curve)
         if not target.seeds:
             return Data(observables=observables, values=sample.values, given=deviations)

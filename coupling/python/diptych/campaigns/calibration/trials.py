@@ -122,8 +122,8 @@ def _fit_coarse(trials: Trials) -> Fit:
                                  "words": fit.note, **_minimum(trials, fit)})
     found = int(np.argmin([fit.chi2 for fit in fits]))
     if not np.isfinite(fits[found].chi2):
-        raise NotConverged("; ".join(["the continuum did not finish at any start; change start, low and high",
-                                 *trials.failure_words()]))
+        raise NotConverged("; ".join([f"the {record['model']} did not finish at any start; change start, low and high",
+                                      *trials.failure_words()]))
     best = fits[found]
     if found > 0:  # so far with few Jacobians
         best = least_squares(residuals, best.point, c.jacobians, difference=trials.difference)

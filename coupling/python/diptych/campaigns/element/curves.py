@@ -12,6 +12,7 @@ import numpy as np
 import pandas as pd
 from scipy.integrate import cumulative_trapezoid
 
+from ...arrays import rms
 from ..runs.statistics import Statistics, line_statistics, paired, statistics
 
 BINS = 200
@@ -111,10 +112,6 @@ def key_numbers(curves: Curves) -> list[dict[str, Any]]:
     return rows
 
 
-def _rms(grains: np.ndarray, law: np.ndarray) -> float:
-    return float(np.sqrt(np.nanmean((law - grains.mean(axis=0)) ** 2)))
-
-
 def rms_differences(curves: Curves) -> list[dict[str, Any]]:
     """Root mean square over the path of law minus mean of the grains. error: its standard error (jackknife over the
     samples); noise: root mean square of the standard errors of the grains."""
@@ -123,9 +120,9 @@ def rms_differences(curves: Curves) -> list[dict[str, Any]]:
         if name in curves.law:
             grains, law = curves.grains[name], curves.law[name]
             n = len(grains)
-            parts = [_rms(np.delete(grains, k, axis=0), law) for k in range(n)] if n > 1 else [np.nan]
-            noise = np.sqrt(np.nanmean(_mean_and_error(grains, name)[1] ** 2)) if n > 1 else np.nan
-            rows.append({"quantity": name, "unit": QUANTITIES[name], "value": _rms(grains, law),
+            parts = [rms(law - np.delete(grains, k, axis=0).mean(axis=0)) for k in range(n)] if n > 1 else [np.nan]
+            noise = rms(_mean_and_error(grains, name)[1]) if n > 1 else np.nan
+            rows.append({"quantity": name, "unit": QUANTITIES[name], "value": rms(law - grains.mean(axis=0)),
                          "error": np.sqrt((n - 1) / n * np.sum((parts - np.mean(parts)) ** 2)) if n > 1 else np.nan,
                          "noise": noise})
     return rows
