@@ -53,7 +53,10 @@ namespace diptych::discrete
 
   template <class AnySnapshot, class Visit> void visit_contact_lists(AnySnapshot &s, Visit &&visit)
   {
-    visit("contacts", s.contacts, "", "candidate contacts of the last step; open ones carry no force");
+    visit(
+      "contacts", s.contacts, "",
+      "candidate contacts of the last step; open ones carry no force. A step computes forces at its middle: they balance about "
+      "points and normals there, while those stored belong to the end of the step, like the grains");
     visit("window", s.window_forces, "",
           "mean force (sum of impulses / time) of every pair that touched since the previous stage");
   }

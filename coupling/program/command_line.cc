@@ -147,10 +147,11 @@ namespace diptych::coupling
         solve->add_option("PROBLEM", line.target, "problem file, .h5 or .hdf5")->required();
         solve->add_option("--output", line.output, "file for the problem with its solution")->check(is_filled)->type_name("FILE");
         add_choice<discrete::ContactSolver>(solve, "--solver", "psor (default): over-relaxed; nsgs: plain Gauss-Seidel",
-                                            [this](const auto chosen) { line.solve.solver = chosen; });
-        solve->add_option("--tolerance", line.solve.tolerance, "largest residual: natural map relative to |r| (default: 1e-8)")
+                                            [this](const auto chosen) { line.solve.options.solver = chosen; });
+        solve->add_option("--tolerance", line.solve.options.tolerance,
+                          "largest residual: natural map relative to |r|, and its velocities relative to |q| (default: 1e-8)")
           ->check(in_range(1e-300, 0.999999));
-        solve->add_option("--max-sweeps", line.solve.max_sweeps, "largest number of sweeps (default: 1000000)")
+        solve->add_option("--max-sweeps", line.solve.options.max_sweeps, "largest number of sweeps (default: 1000000)")
           ->check(in_range(1, 2147483647));
         add_choice<discrete::ProblemForm>(solve, "--form", "default: body if the file has one",
                                           [this](const auto chosen) { line.solve.form = chosen; });

@@ -31,9 +31,7 @@ namespace diptych::coupling
 
   struct SolveOptions
   {
-    discrete::ContactSolver              solver     = discrete::ContactSolver::psor;
-    double                               tolerance  = 1e-8;
-    int                                  max_sweeps = 1000000;
+    discrete::SolverOptions              options = discrete::stored_solver_options();
     std::optional<discrete::ProblemForm> form; // none: the better form in the file
   };
 

@@ -18,15 +18,6 @@ namespace diptych::coupling
 {
   namespace
   {
-    discrete::SolverOptions options_of(const CommandLine &line)
-    {
-      discrete::SolverOptions options;
-      options.solver     = line.solve.solver;
-      options.tolerance  = line.solve.tolerance;
-      options.max_sweeps = line.solve.max_sweeps;
-      return options;
-    }
-
     // The form asked for, by default the better one that the file has.
     discrete::ProblemForm form_of(const CommandLine &line, const discrete::StoredProblem &problem)
     {
@@ -74,17 +65,17 @@ namespace diptych::coupling
                       const std::vector<discrete::Impulse> &r)
     {
       const double sweeps = double(std::max(1l, report.sweeps)), updates = sweeps * double(std::max<std::size_t>(1, r.size()));
-      std::cout << "solver: " << discrete::name_of(line.solve.solver) << "\ntolerance: " << line.solve.tolerance
+      std::cout << "solver: " << discrete::name_of(line.solve.options.solver) << "\ntolerance: " << line.solve.options.tolerance
                 << "\nsweeps: " << report.sweeps << "\nresidual: " << report.residual
-                << "\nsiconos_residual: " << problem.siconos_residual(r) << "\ncpu_s: " << report.cpu_s
-                << "\nus_per_sweep: " << 1e6 * report.cpu_s / sweeps << "\nns_per_update: " << 1e9 * report.cpu_s / updates
-                << "\nstatus: " << status_of(report) << std::endl;
+                << "\nvelocity_error: " << report.velocity_error << "\nsiconos_residual: " << problem.siconos_residual(r)
+                << "\ncpu_s: " << report.cpu_s << "\nus_per_sweep: " << 1e6 * report.cpu_s / sweeps
+                << "\nns_per_update: " << 1e9 * report.cpu_s / updates << "\nstatus: " << status_of(report) << std::endl;
     }
   } // namespace
 
   int solve_stored_problem(const CommandLine &line)
   {
-    discrete::SolverOptions options = options_of(line);
+    discrete::SolverOptions options = line.solve.options;
     options.stop_requested          = stop_requested;
     std::error_code error;
     if (!line.output.empty() && std::filesystem::equivalent(line.target, line.output, error))
@@ -99,13 +90,14 @@ namespace diptych::coupling
 
     std::vector<discrete::Impulse> r(problem.local.n_contacts());
     discrete::ThreadTeam           team(line.threads);
-    const discrete::SolveReport report = form == discrete::ProblemForm::body ? discrete::solve(*problem.bodies, options, r, team)
-                                                                             : discrete::solve(problem.local, options, r);
+    const discrete::SolveReport    report = problem.solve(form, options, r, team);
     print_problem(line, problem, form);
     print_result(line, report, problem, r);
+    if (const std::string obstacle = discrete::obstacle_to(report); !obstacle.empty())
+      std::cerr << line.target << ": " << obstacle << "\n";
     if (!line.output.empty())
       discrete::write_solution(line.target, line.output,
-                               {r, problem.velocities(r), discrete::name_of(line.solve.solver) + ", " + name_of(form) + " form",
+                               {r, problem.velocities(r), discrete::name_of(options.solver) + ", " + name_of(form) + " form",
                                 status_of(report), report.residual});
     return report.status == discrete::SolveStatus::converged ? done : not_converged;
   }

@@ -17,9 +17,9 @@ namespace diptych::python
 
     discrete::SolverOptions solver_options(const py::dict &given)
     {
-      discrete::SolverOptions options;
-      py::dict                keys = given.attr("copy")();
-      options.tolerance            = keys.attr("pop")("tolerance").cast<double>();
+      discrete::SolverOptions options = discrete::stored_solver_options();
+      py::dict                keys    = given.attr("copy")();
+      options.tolerance               = keys.attr("pop")("tolerance").cast<double>();
       if (!(options.tolerance > 0))
         throw std::invalid_argument("tolerance must be positive");
       set_options("discrete", keys, options);
@@ -55,6 +55,7 @@ namespace diptych::python
       dict["status"]           = discrete::name_of(report.status);
       dict["sweeps"]           = report.sweeps;
       dict["residual"]         = report.residual;
+      dict["velocity_error"]   = report.velocity_error;
       dict["siconos_residual"] = problem.siconos_residual(r);
       dict["cpu_s"]            = report.cpu_s;
       dict["r"]                = columns_of(r);
@@ -85,8 +86,8 @@ namespace diptych::python
       discrete::SolveReport report;
       {
         const py::gil_scoped_release release;
-        report = wanted == discrete::ProblemForm::body ? discrete::solve(*problem.bodies, options, r)
-                                                       : discrete::solve(problem.local, options, r);
+        discrete::ThreadTeam         team(1);
+        report = problem.solve(*wanted, options, r, team);
       }
       return solution(report, problem, r);
     }
@@ -129,7 +130,8 @@ namespace diptych::python
       discrete::SolveReport report;
       {
         const py::gil_scoped_release release;
-        report = discrete::solve(problem.local, options, r);
+        discrete::ThreadTeam         team(1);
+        report = problem.solve(discrete::ProblemForm::local, options, r, team);
       }
       return solution(report, problem, r);
     }

@@ -169,14 +169,18 @@ namespace diptych::discrete
     return c.normal_compliance == 0 ? w : w + (c.rolling_term + c.tangential_compliance * r.rolling);
   }
 
+  inline LawTerms<double> terms_of(const ContactRow &c)
+  {
+    return {c.normal_term, c.tangential_term, c.friction, c.inverse_wnn, c.inverse_wtt};
+  }
+
   // Normal and tangential part of the next impulse, and below it the couple.
   inline Parts<double> signorini_coulomb(const ContactRow                &c,
                                          const std::vector<BodyVelocity> &v,
                                          const Impulse                   &r,
                                          const Relaxation                 omega)
   {
-    const LawTerms<double> terms{c.normal_term, c.tangential_term, c.friction, c.inverse_wnn, c.inverse_wtt};
-    return signorini_coulomb(terms, velocity_with_give(c, v, r), {r.normal, r.tangential},
+    return signorini_coulomb(terms_of(c), velocity_with_give(c, v, r), {r.normal, r.tangential},
                              relaxation(c.friction, r.normal, r.tangential, omega));
   }
 
@@ -247,6 +251,31 @@ namespace diptych::discrete
       return 0;
     return norm_square > 0 ? std::sqrt(difference_square / norm_square) : std::numeric_limits<double>::infinity();
   }
+
+  // Sums of squares of the velocities by which contacts violate their laws, of the velocities q that acting contacts have without
+  // impulses, and of the velocities that their own impulses cause.
+  struct VelocitySquares
+  {
+    double violated = 0, free = 0, caused = 0;
+
+    // r: impulse; p: its solution of the contact by itself; q: free velocity with the terms of the law.
+    void add(const LawTerms<double> &c, const Parts<double> &r, const Parts<double> &p, const RelativeVelocity &q)
+    {
+      const auto squares = [](const double a, const double b) { return a * a + b * b; };
+      if (!(r.normal > 0 || p.normal > 0))
+        return;
+      violated += squares((r.normal - p.normal) / c.inverse_wnn, (r.tangential - p.tangential) / c.inverse_wtt);
+      free += squares(q.normal, q.tangential);
+      caused += squares(r.normal / c.inverse_wnn, r.tangential / c.inverse_wtt);
+    }
+
+    // The second part is round-off: grains at rest may press on each other without any free velocity.
+    double relative() const
+    {
+      constexpr double round_off = 1e-14;
+      return violated <= round_off * round_off * caused ? 0 : relative_norm(violated, free);
+    }
+  };
 
   // Sums of |r - P(r)|^2 and |r|^2, where P solves each contact for itself.
   struct NaturalMapSquares

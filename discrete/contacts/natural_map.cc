@@ -62,4 +62,17 @@ namespace diptych::discrete
       squares.add(problem.contacts[k], v, impulses[k]);
     return relative_norm(squares.difference, squares.norm);
   }
+
+  double velocity_error(const ContactProblem &problem, const std::vector<BodyVelocity> &v, const std::vector<Impulse> &impulses)
+  {
+    VelocitySquares squares;
+    for (std::size_t k = 0; k < problem.contacts.size(); ++k)
+      {
+        const ContactRow      &c    = problem.contacts[k];
+        const RelativeVelocity free = relative_velocity(c, problem.free_velocity);
+        squares.add(terms_of(c), {impulses[k].normal, impulses[k].tangential}, signorini_coulomb(c, v, impulses[k], exact),
+                    {free.normal + c.normal_term, free.tangential + c.tangential_term});
+      }
+    return squares.relative();
+  }
 } // namespace diptych::discrete

@@ -30,4 +30,10 @@ namespace diptych::discrete
   double natural_map_residual(const ContactProblem            &problem,
                               const std::vector<BodyVelocity> &v,
                               const std::vector<Impulse>      &impulses);
+
+  // Velocity by which the contacts violate their laws (the change of the natural map times W_nn and W_tt), relative to the free
+  // velocities of the contacts that act. It stays near 1 where impulses grow without stopping the bodies: a heavy body on a light
+  // one, or a body that is squeezed between prescribed motions. The natural map relative to |r| falls there. Couples do not
+  // count.
+  double velocity_error(const ContactProblem &problem, const std::vector<BodyVelocity> &v, const std::vector<Impulse> &impulses);
 } // namespace diptych::discrete

@@ -88,6 +88,7 @@ namespace diptych::discrete
 
   std::string failure_text(const FailedStep &failed, const Options &options)
   {
+    const std::string  obstacle = obstacle_to(failed.solve);
     std::ostringstream text;
     text << "step " << failed.step << " at " << failed.where;
     if (options.method.method == Method::penalty)
@@ -95,8 +96,8 @@ namespace diptych::discrete
            << options.penalty.step_fraction;
     else
       text << " did not converge: residual " << failed.solve.residual << " after " << failed.solve.sweeps << " sweeps, tolerance "
-           << failed.tolerance << "; its halves did not converge either, down to a step of " << failed.length
-           << "; a larger step, tolerance or max_sweeps may help";
+           << failed.tolerance << "; its halves did not converge either, down to a step of " << failed.length << "; "
+           << (obstacle.empty() ? "a larger step, tolerance or max_sweeps may help" : obstacle);
     return text.str();
   }
 } // namespace diptych::discrete

@@ -152,6 +152,7 @@ namespace diptych::discrete
       DelassusBlock w;
       double        inverse_wnn, inverse_wtt, friction;
       bool          coupled; // W_nt matters
+      bool          locks;   // sliding presses the bodies together (Painleve), so relaxation of one part at a time diverges
     };
 
     std::vector<Own> own_blocks(const DelassusProblem &problem)
@@ -160,7 +161,8 @@ namespace diptych::discrete
       for (std::size_t k = 0; k < problem.n_contacts(); ++k)
         {
           const DelassusBlock &w = diagonal(problem, k);
-          own.push_back({w, 1 / w.nn, 1 / w.tt, problem.friction[k], std::abs(w.nt) > 1e-12 * std::sqrt(w.nn * w.tt)});
+          own.push_back({w, 1 / w.nn, 1 / w.tt, problem.friction[k], std::abs(w.nt) > 1e-12 * std::sqrt(w.nn * w.tt),
+                         w.nn < problem.friction[k] * std::abs(w.nt)});
         }
       return own;
     }
@@ -228,9 +230,21 @@ namespace diptych::discrete
     {
       for (const int k : order)
         {
-          const bool slipping = is_slipping(own[k].friction, r[k]);
-          r[k] = relaxed(own[k], relative_velocity(problem, k, r.data()), r[k], slipping ? omega.slipping : omega.sticking);
+          const RelativeVelocity u        = relative_velocity(problem, k, r.data());
+          const bool             slipping = is_slipping(own[k].friction, r[k]);
+          r[k] = own[k].locks ? exact(own[k], u, r[k]) : relaxed(own[k], u, r[k], slipping ? omega.slipping : omega.sticking);
         }
+    }
+
+    // Solution of contact k by itself, with W_nt left out.
+    Parts<double> natural_map(const DelassusProblem &problem, const std::size_t k, const LawTerms<double> &own, const Impulse *r)
+    {
+      return signorini_coulomb(own, relative_velocity(problem, k, r), {r[k].normal, r[k].tangential}, 1.);
+    }
+
+    LawTerms<double> terms_of(const Own &own)
+    {
+      return {0, 0, own.friction, own.inverse_wnn, own.inverse_wtt};
     }
 
     double residual(const DelassusProblem &problem, const std::vector<Own> &own, const std::vector<Impulse> &impulses)
@@ -238,14 +252,20 @@ namespace diptych::discrete
       double difference = 0, norm = 0;
       for (std::size_t k = 0; k < own.size(); ++k)
         {
-          const RelativeVelocity u      = relative_velocity(problem, k, impulses.data());
-          const Impulse          r      = impulses[k];
-          const double           normal = std::max(0., r.normal - u.normal * own[k].inverse_wnn);
-          const double           stick  = clamp(r.tangential - u.tangential * own[k].inverse_wtt, own[k].friction * normal);
-          difference += square({r.normal - normal, r.tangential - stick});
-          norm += square(r);
+          const Parts<double> p = natural_map(problem, k, terms_of(own[k]), impulses.data());
+          difference += square({impulses[k].normal - p.normal, impulses[k].tangential - p.tangential});
+          norm += square(impulses[k]);
         }
       return relative_norm(difference, norm);
+    }
+
+    double velocity_error(const DelassusProblem &problem, const std::vector<Own> &own, const std::vector<Impulse> &impulses)
+    {
+      VelocitySquares squares;
+      for (std::size_t k = 0; k < own.size(); ++k)
+        squares.add(terms_of(own[k]), {impulses[k].normal, impulses[k].tangential},
+                    natural_map(problem, k, terms_of(own[k]), impulses.data()), problem.q[k]);
+      return squares.relative();
     }
 
     // Nearest point with |r_t| <= mu r_n.
@@ -329,9 +349,10 @@ namespace diptych::discrete
       }
     const bool plain = options.solver == ContactSolver::nsgs;
     Iteration  iteration;
-    iteration.refresh  = [] {}; // W r + q is always computed from scratch
-    iteration.residual = [&] { return residual(problem, own, impulses); };
-    iteration.sweep    = [&](const double sticking, const double slipping, const int n_sweeps) {
+    iteration.refresh        = [] {}; // W r + q is always computed from scratch
+    iteration.residual       = [&] { return residual(problem, own, impulses); };
+    iteration.velocity_error = [&] { return velocity_error(problem, own, impulses); };
+    iteration.sweep          = [&](const double sticking, const double slipping, const int n_sweeps) {
       for (int sweep = 0; sweep < n_sweeps; ++sweep)
         if (plain)
           sweep_nsgs(problem, order, own, impulses);

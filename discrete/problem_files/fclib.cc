@@ -154,6 +154,16 @@ namespace diptych::discrete
     return rolls ? "its contacts resist rolling, and only the body form contains couples" : "";
   }
 
+  SolveReport StoredProblem::solve(const ProblemForm     chosen,
+                                   SolverOptions         options,
+                                   std::vector<Impulse> &impulses,
+                                   ThreadTeam           &team) const
+  {
+    options.velocity_tolerance = options.tolerance;
+    return chosen == ProblemForm::body ? discrete::solve(*bodies, options, impulses, team)
+                                       : discrete::solve(local, options, impulses);
+  }
+
   std::vector<RelativeVelocity> StoredProblem::velocities(const std::vector<Impulse> &impulses) const
   {
     return rolls ? relative_velocities(*bodies, impulses) : relative_velocities(local, impulses);

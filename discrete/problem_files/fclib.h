@@ -27,6 +27,15 @@ namespace diptych::discrete
     return std::array{std::pair{ProblemForm::body, "body"}, std::pair{ProblemForm::local, "local"}};
   }
 
+  // Defaults for a problem that no step follows.
+  inline SolverOptions stored_solver_options()
+  {
+    SolverOptions options;
+    options.tolerance  = 1e-8;
+    options.max_sweeps = 1000000;
+    return options;
+  }
+
   // A plane problem of a file: u = W r + q, impulses r, normal component first. The layout is that of FCLIB (Acary, Bremond,
   // Koziara & Perignon 2014): /fclib_local (W, q, mu), /fclib_global (M v = f + H r, u = H^T v + w, mu), /solution and /guesses.
   // Diptych adds the group /rolling if contacts resist rolling: `friction` and `arm` as in ContactRow, one entry per contact.
@@ -45,6 +54,9 @@ namespace diptych::discrete
 
     // Reason why a form cannot be solved; empty if it can.
     std::string obstacle(ProblemForm wanted) const;
+
+    // Solves one form in place to options.tolerance, which here bounds the velocity error, too.
+    SolveReport solve(ProblemForm chosen, SolverOptions options, std::vector<Impulse> &impulses, ThreadTeam &team) const;
 
     std::vector<RelativeVelocity> velocities(const std::vector<Impulse> &impulses) const;       // u
     double                        siconos_residual(const std::vector<Impulse> &impulses) const; // NaN if contacts resist rolling

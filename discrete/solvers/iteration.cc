@@ -82,11 +82,14 @@ namespace diptych::discrete
       report.residual = iteration.residual();
     };
     const auto good = [&] {
-      return report.residual <= options.tolerance && (!iteration.good_enough || iteration.good_enough(report));
+      if (!(report.residual <= options.tolerance))
+        return false;
+      report.velocity_error = iteration.velocity_error();
+      return report.velocity_error <= options.velocity_tolerance && (!iteration.good_enough || iteration.good_enough(report));
     };
     measure(true);
-    bool stopped = false;
-    while (!good() && report.sweeps < options.max_sweeps)
+    bool stopped = false, done = good();
+    while (!done && report.sweeps < options.max_sweeps)
       {
         stopped = options.stop_requested && options.stop_requested();
         if (stopped)
@@ -104,17 +107,24 @@ namespace diptych::discrete
         measure(report.sweeps - refreshed >= sweeps_per_refresh);
         if (report.residual <= options.tolerance && refreshed != report.sweeps)
           measure(true);
-        if (!control.stagnates(report.sweeps, report.residual))
+        done = good();
+        if (done || !control.stagnates(report.sweeps, report.residual))
           continue;
         if (iteration.relieve && iteration.relieve())
           control.start_again(report.sweeps, report.residual);
         else
           control.change_omega(report.sweeps, report.residual);
       }
-    if (refreshed != report.sweeps)
-      measure(true);
-    if (!good())
-      report.status = stopped ? SolveStatus::stopped : SolveStatus::max_sweeps_reached;
+    if (!done && refreshed != report.sweeps)
+      {
+        measure(true);
+        done = good();
+      }
+    if (!done)
+      {
+        report.velocity_error = iteration.velocity_error();
+        report.status         = stopped ? SolveStatus::stopped : SolveStatus::max_sweeps_reached;
+      }
     report.cpu_s = double(std::clock() - begin) / CLOCKS_PER_SEC;
     return report;
   }

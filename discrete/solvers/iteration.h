@@ -14,12 +14,13 @@ namespace diptych::discrete
     std::function<void()>                                                           refresh; // velocities from the impulses
     std::function<void(double omega_sticking, double omega_slipping, int n_sweeps)> sweep;
     std::function<double()>                  residual;         // natural map relative to |r|, at the present velocities
-    std::function<bool(const SolveReport &)> good_enough = {}; // a further condition, called if the residual is small enough
+    std::function<double()>                  velocity_error;   // the same for velocities, called if the residual is small enough
+    std::function<bool(const SolveReport &)> good_enough = {}; // a further condition, called last
     std::function<bool()> relieve = {}; // called if the residual stagnates; false: no remedy, so omega is changed
   };
 
-  // Sweeps until the residual, confirmed with fresh velocities, is below options.tolerance or options.max_sweeps are done. A
-  // first guess that is good enough costs one residual. For psor, omega depends on the contact status, some sweeps are plain, and
-  // stagnation is controlled.
+  // Sweeps until the residual, confirmed with fresh velocities, is below options.tolerance and the velocity error below
+  // options.velocity_tolerance, or options.max_sweeps are done. A first guess that is good enough costs one residual. For psor,
+  // omega depends on the contact status, some sweeps are plain, and stagnation is controlled.
   SolveReport iterate(const SolverOptions &options, const Iteration &iteration);
 } // namespace diptych::discrete

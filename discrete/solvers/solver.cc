@@ -3,6 +3,8 @@
 #include "discrete/solvers/solver.h"
 
 #include <ctime>
+#include <iomanip>
+#include <sstream>
 
 #include "discrete/contacts/natural_map.h"
 #include "discrete/solvers/iteration.h"
@@ -25,7 +27,8 @@ namespace diptych::discrete
         for (int k = 0; k < n; ++k)
           sweep_nsgs(problem, v, impulses);
       };
-      iteration.residual = [&] { return natural_map_residual(problem, v, impulses); };
+      iteration.residual       = [&] { return natural_map_residual(problem, v, impulses); };
+      iteration.velocity_error = [&] { return velocity_error(problem, v, impulses); };
       if (stop_test)
         iteration.good_enough = [&](const SolveReport &report) { return stop_test(report, [&] { return impulses; }); };
       return iterate(options, iteration);
@@ -44,8 +47,9 @@ namespace diptych::discrete
       iteration.sweep   = [&](const double sticking, const double slipping, const int n) {
         sweeps.sweep(sticking, slipping, n, team);
       };
-      iteration.residual = [&] { return sweeps.residual(team); };
-      iteration.relieve  = [&] { return sweeps.relieve(); };
+      iteration.residual       = [&] { return sweeps.residual(team); };
+      iteration.velocity_error = [&] { return velocity_error(problem, sweeps.velocities(), sweeps.impulses()); };
+      iteration.relieve        = [&] { return sweeps.relieve(); };
       if (stop_test)
         iteration.good_enough = [&](const SolveReport &report) { return stop_test(report, [&] { return sweeps.impulses(); }); };
       SolveReport report = iterate(options, iteration);
@@ -64,6 +68,17 @@ namespace diptych::discrete
   {
     return options.solver == ContactSolver::nsgs ? solve_nsgs(problem, options, impulses, stop_test)
                                                  : solve_psor(problem, options, impulses, team, stop_test);
+  }
+
+  std::string obstacle_to(const SolveReport &report)
+  {
+    if (!(report.velocity_error > SolverOptions{}.velocity_tolerance))
+      return {};
+    std::ostringstream text;
+    text << "after " << report.sweeps << " sweeps the contacts still violate their laws by " << std::setprecision(3)
+         << report.velocity_error << " of their free velocity: either no impulses solve the problem (bodies are squeezed between "
+         << "prescribed motions), or masses differ so much that more sweeps are needed";
+    return text.str();
   }
 
   SolveReport solve(const ContactProblem &problem, const SolverOptions &options, std::vector<Impulse> &impulses)

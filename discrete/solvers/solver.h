@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include "discrete/contacts/contact_problem.h"
 #include "discrete/solvers/solver_options.h"
@@ -22,4 +23,7 @@ namespace diptych::discrete
                     ThreadTeam           &team,
                     const StopTest       &stop_test = {});
   SolveReport solve(const ContactProblem &problem, const SolverOptions &options, std::vector<Impulse> &impulses);
+
+  // Reason why a problem was not solved; empty unless the contacts still violate their laws by most of their free velocity.
+  std::string obstacle_to(const SolveReport &report);
 } // namespace diptych::discrete

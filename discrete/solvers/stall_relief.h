@@ -16,10 +16,11 @@ namespace diptych::discrete
   public:
     RelievedSweeps(const ContactProblem &problem, const std::vector<Impulse> &impulses); // the problem must outlive this
 
-    void                 sweep(double omega_sticking, double omega_slipping, int n, ThreadTeam &team);
-    void                 refresh_velocities() { batches_->refresh_velocities(); }
-    double               residual(ThreadTeam &team) const { return batches_->residual(team); }
-    std::vector<Impulse> impulses() const { return batches_->impulses(); }
+    void                             sweep(double omega_sticking, double omega_slipping, int n, ThreadTeam &team);
+    void                             refresh_velocities() { batches_->refresh_velocities(); }
+    double                           residual(ThreadTeam &team) const { return batches_->residual(team); }
+    std::vector<Impulse>             impulses() const { return batches_->impulses(); }
+    const std::vector<BodyVelocity> &velocities() const { return batches_->velocities(); }
 
     // To be called if the residual stagnates. Returns false if no few contacts are the cause; then all are swept alike.
     bool relieve();

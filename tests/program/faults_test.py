@@ -120,6 +120,29 @@ class Inputs(Folder):
         self.expect(3, [*words, "--overwrite", *setting(sample_prepare_file="true", sample_preparation_steps=1)],
                     "nothing carries loading/pressure")
 
+    def test_the_remedy_of_a_warning_helps(self):
+        """The warning is there, and with the remedy that it names it is gone."""
+        springs = {"discrete_method": "compliant", "discrete_penalty_stiffness": 20}
+        explicit = {"discrete_method": "penalty", "discrete_penalty_step_fraction": 0.9}
+        uncorrected = {"discrete_tolerance": 0.5, "discrete_penetration_correction": "none"}
+        long = {"discrete_step": 1, "discrete_tolerance": 1e-3}
+        for warning, doubtful, remedy in [
+                ("discrete/step = auto keeps", {"discrete_step": 0.4}, {"discrete_step": "auto"}),
+                ("discrete/tolerance = auto keeps", {"discrete_tolerance": 0.1}, {"discrete_tolerance": "auto"}),
+                ("a smaller discrete/step or", long, {"discrete_step": 0.1}),
+                ("a smaller discrete/step or", uncorrected, {"discrete_tolerance": 1e-4}),
+                ("a larger discrete/penalty_stiffness", springs, {"discrete_penalty_stiffness": 1e4}),
+                ("a smaller discrete/tolerance", {"discrete_tolerance": 0.5}, {"discrete_tolerance": 1e-4}),
+                ("a smaller discrete/penalty_step_fraction", explicit, {"discrete_penalty_step_fraction": 0.2})]:
+            with self.subTest(warning=warning, doubtful=doubtful):
+                words = self.discrete(*setting(**doubtful), "--overwrite")
+                self.expect(0, words, warning)
+                self.assertNotIn(warning, finished(*words, *setting(**remedy)).stderr)
+        still = self.discrete(*setting(loading_mode="time", loading_duration=5, loading_stage_time=5,
+                                       discrete_lateral="rigid_walls", discrete_side_motion="velocity",
+                                       comparison_window_edges="0,5"), "--overwrite")
+        self.assertNotIn("of energy", finished(*still).stderr)
+
     def test_solutions_replace_solutions_only(self):
         scene = write(os.path.join(self.work, "scene.prm"), "# mine\n")
         small, medium = (os.path.join(PROBLEMS, name) for name in ("small.h5", "medium.h5"))

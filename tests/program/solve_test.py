@@ -61,6 +61,24 @@ class Solve(Folder):
                                                                             bits(path)["solution/r"]))
                 os.remove(path)
 
+    def test_a_disc_between_closing_plates_has_no_solution(self):
+        """The free velocities of both contacts are -1, and no impulses change their sum."""
+        path = os.path.join(self.work, "closing.h5")
+        w = numpy.array([[1, 0, -1, 0], [0, 3, 0, 1], [-1, 0, 1, 0], [0, 1, 0, 3.]])
+        with h5py.File(path, "w") as file:
+            matrix = {"m": [4], "n": [4], "nz": [-2], "nzmax": [16], "p": range(0, 17, 4), "i": [0, 1, 2, 3] * 4,
+                      "x": w.ravel()}
+            for name, values in matrix.items():
+                file["fclib_local/W/" + name] = values
+            file["fclib_local/spacedim"] = [2]
+            file["fclib_local/vectors/q"] = [-1., 0, -1, 0]
+            file["fclib_local/vectors/mu"] = [0.5, 0.5]
+        for solver in "psor", "nsgs":
+            result, printed = solve(path, "--solver", solver, "--tolerance", "1e-3", "--max-sweeps", "10000")
+            self.assertEqual((result.returncode, printed["status"]), (3, "max_sweeps_reached"), result.stderr)
+            self.assertGreater(float(printed["velocity_error"]), 0.9)
+            self.assertIn("no impulses solve the problem", result.stderr)
+
     def test_too_few_sweeps_are_exit_code_three_and_what_was_reached_is_kept(self):
         path = os.path.join(self.work, "reached.h5")
         result, printed = solve("small.h5", "--max-sweeps", "5", "--output", path)

@@ -24,22 +24,25 @@ def _rows_of(w: Any) -> tuple[Any, Any, Any]:
     return np.searchsorted(row, np.arange(len(dense) + 1)), column, dense[row, column]
 
 
-def solve(problem: Any, tolerance: float = 2e-5, guess: Any = None, form: str | None = None, **options: Any) -> Record:
+def solve(problem: Any, tolerance: float = 1e-8, guess: Any = None, form: str | None = None, **options: Any) -> Record:
     """Impulses of a plane contact problem: u = W r + q [length/time], 0 <= u_n _|_ r_n >= 0, |r_t| <= mu r_n against
     u_t.
 
     problem    path of an FCLIB file (Acary, Bremond, Koziara & Perignon 2014), or (W, q, mu): W (2c, 2c) [1/mass],
                dense or a SciPy matrix, normal component of each contact first; q (2c) [length/time]; mu (c)
-    tolerance  of the natural map residual, relative to |r|
+    tolerance  of the natural map residual, relative to |r|, and of the velocity error: the velocity by which contacts
+               violate the laws, relative to the free velocities of those that act. Impulses of bodies whose masses
+               differ much are right only where both are small
     guess      (c, 2): first guess of the impulses; default: zeros
     form       form of the problem in a file: "body" or "local"; default: "body" if the file holds it
-    options    keys of the section discrete: solver ("psor" or "nsgs"), max_sweeps, omega_sticking, omega_slipping,
-               sweeps_per_check
+    options    keys of the section discrete: solver ("psor" or "nsgs"), max_sweeps (default: 1000000), omega_sticking,
+               omega_slipping, sweeps_per_check
 
     Returns r (c, 2) impulses and u (c, 2) relative velocities, normal part first; status ("converged" or
-    "max_sweeps_reached"), sweeps, residual, siconos_residual, cpu_s. A file whose contacts resist rolling adds rolling
-    (c), the couples divided by the effective radii, and has no siconos_residual (nan). Raises SceneError for a wrong
-    option, and ValueError with the file and dataset, or the array.
+    "max_sweeps_reached", also if no solution exists), sweeps, residual, velocity_error, siconos_residual, cpu_s. A file
+    whose contacts resist rolling adds rolling (c), the couples divided by the effective radii, and has no
+    siconos_residual (nan). Raises SceneError for a wrong option, and ValueError with the file and dataset, or the
+    array.
     """
     keys: dict[str, Any] = {"tolerance": tolerance, **{name: scenes.text_of(value) for name, value in options.items()}}
     if isinstance(problem, (str, os.PathLike)):

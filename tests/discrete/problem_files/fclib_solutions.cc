@@ -68,6 +68,57 @@ namespace
         }
   }
 
+  StoredProblem local_problem(const Eigen::Matrix4d &w, const Eigen::Vector4d &q)
+  {
+    StoredProblem problem;
+    problem.local = delassus_problem(Eigen::SparseMatrix<double, Eigen::RowMajor>(w.sparseView()), q, Eigen::Vector2d(0.5, 0.5));
+    return problem;
+  }
+
+  // A disc of mass m rests on a disc of mass 1, and this on a plane, both after a step of free fall with velocity 1: the contacts
+  // carry m + 1 and m. Sweeps need some multiple of m. A residual relative to |r| alone ends them when 3 % of the weight are
+  // carried.
+  TEST(Fclib, AHeavyDiscOnALightOneIsCarriedOrNotSolved)
+  {
+    ThreadTeam team(1);
+    for (const double mass : {1e3, 1e4, 1e6})
+      for (const ContactSolver solver : {ContactSolver::nsgs, ContactSolver::psor})
+        {
+          Eigen::Matrix4d w;
+          w << 1, 0, -1, 0, 0, 3, 0, 1, -1, 0, 1 + 1 / mass, 0, 0, 1, 0, 3 + 3 / mass;
+          SolverOptions options        = options_for(solver, 2e-5);
+          options.max_sweeps           = 50000;
+          std::vector<Impulse> r       = {{}, {}};
+          const StoredProblem  problem = local_problem(w, {-1, 0, 0, 0});
+          const SolveReport    report  = problem.solve(ProblemForm::local, options, r, team);
+          EXPECT_EQ(report.status, mass > 1e5   ? SolveStatus::max_sweeps_reached
+                                   : mass > 1e3 ? report.status
+                                                : SolveStatus::converged);
+          if (report.status == SolveStatus::converged)
+            {
+              EXPECT_NEAR(r[0].normal, mass + 1, 1e-4 * mass) << name_of(solver);
+              EXPECT_NEAR(r[1].normal, mass, 1e-4 * mass) << name_of(solver);
+            }
+        }
+  }
+
+  // A rod that slides on its end: W_nn < mu |W_nt|, so a relaxation of one part at a time diverges. Slipping in the direction of
+  // -u_t, r_n = 0.1 / (W_nn - mu W_nt) would be negative; in the other one r_n = 0.1 / (W_nn + mu W_nt).
+  TEST(Fclib, AContactWhoseFrictionPressesTheBodiesTogetherIsSolved)
+  {
+    Eigen::MatrixXd w(2, 2);
+    w << 1.35093334, 0.96418141, 0.96418141, 3.64906666;
+    const DelassusProblem problem = delassus_problem(Eigen::SparseMatrix<double, Eigen::RowMajor>(w.sparseView()),
+                                                     Eigen::Vector2d(-0.1, -1), Eigen::VectorXd::Constant(1, 3.));
+    for (const ContactSolver solver : {ContactSolver::nsgs, ContactSolver::psor})
+      {
+        std::vector<Impulse> r(1);
+        EXPECT_EQ(solve(problem, options_for(solver, 1e-8), r).status, SolveStatus::converged) << name_of(solver);
+        EXPECT_NEAR(r[0].normal, 0.1 / (w(0, 0) + 3 * w(0, 1)), 1e-12);
+        EXPECT_NEAR(r[0].tangential, 3 * r[0].normal, 1e-12);
+      }
+  }
+
   // Both descriptions of a file and its bodies give the same W and q; measured 2e-16.
   TEST(Fclib, LocalGlobalAndBodiesOfAStoredFileAgree)
   {

@@ -235,6 +235,26 @@ namespace
     return problem;
   }
 
+  // The sweeps add the same impulse again and again, which becomes small against the sum.
+  TEST(Solvers, ReportThatADiscBetweenClosingPlatesHasNoSolution)
+  {
+    ContactProblem problem;
+    problem.free_velocity  = {{0, 0, 0, 1}, {0, 1, 0, 0}, {0, -1, 0, 0}};
+    problem.contacts       = {row(problem.free_velocity, 0, 1), row(problem.free_velocity, 0, 2)};
+    problem.contacts[1].ny = -1;
+    for (const ContactSolver solver : {ContactSolver::nsgs, ContactSolver::psor})
+      {
+        SolverOptions options;
+        options.solver    = solver;
+        options.tolerance = 1e-3;
+        std::vector<Impulse> impulses(2);
+        const SolveReport    report = solve(problem, options, impulses);
+        EXPECT_EQ(report.status, SolveStatus::max_sweeps_reached) << name_of(solver);
+        EXPECT_LT(report.residual, options.tolerance);
+        EXPECT_NE(obstacle_to(report).find("squeezed between prescribed motions"), std::string::npos);
+      }
+  }
+
   TEST(StalledContacts, LieAroundTheLargestResidual)
   {
     // At r = 0 only the lowest contact of the first tower closes: r - P(r) = 1 there and zero elsewhere. Its free disc has
