@@ -182,4 +182,15 @@ namespace
     EXPECT_EQ(warnings({"continuum/platens=smooth"}).size(), 1);
     EXPECT_EQ(warnings({"discrete/friction=0.95", "continuum/platens=rough"}).size(), 1);
   }
+
+  TEST(DerivedKeys, ACoarseRunThatIsNotCoarserIsAWarningWithTwoRemedies)
+  {
+    const auto warnings = [](const std::string &size) {
+      return scene_with({"continuum/element_size=2", "comparison/coarse_element_size=" + size}).warnings;
+    };
+    ASSERT_EQ(warnings("2").size(), 1);
+    EXPECT_NE(warnings("2")[0].find("give a larger size, or 0"), std::string::npos);
+    EXPECT_TRUE(warnings("4").empty());
+    EXPECT_TRUE(warnings("0").empty());
+  }
 } // namespace
