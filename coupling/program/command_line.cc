@@ -149,7 +149,7 @@ namespace diptych::coupling
         add_choice<discrete::ContactSolver>(solve, "--solver", "psor (default): over-relaxed; nsgs: plain Gauss-Seidel",
                                             [this](const auto chosen) { line.solve.options.solver = chosen; });
         solve->add_option("--tolerance", line.solve.options.tolerance,
-                          "largest residual: natural map relative to |r|, and its velocities relative to |q| (default: 1e-8)")
+                          "largest residual: natural map relative to |r|; velocities to 100 times that, relative to |q| (default: 1e-8)")
           ->check(in_range(1e-300, 0.999999));
         solve->add_option("--max-sweeps", line.solve.options.max_sweeps, "largest number of sweeps (default: 1000000)")
           ->check(in_range(1, 2147483647));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/problem_files/fclib.h"
 
+#include <algorithm>
 #include <limits>
 
 #include <Eigen/SparseCholesky>
@@ -159,7 +160,8 @@ namespace diptych::discrete
                                    std::vector<Impulse> &impulses,
                                    ThreadTeam           &team) const
   {
-    options.velocity_tolerance = options.tolerance;
+    constexpr double per_tolerance = 100; // grains of a packing press on each other with about 100 times |q| / W
+    options.velocity_tolerance     = std::min(options.velocity_tolerance, per_tolerance * options.tolerance);
     return chosen == ProblemForm::body ? discrete::solve(*bodies, options, impulses, team)
                                        : discrete::solve(local, options, impulses);
   }

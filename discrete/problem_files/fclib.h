@@ -55,7 +55,7 @@ namespace diptych::discrete
     // Reason why a form cannot be solved; empty if it can.
     std::string obstacle(ProblemForm wanted) const;
 
-    // Solves one form in place to options.tolerance, which here bounds the velocity error, too.
+    // Solves one form in place to options.tolerance, and to a velocity error of 100 times that.
     SolveReport solve(ProblemForm chosen, SolverOptions options, std::vector<Impulse> &impulses, ThreadTeam &team) const;
 
     std::vector<RelativeVelocity> velocities(const std::vector<Impulse> &impulses) const;       // u

@@ -30,9 +30,9 @@ def solve(problem: Any, tolerance: float = 1e-8, guess: Any = None, form: str | 
 
     problem    path of an FCLIB file (Acary, Bremond, Koziara & Perignon 2014), or (W, q, mu): W (2c, 2c) [1/mass],
                dense or a SciPy matrix, normal component of each contact first; q (2c) [length/time]; mu (c)
-    tolerance  of the natural map residual, relative to |r|, and of the velocity error: the velocity by which contacts
-               violate the laws, relative to the free velocities of those that act. Impulses of bodies whose masses
-               differ much are right only where both are small
+    tolerance  of the natural map residual, relative to |r|. The velocity error, by which contacts violate the laws
+               relative to the free velocities of those that act, may be 100 times as large. It shows impulses that are
+               far too small, as of bodies whose masses differ much
     guess      (c, 2): first guess of the impulses; default: zeros
     form       form of the problem in a file: "body" or "local"; default: "body" if the file holds it
     options    keys of the section discrete: solver ("psor" or "nsgs"), max_sweeps (default: 1000000), omega_sticking,

@@ -77,7 +77,7 @@ namespace
 
   // A disc of mass m rests on a disc of mass 1, and this on a plane, both after a step of free fall with velocity 1: the contacts
   // carry m + 1 and m. Sweeps need some multiple of m. A residual relative to |r| alone ends them when 3 % of the weight are
-  // carried.
+  // carried. Velocity errors of 100 tolerances at both contacts change the impulses by 3e-3 at most.
   TEST(Fclib, AHeavyDiscOnALightOneIsCarriedOrNotSolved)
   {
     ThreadTeam team(1);
@@ -96,8 +96,8 @@ namespace
                                                 : SolveStatus::converged);
           if (report.status == SolveStatus::converged)
             {
-              EXPECT_NEAR(r[0].normal, mass + 1, 1e-4 * mass) << name_of(solver);
-              EXPECT_NEAR(r[1].normal, mass, 1e-4 * mass) << name_of(solver);
+              EXPECT_NEAR(r[0].normal, mass + 1, 3e-3 * mass) << name_of(solver);
+              EXPECT_NEAR(r[1].normal, mass, 3e-3 * mass) << name_of(solver);
             }
         }
   }
