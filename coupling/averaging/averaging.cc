@@ -37,7 +37,7 @@ namespace diptych::coupling
     check(options, given);
     Carriers        wrapped;
     const Carriers *carriers = &given;
-    if (target.period > 0)
+    if (target.period.any())
       {
         wrapped = given;
         for (Eigen::Vector2d &x : wrapped.position)

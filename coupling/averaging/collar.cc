@@ -143,17 +143,44 @@ namespace diptych::coupling
       add(one.n_inner, one.mesh.triangle.size());
       return result;
     }
-  } // namespace
+    CollaredMesh without_collar(const QuadMesh &mesh, const double period)
+    {
+      CollaredMesh result{mesh, {}, {}, mesh.triangle.size()};
+      result.receiver.resize(mesh.triangle.size());
+      std::iota(result.receiver.begin(), result.receiver.end(), 0);
+      result.same_as.resize(mesh.node.size());
+      std::iota(result.same_as.begin(), result.same_as.end(), 0);
+      return period > 0 ? periodic_images(result, period, {}) : result;
+    }
 
-  CollaredMesh without_collar(const QuadMesh &mesh, const double period)
-  {
-    CollaredMesh result{mesh, {}, {}, mesh.triangle.size()};
-    result.receiver.resize(mesh.triangle.size());
-    std::iota(result.receiver.begin(), result.receiver.end(), 0);
-    result.same_as.resize(mesh.node.size());
-    std::iota(result.same_as.begin(), result.same_as.end(), 0);
-    return period > 0 ? periodic_images(result, period, {}) : result;
-  }
+    // The mesh in a cell that is periodic in both directions. It fills the plane if every edge of its boundary is also, in the
+    // opposite direction, one of the opposite side, and its area is that of the cell.
+    CollaredMesh on_lattice(const QuadMesh &mesh, const Period &period)
+    {
+      const double                                    cell     = std::abs(period.vectors.determinant());
+      const std::vector<unsigned int>                 same     = same_nodes(mesh, period, 1e-6 * std::sqrt(cell));
+      const std::vector<BoundaryEdge>                 boundary = boundary_edges(mesh);
+      std::set<std::pair<unsigned int, unsigned int>> edges;
+      for (const auto &edge : boundary)
+        edges.emplace(same[edge.from], same[edge.to]);
+      const std::vector<double> areas = cell_areas(mesh);
+
+      CollaredMesh result{tiled(mesh, period), {}, {}, 0};
+      result.n_inner   = result.mesh.triangle.size();
+      result.is_closed = std::abs(std::accumulate(areas.begin(), areas.end(), 0.) - cell) < 1e-6 * cell &&
+                         std::all_of(boundary.begin(), boundary.end(), [&](const BoundaryEdge &edge) {
+                           return edges.count({same[edge.to], same[edge.from]}) > 0;
+                         });
+      for (unsigned int t = 0; t < result.n_inner; ++t)
+        {
+          result.receiver.push_back(t % mesh.triangle.size());
+          result.mesh.triangle[t].cell %= mesh.cell.size();
+        }
+      for (unsigned int node = 0; node < result.mesh.node.size(); ++node)
+        result.same_as.push_back(same[node % mesh.node.size()]);
+      return result;
+    }
+  } // namespace
 
   std::optional<CollaredMesh> with_collar(const QuadMesh &mesh, const std::vector<Eigen::Vector2d> &points)
   {
@@ -171,6 +198,7 @@ namespace diptych::coupling
     const double scale = reach + 0.5 * mean_length(mesh, boundary) / star->clearance;
     add_collar(
       boundary, [&](const Eigen::Vector2d &x) { return Eigen::Vector2d(star->centre + scale * (x - star->centre)); }, result);
+    result.is_closed = true;
     return result;
   }
 
@@ -204,7 +232,18 @@ namespace diptych::coupling
     };
     add(boundary->lower, -below - mean_length(mesh, boundary->lower));
     add(boundary->upper, above + mean_length(mesh, boundary->upper));
-    return periodic_images(result, period, boundary->left);
+    result           = periodic_images(result, period, boundary->left);
+    result.is_closed = true;
+    return result;
+  }
+
+  CollaredMesh ground_of(const QuadMesh &mesh, const Period &period, const std::vector<Eigen::Vector2d> &points)
+  {
+    if (period.both())
+      return on_lattice(mesh, period);
+    const double width  = period.vectors(0, 0);
+    auto         ground = width > 0 ? with_periodic_collar(mesh, width, points) : with_collar(mesh, points);
+    return ground ? *std::move(ground) : without_collar(mesh, width);
   }
 
   double largest_difference(const CollaredMesh                 &cells,

@@ -8,18 +8,20 @@
 #include <Eigen/Core>
 
 #include "coupling/cells/mesh_cells.h"
+#include "coupling/cells/period.h"
 
 namespace diptych::coupling
 {
   // A mesh with a collar, a ring of triangles around it. The mesh's nodes and triangles keep their numbers; the collar's follow.
-  // For a periodic mesh there are three images: the mesh itself and those one period to the left and to the right.
+  // For a periodic mesh there are images: the mesh itself and those one period away.
   struct CollaredMesh
   {
-    QuadMesh                  mesh;        // `cell` of each triangle is a cell of the given mesh
-    std::vector<unsigned int> receiver;    // n_triangles: the given mesh's triangle that receives its moment: itself, or for a
-                                           // triangle of the collar the one at the boundary edge where it begins
-    std::vector<unsigned int> same_as;     // n_nodes: the node whose periodic image it is, or itself
-    std::size_t               n_inner = 0; // triangles from this number on belong to the collar
+    QuadMesh                  mesh;          // `cell` of each triangle is a cell of the given mesh
+    std::vector<unsigned int> receiver;      // n_triangles: the given mesh's triangle that receives its moment: itself, or for a
+                                             // triangle of the collar the one at the boundary edge where it begins
+    std::vector<unsigned int> same_as;       // n_nodes: the node whose periodic image it is, or itself
+    std::size_t               n_inner   = 0; // triangles from this number on belong to the collar
+    bool                      is_closed = false; // no branch can leave: a collar holds all, or the images fill the plane
   };
 
   // Joins every boundary edge by two triangles to its image. The image is scaled away from the middle of the mesh, far enough
@@ -33,8 +35,9 @@ namespace diptych::coupling
                                                    double                              period,
                                                    const std::vector<Eigen::Vector2d> &points);
 
-  // For meshes that can have no collar: the mesh only, or (period > 0) its three images, which share no nodes.
-  CollaredMesh without_collar(const QuadMesh &mesh, double period);
+  // The mesh with the collar that suits its period. In a cell that is periodic in both directions there is no collar: opposite
+  // sides share their nodes. If that is not possible (is_closed false), the mesh and its images, which share no nodes.
+  CollaredMesh ground_of(const QuadMesh &mesh, const Period &period, const std::vector<Eigen::Vector2d> &points);
 
   // Largest difference at any node between two sums over nodes. The values of all images of a node are added first.
   double largest_difference(const CollaredMesh                 &cells,

@@ -118,15 +118,10 @@ namespace diptych::coupling
   {
     result.cell.clear();
     result.value.clear();
-    result.sum = 0;
-    if (period > 0)
-      {
-        const double first = std::ceil((lower.x() - kernel.reach() - x.x()) / period);
-        for (double k = first; x.x() + k * period <= upper.x() + kernel.reach(); ++k)
-          add_image(x + Eigen::Vector2d(k * period, 0), result);
-      }
-    else
-      add_image(x, result);
+    result.sum                   = 0;
+    const Eigen::Vector2d margin = Eigen::Vector2d::Constant(kernel.reach());
+    for (const Eigen::Vector2d &image : period.images_in(x, lower - margin, upper + margin))
+      add_image(image, result);
     for (const unsigned int c : result.cell)
       {
         result.value.push_back(sum_of_cell[c]);

@@ -54,7 +54,7 @@ namespace diptych::coupling
     void add_image(const Eigen::Vector2d &x, Weights &result);
 
     Kernel                    kernel;
-    double                    period;
+    Period                    period;
     Eigen::Vector2d           lower, upper;
     BinGrid                   bins;          // sorted points
     Eigen::ArrayXd            x_, y_, area_; // points in the order of the bins

@@ -7,23 +7,21 @@ namespace diptych::coupling
 {
   namespace
   {
-    // The power cells of the grains. In a periodic sample the images one period to either side surround them.
+    // The power cells of the grains. In a periodic sample their images surround them.
     std::vector<PowerCell> cells_of_grains(const TargetCells &target, const Carriers &carriers)
     {
       std::vector<Eigen::Vector2d> position = carriers.position;
       std::vector<double>          radius   = carriers.radius;
       Eigen::Vector2d              lower = target.lower, upper = target.upper;
-      if (target.period > 0)
-        {
-          for (const double shift : {-target.period, target.period})
-            for (std::size_t i = 0; i < carriers.position.size(); ++i)
-              {
-                position.push_back(carriers.position[i] + Eigen::Vector2d(shift, 0));
-                radius.push_back(carriers.radius[i]);
-              }
-          lower.x() -= target.period;
-          upper.x() += target.period;
-        }
+      for (const Eigen::Vector2d &shift : target.period.neighbours())
+        for (std::size_t i = 0; i < carriers.position.size(); ++i)
+          {
+            position.push_back(carriers.position[i] + shift);
+            radius.push_back(carriers.radius[i]);
+          }
+      const Eigen::Vector2d extent = target.period.vectors.cwiseAbs().rowwise().sum();
+      lower -= extent;
+      upper += extent;
       return power_cells(position, radius, carriers.position.size(), lower, upper);
     }
 

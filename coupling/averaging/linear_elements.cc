@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <Eigen/LU>
 
@@ -12,32 +11,15 @@ namespace diptych::coupling
 {
   Unknowns number_unknowns(const TargetCells &target)
   {
-    const std::vector<Eigen::Vector2d> &node = target.mesh.node;
-    const double                        near = 1e-6 * std::sqrt(*std::min_element(target.area.begin(), target.area.end()));
-    // The nodes are sorted by height, so that the search for a partner passes few of them.
-    std::vector<unsigned int> by_height(node.size());
-    std::iota(by_height.begin(), by_height.end(), 0);
-    std::stable_sort(by_height.begin(), by_height.end(),
-                     [&](const unsigned int a, const unsigned int b) { return node[a].y() < node[b].y(); });
-    const auto partner = [&](const unsigned int a) {
-      const Eigen::Vector2d x  = node[a] - Eigen::Vector2d(target.period, 0);
-      auto                  at = std::lower_bound(by_height.begin(), by_height.end(), x.y() - near,
-                                                  [&](const unsigned int b, const double y) { return node[b].y() < y; });
-      for (; at != by_height.end() && node[*at].y() <= x.y() + near; ++at)
-        if ((node[*at] - x).norm() <= near)
-          return *at;
-      return a;
-    };
-
-    Unknowns unknowns;
-    unknowns.of_node.resize(node.size());
-    for (unsigned int a = 0; a < node.size(); ++a)
-      if (!(target.period > 0) || partner(a) == a)
+    const double                    near = 1e-6 * std::sqrt(*std::min_element(target.area.begin(), target.area.end()));
+    const std::vector<unsigned int> same = same_nodes(target.mesh, target.period, near);
+    Unknowns                        unknowns;
+    unknowns.of_node.resize(same.size());
+    for (unsigned int a = 0; a < same.size(); ++a)
+      if (same[a] == a)
         unknowns.of_node[a] = unknowns.n++;
-    if (target.period > 0)
-      for (unsigned int a = 0; a < node.size(); ++a)
-        if (const unsigned int b = partner(a); b != a)
-          unknowns.of_node[a] = unknowns.of_node[b];
+    for (unsigned int a = 0; a < same.size(); ++a)
+      unknowns.of_node[a] = unknowns.of_node[same[a]];
     return unknowns;
   }
 

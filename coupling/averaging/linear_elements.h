@@ -11,8 +11,8 @@
 
 namespace diptych::coupling
 {
-  // Number of the unknown at every node; hanging nodes have their own unknowns. In a periodic sample a node of the left side and
-  // the node one period to its right share one unknown.
+  // Number of the unknown at every node; hanging nodes have their own unknowns. In a periodic sample nodes that
+  // are a period apart share one unknown.
   struct Unknowns
   {
     std::vector<unsigned int> of_node;

@@ -13,37 +13,33 @@ namespace diptych::coupling
 {
   namespace
   {
-    constexpr int images[] = {0, -1, 1};
-
     struct Network
     {
       std::vector<Eigen::Vector2d>        position;
       std::vector<discrete::ContactForce> contacts;
     };
 
-    double left_end(const QuadMesh &mesh)
+    // Corner from which the fractions of a place in the mesh are counted.
+    Eigen::Vector2d lower_corner(const QuadMesh &mesh, const Period &period)
     {
-      double left = std::numeric_limits<double>::infinity();
+      Eigen::Vector2d lower = mesh.node.front(), upper = lower;
       for (const Eigen::Vector2d &x : mesh.node)
-        left = std::min(left, x.x());
-      return left;
+        {
+          lower = lower.cwiseMin(x);
+          upper = upper.cwiseMax(x);
+        }
+      return period.both() ? Eigen::Vector2d(0.5 * (lower + upper - period.vectors.rowwise().sum())) : lower;
     }
 
-    // Moves every grain and its contacts by whole periods to within one period of the mesh's left end.
-    Network wrapped(Network network, const double period, const double left)
+    // The grains of a periodic sample and their contacts, moved by whole periods into the mesh.
+    Network network_in(const QuadMesh                     &mesh,
+                       const Period                       &period,
+                       const std::vector<Eigen::Vector2d> &position,
+                       std::vector<discrete::ContactForce> contacts)
     {
-      std::vector<double> move(network.position.size());
-      for (std::size_t i = 0; i < move.size(); ++i)
-        {
-          move[i] = -period * std::floor((network.position[i].x() - left) / period);
-          network.position[i].x() += move[i];
-        }
-      for (discrete::ContactForce &c : network.contacts)
-        {
-          c.point.x() += move.at(c.i);
-          if (std::size_t(c.j) < move.size())
-            c.shift += move[c.i] - move[c.j];
-        }
+      Network network{position, std::move(contacts)};
+      if (period.any())
+        follow_grains(period.wrap(lower_corner(mesh, period), network.position), network.contacts);
       return network;
     }
 
@@ -67,23 +63,13 @@ namespace diptych::coupling
 
     struct Ground
     {
-      Ground(const QuadMesh &mesh, const double period, const Network &network)
-          : Ground(mesh,
-                   period,
-                   period > 0 ? with_periodic_collar(mesh, period, branch_ends(network))
-                              : with_collar(mesh, branch_ends(network)))
+      Ground(const QuadMesh &mesh, const Period &period, const Network &network)
+          : cells(ground_of(mesh, period, branch_ends(network))),
+            search(cells.mesh)
       {}
 
       CollaredMesh   cells;
-      bool           has_collar;
       TriangleSearch search;
-
-    private:
-      Ground(const QuadMesh &mesh, const double period, std::optional<CollaredMesh> collared)
-          : cells(collared ? *std::move(collared) : without_collar(mesh, period)),
-            has_collar(cells.n_inner < cells.mesh.triangle.size()),
-            search(cells.mesh)
-      {}
     };
 
     // Largest difference at any node between the two sides of the nodal identity / largest contact force.
@@ -114,42 +100,15 @@ namespace diptych::coupling
     }
   } // namespace
 
-  QuadMesh tiled(const QuadMesh &mesh, const double period)
-  {
-    QuadMesh result;
-    for (const int image : images)
-      {
-        const unsigned int first = result.node.size(), first_cell = result.cell.size();
-        for (const Eigen::Vector2d &x : mesh.node)
-          result.node.emplace_back(x.x() + image * period, x.y());
-        for (auto cell : mesh.cell)
-          {
-            for (unsigned int &node : cell)
-              node += first;
-            result.cell.push_back(cell);
-          }
-        for (auto triangle : mesh.triangle)
-          {
-            for (unsigned int &node : triangle.node)
-              node += first;
-            triangle.cell += first_cell;
-            result.triangle.push_back(triangle);
-          }
-      }
-    return result;
-  }
-
   MappedGrains map_grains(const QuadMesh &mesh, const discrete::Snapshot &grains)
   {
-    const double period = grains.cell_width;
-    Network      network{grains.position, grains.window_forces};
-    if (period > 0)
-      network = wrapped(std::move(network), period, left_end(mesh));
-    const Ground ground(mesh, period, network);
-    const auto  &cells = ground.cells.mesh;
-    MappedGrains result{map_segments(cells, ground.search, network.position, network.contacts), NAN, false};
+    const Period  period  = period_of(grains);
+    const Network network = network_in(mesh, period, grains.position, grains.window_forces);
+    const Ground  ground(mesh, period, network);
+    const auto   &cells = ground.cells.mesh;
+    MappedGrains  result{map_segments(cells, ground.search, network.position, network.contacts), NAN, false};
 
-    result.has_collar = ground.has_collar && result.moment.outside_weight == 0;
+    result.has_collar = ground.cells.is_closed && result.moment.outside_weight == 0;
     if (result.has_collar)
       result.nodal_residual = relative_difference(ground, nodal_forces(cells, result.moment),
                                                   nodal_contact_forces(cells, ground.search, network.position, network.contacts),
@@ -163,35 +122,39 @@ namespace diptych::coupling
                            const discrete::Snapshot           &grains,
                            const std::vector<Eigen::Vector2d> &acceleration)
   {
-    const double period = grains.cell_width;
-    Network      network{grains.position, grains.contacts};
-    if (period > 0)
-      network = wrapped(std::move(network), period, left_end(mesh));
+    const Period       period  = period_of(grains);
+    Network            network = network_in(mesh, period, grains.position, grains.contacts);
     const Ground       ground(mesh, period, network);
     discrete::Snapshot last = grains;
     last.position           = std::move(network.position);
     last.contacts           = std::move(network.contacts);
 
     const MappedMoment mapped = map_segments(ground.cells.mesh, ground.search, last.position, last.contacts);
-    if (!ground.has_collar || mapped.outside_weight > 0)
+    if (!ground.cells.is_closed || mapped.outside_weight > 0)
       return NAN;
     return relative_difference(ground, nodal_forces(ground.cells.mesh, mapped),
                                nodal_applied_forces(ground.cells.mesh, ground.search, last, acceleration), last.contacts);
   }
 
+  CellCover grain_cover(const QuadMesh              &mesh,
+                        const Period                &period,
+                        std::vector<Eigen::Vector2d> position,
+                        std::vector<double>          radius)
+  {
+    if (period.any())
+      (void)period.wrap(lower_corner(mesh, period), position);
+    const std::size_t n = position.size();
+    for (const Eigen::Vector2d &shift : period.neighbours())
+      for (std::size_t i = 0; i < n; ++i)
+        {
+          position.emplace_back(position[i] + shift);
+          radius.push_back(radius[i]);
+        }
+    return cell_cover(mesh, TriangleSearch(mesh), position, radius);
+  }
+
   CellCover grain_cover(const QuadMesh &mesh, const discrete::Snapshot &grains)
   {
-    if (!(grains.cell_width > 0))
-      return cell_cover(mesh, TriangleSearch(mesh), grains.position, grains.radius);
-    const std::vector<Eigen::Vector2d> own = wrapped({grains.position, {}}, grains.cell_width, left_end(mesh)).position;
-    std::vector<Eigen::Vector2d>       position;
-    std::vector<double>                radius;
-    for (const int image : images)
-      {
-        for (const Eigen::Vector2d &x : own)
-          position.emplace_back(x.x() + image * grains.cell_width, x.y());
-        radius.insert(radius.end(), grains.radius.begin(), grains.radius.end());
-      }
-    return cell_cover(mesh, TriangleSearch(mesh), position, radius);
+    return grain_cover(mesh, period_of(grains), grains.position, grains.radius);
   }
 } // namespace diptych::coupling

@@ -11,24 +11,6 @@
 
 namespace diptych::coupling
 {
-  namespace
-  {
-    // x and its images by whole periods, as far as they are within reach of abscissae from low to high.
-    std::vector<Eigen::Vector2d> images_near(const Eigen::Vector2d &x,
-                                             const double           period,
-                                             const double           reach,
-                                             const double           low,
-                                             const double           high)
-    {
-      if (!(period > 0))
-        return {x};
-      std::vector<Eigen::Vector2d> images;
-      for (double k = std::ceil((low - reach - x.x()) / period); x.x() + k * period <= high + reach; ++k)
-        images.emplace_back(x.x() + k * period, x.y());
-      return images;
-    }
-  } // namespace
-
   std::vector<Eigen::Matrix2d> stress_at_points(const QuadMesh                     &mesh,
                                                 const discrete::Snapshot           &grains,
                                                 const std::vector<Eigen::Vector2d> &points,
@@ -36,7 +18,7 @@ namespace diptych::coupling
                                                 const double                        width)
   {
     const Kernel              kernel(shape, width);
-    const TargetCells         region(mesh, grains.cell_width);
+    const TargetCells         region(mesh, period_of(grains));
     KernelQuadrature          quadrature(region, kernel);
     KernelQuadrature::Weights weights;
 
@@ -56,11 +38,12 @@ namespace diptych::coupling
           }
       }
 
-    double low = INFINITY, high = -INFINITY; // range of the places
+    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(kernel.reach());
+    Eigen::Vector2d       low = region.lower, high = region.upper; // box of the mesh and the places
     for (const Eigen::Vector2d &x : place)
       {
-        low  = std::min(low, x.x());
-        high = std::max(high, x.x());
+        low  = low.cwiseMin(x);
+        high = high.cwiseMax(x);
       }
     const PointBins              bins(place, 0.5 * kernel.reach());
     std::vector<Eigen::Matrix2d> stress;
@@ -68,7 +51,7 @@ namespace diptych::coupling
       {
         const Eigen::Vector2d x   = region.wrapped(point);
         Eigen::RowVector4d    sum = Eigen::RowVector4d::Zero();
-        for (const Eigen::Vector2d &image : images_near(x, region.period, kernel.reach(), low, high))
+        for (const Eigen::Vector2d &image : region.period.images_in(x, low - reach, high + reach))
           bins.for_each_near(image, kernel.reach(),
                              [&](const unsigned int k) { sum += kernel((place[k] - image).squaredNorm()) * moment[k]; });
         quadrature.weights(x, weights);

@@ -70,7 +70,7 @@ namespace diptych::coupling
     }
 
     // The mesh with a collar that holds all half branches, so that boundary cells receive the same as from map_grains().
-    CollaredMesh ground_of(const TargetCells &target, const Carriers &carriers)
+    CollaredMesh ground_of_halves(const TargetCells &target, const Carriers &carriers)
     {
       std::vector<Eigen::Vector2d> ends;
       for (const HalfBranch &half : carriers.half)
@@ -78,8 +78,7 @@ namespace diptych::coupling
           ends.push_back(carriers.position[half.grain]);
           ends.push_back(ends.back() + half.vector);
         }
-      auto ground = target.period > 0 ? with_periodic_collar(target.mesh, target.period, ends) : with_collar(target.mesh, ends);
-      return ground ? *std::move(ground) : without_collar(target.mesh, target.period);
+      return ground_of(target.mesh, target.period, ends);
     }
 
     // Both sides of the nodal identities of the half branches' forces and couples (README.md). They are summed while the half
@@ -133,7 +132,7 @@ namespace diptych::coupling
         add_at_nodes(ground.mesh, search, {0, -couple}, to, moment_sides);
       }
 
-      bool   is_known() const { return !has_left && ground.n_inner < ground.mesh.triangle.size() && largest_force > 0; }
+      bool   is_known() const { return !has_left && ground.is_closed && largest_force > 0; }
       double residual() const
       {
         return is_known() ? largest_difference(ground, nodal_forces(ground.mesh, mapped), force_side) / largest_force : NAN;
@@ -162,7 +161,7 @@ namespace diptych::coupling
     {
       const bool                         uniform = carriers.uniform.cols() > 0, tapered = carriers.tapered.cols() > 0;
       double                             outside = 0;
-      const CollaredMesh                 ground  = ground_of(target, carriers);
+      const CollaredMesh                 ground  = ground_of_halves(target, carriers);
       const TriangleSearch               search(ground.mesh);
       NodalIdentity                      identity(ground, search);
       std::vector<TriangleSearch::Piece> pieces;

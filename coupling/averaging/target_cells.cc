@@ -2,14 +2,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/target_cells.h"
 
-#include "coupling/averaging/periodic.h"
-
 namespace diptych::coupling
 {
-  TargetCells::TargetCells(const QuadMesh &cells, const double period)
+  TargetCells::TargetCells(const QuadMesh &cells, const Period &period)
       : mesh(cells),
         period(period),
-        images(period > 0 ? tiled(cells, period) : cells),
+        images(tiled(cells, period)),
         search(images),
         area(cell_areas(cells))
   {

@@ -2,24 +2,23 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
-#include <cmath>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "coupling/cells/mesh_cells.h"
+#include "coupling/cells/period.h"
 #include "coupling/cells/triangle_search.h"
 
 namespace diptych::coupling
 {
-  // The cells of a mesh with a search; in a periodic sample it includes the images one period to either side.
+  // The cells of a mesh with a search; in a periodic sample it includes the surrounding images.
   struct TargetCells
   {
-    // period: width of the periodic cell [length], or 0 if the sample is not periodic. Throws as TriangleSearch does.
-    explicit TargetCells(const QuadMesh &cells, double period = 0);
+    // Throws as TriangleSearch does.
+    explicit TargetCells(const QuadMesh &cells, const Period &period = {});
 
     QuadMesh            mesh;
-    double              period;
+    Period              period;
     Eigen::Vector2d     lower, upper; // bounding box of the mesh
     QuadMesh            images;       // the mesh itself if it is not periodic
     TriangleSearch      search;       // searches `images`
@@ -32,11 +31,6 @@ namespace diptych::coupling
     }
 
     // The image of a point that lies within half a period of the middle of the mesh.
-    Eigen::Vector2d wrapped(const Eigen::Vector2d &x) const
-    {
-      if (!(period > 0))
-        return x;
-      return {x.x() - period * std::round((x.x() - 0.5 * (lower.x() + upper.x())) / period), x.y()};
-    }
+    Eigen::Vector2d wrapped(const Eigen::Vector2d &x) const { return x - period.nearest(x - 0.5 * (lower + upper)); }
   };
 } // namespace diptych::coupling

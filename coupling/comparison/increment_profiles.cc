@@ -73,6 +73,7 @@ namespace diptych::coupling
       copy.window_forces         = std::move(network.forces);
       copy.contacts              = std::move(network.contacts);
       copy.cell_width            = 0;
+      copy.cell_vectors.setZero();
       return copy;
     }
 

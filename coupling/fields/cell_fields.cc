@@ -49,7 +49,7 @@ namespace diptych::coupling
 
     SampleScale scale_of(const StagePair &stage)
     {
-      return {stage.grains_to.mean_diameter, stage.grains_to.cell_width};
+      return {stage.grains_to.mean_diameter, period_of(stage.grains_to)};
     }
 
     StressDifference difference_on_grid(const CellFields       &on_mesh,

@@ -17,7 +17,7 @@ namespace diptych::coupling
   struct SampleScale
   {
     double mean_diameter = 1; // [length]
-    double period        = 0; // width of a periodic sample [length], else 0
+    Period period        = {};
   };
 
   // A difference between the panels is meaningful only if both were averaged over the same cells or by the same kernel.

@@ -247,7 +247,7 @@ namespace diptych::coupling
     if (from.rotation.size() != to.rotation.size() || to.mean_internal_moment.size() != to.position.size() ||
         to.mean_spin_term.size() != to.position.size())
       throw std::invalid_argument("fields between two stages need snapshots of the same grains, with their moments");
-    const TargetCells target(mesh, to.cell_width);
+    const TargetCells target(mesh, period_of(to));
     Carriers          carriers = carriers_of(target, from, to);
     carriers.judge_nodes       = judge_nodes;
     const CellSums sums        = distribute(options, target, carriers);

@@ -27,17 +27,16 @@ namespace diptych::coupling
           images.position.push_back(target.wrapped(position[i]));
           images.grain.push_back(i);
         }
-      if (target.period > 0)
-        for (const double shift : {-target.period, target.period})
-          for (unsigned int i = 0; i < position.size(); ++i)
-            {
-              const Eigen::Vector2d x = images.position[i] + Eigen::Vector2d(shift, 0);
-              if (x.x() >= target.lower.x() - reach && x.x() <= target.upper.x() + reach)
-                {
-                  images.position.push_back(x);
-                  images.grain.push_back(i);
-                }
-            }
+      for (const Eigen::Vector2d &shift : target.period.neighbours())
+        for (unsigned int i = 0; i < position.size(); ++i)
+          {
+            const Eigen::Vector2d x = images.position[i] + shift;
+            if (x.x() >= target.lower.x() - reach && x.x() <= target.upper.x() + reach)
+              {
+                images.position.push_back(x);
+                images.grain.push_back(i);
+              }
+          }
       return images;
     }
 

@@ -126,7 +126,7 @@ namespace diptych::coupling
                             const double                   size)
     {
       const Grid        grid = grid_over(region, grains, size * grains.mean_diameter);
-      const TargetCells target(grid.mesh, grains.cell_width);
+      const TargetCells target(grid.mesh, period_of(grains));
       const CellSums    sums   = distribute({}, target, moment_carriers(grains.position, grains.radius, grains.window_forces));
       const auto        stress = [&](const unsigned int k) {
         Eigen::Matrix2d m = Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(sums.uniform.row(k).data());
@@ -213,7 +213,7 @@ namespace diptych::coupling
                                    const std::vector<StudyPoint> &points,
                                    const KernelShape              kernel)
   {
-    const TargetCells region(mesh, grains.cell_width);
+    const TargetCells region(mesh, period_of(grains));
     ResolutionStudy   study;
     for (const double width : kernel_widths)
       study.kernel.push_back(kernel_row(region, grains, points, kernel, width));

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "coupling/cells/period.h"
 #include "discrete/snapshot.h"
 
 namespace diptych::coupling
@@ -18,11 +19,11 @@ namespace diptych::coupling
 
     std::vector<discrete::ContactForce> forces;   // means since the preceding snapshot
     std::vector<discrete::ContactForce> contacts; // at the instant of the snapshot
-    double                              period = 0;
+    Period                              period = {};
   };
 
   // Moments and forces are means since the preceding snapshot. In a periodic sample, whole periods move grains and contact
-  // points to within half a period of the outline's middle.
+  // points into the outline.
   GrainNetwork grain_network(const discrete::Snapshot &snapshot);
 
   // The line along which a contact transmits its force. It runs from the centre of grain i to that of j (or of its image that
@@ -33,9 +34,9 @@ namespace diptych::coupling
     Eigen::Vector2d force;    // force on the body at `from` [pressure * length]
   };
 
-  // Branches of the contacts that carry force. period > 0: each branch three times, also one period to the left and to the right.
+  // Branches of the contacts that carry force. In a periodic sample each branch also at its surrounding copies.
   // Throws std::invalid_argument if a contact joins a grain that does not exist.
   std::vector<Branch> branches(const std::vector<Eigen::Vector2d>        &position,
                                const std::vector<discrete::ContactForce> &contacts,
-                               double                                     period = 0);
+                               const Period                              &period = {});
 } // namespace diptych::coupling

@@ -1,7 +1,7 @@
 // diptych: Python binding of the stress maps
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/averaging/averaging.h"
-#include "coupling/averaging/cell_cover.h"
+#include "coupling/averaging/periodic.h"
 #include "coupling/python/bindings.h"
 #include "coupling/python/inputs.h"
 
@@ -43,12 +43,13 @@ namespace diptych::python
     py::dict map_stress(const py::dict &grain_arrays,
                         const py::dict &contacts,
                         const py::dict &mesh_arrays,
-                        const double    period,
+                        const Numbers  &period,
                         const py::dict &keys)
     {
-      const GrainInput           grains = grains_of(grain_arrays);
-      const auto                 forces = contacts_of(contacts, grains);
-      const coupling::QuadMesh   mesh   = mesh_of(mesh_arrays);
+      const GrainInput           grains  = grains_of(grain_arrays);
+      const auto                 forces  = contacts_of(contacts, grains);
+      const coupling::QuadMesh   mesh    = mesh_of(mesh_arrays);
+      const coupling::Period     repeats = period_of(period);
       coupling::AveragingOptions options;
       set_options("comparison", keys, options);
 
@@ -59,10 +60,10 @@ namespace diptych::python
         const py::gil_scoped_release release;
         coupling::Carriers           carriers = coupling::moment_carriers(grains.position, grains.radius, forces);
         carriers.mean_diameter                = grains.mean_diameter;
-        const coupling::TargetCells target(mesh, period);
+        const coupling::TargetCells target(mesh, repeats);
         area   = target.area;
         result = mapped(coupling::distribute(options, target, carriers), carriers, area);
-        cover  = coupling::cell_cover(mesh, coupling::TriangleSearch(mesh), grains.position, grains.radius);
+        cover  = coupling::grain_cover(mesh, repeats, grains.position, grains.radius);
       }
       py::dict map;
       map["stress"]               = own(std::move(result.stress));

@@ -39,13 +39,14 @@ namespace diptych::python
     std::vector<Eigen::Vector2d> normal;
     if (const py::object given = entry(contacts, "normal"); !given.is_none())
       demand_size("normal", (normal = vectors_of(given.cast<Numbers>(), "normal")).size(), i.size());
-    std::vector<double> shift;
-    if (const py::object given = entry(contacts, "shift"); !given.is_none())
-      demand_size("shift", (shift = numbers_of(given.cast<Numbers>(), "shift")).size(), i.size());
-
-    std::vector<double> couple;
-    if (const py::object given = entry(contacts, "couple"); !given.is_none())
-      demand_size("couple", (couple = numbers_of(given.cast<Numbers>(), "couple")).size(), i.size());
+    const auto optional = [&](const char *name) {
+      const py::object    given = entry(contacts, name);
+      std::vector<double> values(i.size(), 0.);
+      if (!given.is_none())
+        demand_size(name, (values = numbers_of(given.cast<Numbers>(), name)).size(), i.size());
+      return values;
+    };
+    const std::vector<double> shift = optional("shift"), shift_y = optional("shift_y"), couple = optional("couple");
 
     std::vector<discrete::ContactForce> list;
     for (std::size_t k = 0; k < i.size(); ++k)
@@ -55,9 +56,20 @@ namespace diptych::python
                                       std::to_string(j[k]) + "; i must be one of the grains 0 ... " +
                                       std::to_string(grains.position.size() - 1) + ", walls j count on from their number");
         const Eigen::Vector2d n = normal.empty() ? (grains.position[std::size_t(i[k])] - point[k]).normalized() : normal[k];
-        list.push_back({i[k], j[k], point[k], n, force[k], shift.empty() ? 0 : shift[k], couple.empty() ? 0 : couple[k]});
+        list.push_back({i[k], j[k], point[k], n, force[k], shift[k], couple[k], shift_y[k]});
       }
     return list;
+  }
+
+  coupling::Period period_of(const Numbers &rows)
+  {
+    const auto vectors = vectors_of(rows, "period");
+    if (vectors.size() < 2)
+      return vectors.empty() ? 0. : vectors[0].x();
+    const Eigen::Matrix2d lattice = (Eigen::Matrix2d() << vectors[0], vectors[1]).finished();
+    if (!(lattice.determinant() > 0))
+      throw std::invalid_argument("period: the two vectors must span an area, the second one to the left of the first");
+    return coupling::Period(lattice);
   }
 
   coupling::QuadMesh mesh_of(const py::dict &mesh)

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "coupling/bands/band.h"
-#include "coupling/cells/mesh_cells.h"
+#include "coupling/cells/period.h"
 #include "coupling/python/arrays.h"
 #include "coupling/scene/keys.h"
 #include "coupling/scene/scene_error.h"
@@ -24,9 +24,12 @@ namespace diptych::python
   };
   GrainInput grains_of(const py::dict &grains);
 
-  // {"i": (c), "j": (c), "point": (c, 2), "force": (c, 2), "normal": (c, 2) or None, "shift" and "couple": (c) or None}. Without
-  // "normal", normals point from the contact point to the centre of i.
+  // {"i": (c), "j": (c), "point": (c, 2), "force": (c, 2), "normal": (c, 2) or None, "shift", "shift_y" and "couple": (c) or
+  // None}. Without "normal", normals point from the contact point to the centre of i.
   std::vector<discrete::ContactForce> contacts_of(const py::dict &contacts, const GrainInput &grains);
+
+  // Rows: none, (width, 0), or the two vectors of a cell. Throws std::invalid_argument for vectors that span no area.
+  coupling::Period period_of(const Numbers &rows);
 
   // {"nodes": (m, 2), "cells": (k, 4)}, corners anticlockwise.
   coupling::QuadMesh mesh_of(const py::dict &mesh);

@@ -98,6 +98,14 @@ class Record(dict[str, Any]):
         return f"<Record: {', '.join(self)}>"
 
 
+def periods_of(grains: Any) -> Array:
+    """(k, 2): the periods of a snapshot [length]: none, (width, 0), or the two vectors of a cell, a row each."""
+    width = getattr(grains, "cell_width", 0.0)
+    if getattr(grains, "cell_a2_y", 0.0):
+        return np.array([[grains.cell_a1_x, grains.cell_a1_y], [grains.cell_a2_x, grains.cell_a2_y]])
+    return np.array([[width, 0.0]] if width else []).reshape(-1, 2)
+
+
 class Mesh(NamedTuple):
     """Quadrilaterals: nodes (m, 2) [length]; cells (k, 4), corners anticlockwise."""
 

@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Smooths the stress of grains with kernels of several widths and looks for a plateau."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 from scipy.ndimage import gaussian_filter
 
+from .arrays import Array, periods_of
 from .operators import map_stress
-from .sheets import Sheet, outline_of
+from .sheets import cell_of, outline_of, Sheet
 
 WIDEST = 0.25  # of the smaller side of the sample: wider kernels give its mean everywhere
 WIDTHS = (0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0)  # of the kernel: standard deviations in mean diameters
@@ -47,32 +48,60 @@ def _verdict(rows: Sequence[dict[str, Any]], plateau: list[float] | None) -> str
                    "Means over the sample do not depend on w.")
 
 
+def _fine_sheet(snapshot: Any, outline: Sheet) -> Sheet:
+    """Cells of d/4 over the box of the grains, over the whole period of a periodic sample."""
+    d, periods = snapshot.mean_diameter, periods_of(snapshot)
+    if len(periods) == 2:
+        return cell_of(snapshot, d / 4)
+    low, high = snapshot.position.min(0) - 0.6 * d, snapshot.position.max(0) + 0.6 * d
+    if len(periods):
+        low[0], high[0] = outline.left[0], outline.right[0]
+    n_x, n_y = (max(2, round(4 * length / d)) for length in high - low)
+    return Sheet(left=np.full(n_y + 1, low[0]), right=np.full(n_y + 1, high[0]),
+                 height=np.linspace(low[1], high[1], n_y + 1), n_x=n_x)
+
+
+def _lengths(fine: Sheet) -> Array:
+    """(2): width and height of a sheet with straight sides, along its vectors."""
+    shares = np.array([fine.right[0] - fine.left[0], fine.height[-1] - fine.height[0]])
+    return np.asarray(shares * np.hypot(*fine.sides.T))
+
+
+def _smoother(snapshot: Any, fine: Sheet, width: float) -> Callable[[Array], Array]:
+    """Gaussian smoothing of values on the cells [rows, columns] to the standard deviation `width` along each axis."""
+    periods, count = periods_of(snapshot), np.array([len(fine.height) - 1, fine.n_x])
+    if len(periods) < 2:
+        size = _lengths(fine)[::-1] / count
+        sigma, mode = np.sqrt(width**2 - size**2 / 12) / size, ("constant", "wrap" if len(periods) else "constant")
+        return lambda values: np.asarray(gaussian_filter(values, sigma, mode=mode))
+    up, along = np.meshgrid(*(np.fft.fftfreq(n, 1 / n) for n in count), indexing="ij")  # waves per period
+    waves = np.stack([along, up], axis=-1) @ np.linalg.inv(periods).T
+    of_cells = ((along / count[1])**2 + (up / count[0])**2) / 12
+    factor = np.exp(-2 * np.pi**2 * (width**2 * (waves**2).sum(-1) - of_cells))
+    return lambda values: np.fft.ifft2(np.fft.fft2(values) * factor).real
+
+
 def width_scan(snapshot: Any) -> dict[str, Any]:
     """Local stress at three places and its scatter over the sample, for Gaussian kernels of standard deviations w.
 
     The moments are cut by cells of d/4 (method `segments`), smoothed and divided by the smoothed area of the outline.
     The variance of a cell is taken from the kernel's. Keys as `resolution_study` in comparison.json; {} below 3 d."""
-    d, outline = snapshot.mean_diameter, outline_of(snapshot, 1, 64)
-    low, high = snapshot.position.min(0) - 0.6 * d, snapshot.position.max(0) + 0.6 * d
-    if snapshot.cell_width:
-        low[0], high[0] = outline.left[0], outline.right[0]
-    n_x, n_y = (max(2, round(4 * length / d)) for length in high - low)
-    size = (high - low) / (n_x, n_y)
-    fine = Sheet(left=np.full(n_y + 1, low[0]), right=np.full(n_y + 1, high[0]),
-                 height=np.linspace(low[1], high[1], n_y + 1), n_x=n_x)
+    d = snapshot.mean_diameter
+    outline = cell_of(snapshot, d) if len(periods_of(snapshot)) == 2 else outline_of(snapshot, 1, 64)
+    fine = _fine_sheet(snapshot, outline)
+    n_x, n_y, lengths = fine.n_x, len(fine.height) - 1, _lengths(fine)
     stress = map_stress(snapshot, mesh=fine.mesh).symmetric.reshape(n_y, n_x, 2, 2)
-    centre, across = fine.mesh.centres, outline.share_across(fine.mesh.centres)
+    centre, across = outline.shares(fine.mesh.centres), outline.share_across(fine.mesh.centres)
     up = (centre[:, 1] - outline.height[0]) / (outline.height[-1] - outline.height[0])
     inside = ((across > 0) & (across < 1) & (up > 0) & (up < 1)).reshape(n_y, n_x)
     places = {name: fine.cell_of(outline.at(*share)[None])[0] for name, share in PLACES.items()}
     rows = []
     for width in WIDTHS:
-        if width * d > WIDEST * min(high - low):
+        if width * d > WIDEST * min(lengths):
             continue
-        sigma = np.sqrt((width * d)**2 - size[::-1]**2 / 12) / size[::-1]
-        mode = ("constant", "wrap" if snapshot.cell_width else "constant")
-        area = gaussian_filter(inside.astype(float), sigma, mode=mode)
-        xx, yy, xy = (gaussian_filter(stress[:, :, a, b], sigma, mode=mode) / np.maximum(area, 1e-9)
+        smooth = _smoother(snapshot, fine, width * d)
+        area = smooth(inside.astype(float))
+        xx, yy, xy = (smooth(stress[:, :, a, b]) / np.maximum(area, 1e-9)
                       for a, b in ((0, 0), (1, 1), (0, 1)))
         s, t = 0.5 * (xx + yy), np.hypot(0.5 * (xx - yy), xy)
         points = [{"name": name, "s": s.flat[k], "t_over_s": t.flat[k] / s.flat[k]} for name, k in places.items()]

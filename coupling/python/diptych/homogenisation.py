@@ -3,18 +3,19 @@
 """Homogenises snapshots of grains, computed or imported, without a continuum."""
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import product
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from .arrays import Array, Band, Interval, Mesh
+from .arrays import Array, Band, Interval, Mesh, periods_of
 from .averaging_width import width_scan
 from .laws import principal
 from .operators import displacement_gradient, find_bands, increment, map_stress, probe
 from .results import load
-from .sheets import Sheet, outline_of
+from .sheets import cell_of, outline_of, Sheet
 
 STRAIN_RADIUS = 2.5  # mean diameters, as in the comparison
 NO_FORCES = {"i": np.zeros(0, int), "j": np.zeros(0, int), "point": np.zeros((0, 2)), "force": np.zeros((0, 2))}
@@ -69,17 +70,35 @@ def has_forces(snapshot: Any) -> bool:
     return bool(np.any(snapshot.contacts.force)) or len(snapshot.window) > 0
 
 
+def _whole_periods(snapshot: Any, points: Array) -> Array:
+    """(n, k): how many of the k periods move each point into a periodic sample."""
+    periods, away = periods_of(snapshot), points - snapshot.outline_left[0]
+    return np.asarray(-np.floor(away @ np.linalg.pinv(periods) if len(periods) else np.zeros((len(points), 0))))
+
+
 def _wrapped(snapshot: Any, points: Array) -> Array:
-    """The points, moved by whole periods into the cell of a periodic sample."""
-    if not snapshot.cell_width:
-        return points
-    left = snapshot.outline_left[0, 0]
-    return np.column_stack([left + (points[:, 0] - left) % snapshot.cell_width, points[:, 1]])
+    """The points, moved by whole periods into a periodic sample."""
+    return np.asarray(points + _whole_periods(snapshot, points) @ periods_of(snapshot))
+
+
+def _earlier_periods(start: Any, end: Any, field: Any) -> Array:
+    """The periods at the start of the increment that became those at its end. A cell may take other vectors of the same
+    lattice meanwhile: the mean strain of the grains tells which."""
+    before, now = periods_of(start), periods_of(end)
+    if len(now) < 2:
+        return before
+    points = field.points - field.points.mean(0)
+    moved = np.linalg.lstsq(points, field.displacement - field.displacement.mean(0), rcond=None)[0]
+    return np.asarray(np.round((now - now @ moved) @ np.linalg.inv(before)) @ before)
 
 
 def _strain(start: Any, end: Any, at: Array) -> Array:
-    field = increment(start, end)
-    gradient = displacement_gradient(_wrapped(end, field.points), field.displacement, at, weight=field.weight,
+    field, now = increment(start, end), periods_of(end)
+    own, change = _whole_periods(end, field.points), now - _earlier_periods(start, end, field)
+    copies = [own + copy for copy in product((0, -1, 1), repeat=len(now))]
+    gradient = displacement_gradient(np.concatenate([field.points + copy @ now for copy in copies]),
+                                     np.concatenate([field.displacement + copy @ change for copy in copies]), at,
+                                     weight=np.tile(field.weight, len(copies)),
                                      radius=STRAIN_RADIUS * end.mean_diameter)
     return -0.5 * (gradient + gradient.transpose(0, 2, 1))
 
@@ -101,7 +120,8 @@ def _means(snapshot: Any, first: Any) -> dict[str, Any]:
     s1, s2, _ = principal(stress)
     acts = np.any(contacts.force != 0, axis=1)
     d = snapshot.mean_diameter
-    low, high = snapshot.position.min(0) - d, snapshot.position.max(0) + d
+    places = _wrapped(snapshot, snapshot.position)
+    low, high = places.min(0) - d, places.max(0) + d
     box = np.array([low, (high[0], low[1]), high, (low[0], high[1])])
     whole = probe(snapshot, box)  # encloses the contacts on the walls; ratios and directions do not depend on its area
     row |= {"contacts": int(acts.sum()), "coordination_number": (acts.sum() + np.sum(contacts.j[acts] < n)) / n,
@@ -153,6 +173,17 @@ def _between(start: Any, end: Any, maps: tuple[Array, Array], missing: list[dict
     return row | {"band_verdict": report.verdict, "bands": [_band(band, end.mean_diameter) for band in report.bands]}
 
 
+def _sheets(frames: list[Any], size: float) -> list[Sheet]:
+    """Cells of about `size` [length] over the outline of each frame, the same number in every one."""
+    first, left, right = frames[0], frames[0].outline_left, frames[0].outline_right
+    if len(periods_of(first)) == 2:
+        cells = cell_of(first, size)
+        return [replace(cells, corner=frame.outline_left[0], sides=periods_of(frame)) for frame in frames]
+    n_x = max(1, round((right[:, 0].mean() - left[:, 0].mean()) / size))
+    n_y = max(1, round((left[-1, 1] - left[0, 1]) / size))
+    return [outline_of(frame, n_x, n_y) for frame in frames]
+
+
 def homogenise(grains: Any, grid: float = 3.0) -> Homogenised:
     """Homogenises grains without a continuum.
 
@@ -176,10 +207,7 @@ def homogenise(grains: Any, grid: float = 3.0) -> Homogenised:
                for k, frame in enumerate(frames) if k not in scanned]
     if len(frames) == 1:
         missing.append({"quantity": "strain and bands", "reason": "there is only one frame"})
-    left, right, size = first.outline_left, first.outline_right, grid * first.mean_diameter
-    n_x = max(1, round((right[:, 0].mean() - left[:, 0].mean()) / size))
-    n_y = max(1, round((left[-1, 1] - left[0, 1]) / size))
-    sheets = [outline_of(snapshot, n_x, n_y) for snapshot in frames]
+    sheets = _sheets(frames, grid * first.mean_diameter)
     maps, increments = [_stress_maps(frame, sheet) for frame, sheet in zip(frames, sheets)], []
     for before, end, sheet, fields in zip(frames, frames[1:], sheets[1:], maps[1:]):
         strain, total = (_strain(start, end, sheet.mesh.centres) for start in (before, first))

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 
 from . import _diptych, scenes
-from .arrays import Array, Band, BandReport, Interval, Mesh, Record, StressMap
+from .arrays import Array, Band, BandReport, Interval, Mesh, periods_of, Record, StressMap
+from .sheets import cell_of
 
-_CONTACT = ("i", "j", "point", "force", "normal", "shift", "couple")
+_CONTACT = ("i", "j", "point", "force", "normal", "shift", "shift_y", "couple")
 
 
 def _column(table: Any, name: str) -> Any:
@@ -109,18 +110,19 @@ def contacts(grains: Any, i: Any, j: Any, force: Any, *, ids: Any = None,
 
 
 def map_stress(grains: Any, contacts: Any = None, mesh: Any = None, method: str = "segments", *,
-               period: float | None = None, **options: Any) -> StressMap:
+               period: Any = None, **options: Any) -> StressMap:
     """Maps contact forces to stress on the cells of a mesh. Conservative: the sums over cells and contacts are equal.
 
     grains    snapshot of a DiscretePanel, or position (n, 2), or x and y, and radius (or r) [length] in a dict or a
               DataFrame
     contacts  i, j (c), point (c, 2) [length], force (c, 2) ON i from j [pressure length]; i is a grain, j a grain or
-              (from n on) a wall; shift (c) of a periodic image of j; couple (c) ON i [pressure length^2]. Default for a
-              snapshot: the mean forces over the stage, or before the first stage those of the instant.
-    mesh      (nodes (m, 2), cells (k, 4) anticlockwise), grid(...), a continuum snapshot; default: grid over the
-              grains' box, 3 d
+              (from n on) a wall; shift, shift_y (c) of a periodic image of j; couple (c) ON i [pressure length^2].
+              Default for a snapshot: the mean forces over the stage, or before the first stage those of the instant.
+    mesh      (nodes (m, 2), cells (k, 4) anticlockwise), grid(...), a continuum snapshot; default: grid of 3 d over the
+              grains' box, or over the cell of a snapshot that is periodic in both directions
     method    segments (branches cut by the cells), centroid, laguerre, kernel, projection
-    period    width of a periodic cell [length], 0: none; default: that of the snapshot
+    period    width of a periodic sample [length], 0: none; or the two vectors (2, 2) of a cell periodic in both
+              directions, a row each; default: that of the snapshot
     options   averaging_kernel, averaging_width [mean diameters]: as in the section comparison of a scene
 
     Returns a StressMap: stress (k, 2, 2) positive in compression, row index = component of the force, and couple_stress
@@ -129,13 +131,18 @@ def map_stress(grains: Any, contacts: Any = None, mesh: Any = None, method: str 
     """
     given = _grains(grains)
     pairs = _contacts(contacts, grains)
+    if period is None:
+        periods = periods_of(grains)
+    else:
+        periods = np.array([[period, 0.0]] if np.ndim(period) == 0 else period, dtype=float)
+    if mesh is None and len(periods) == 2 and period is None:
+        mesh = cell_of(grains, 6 * given["radius"].mean()).mesh
     if mesh is None:
         position, radius = given["position"], given["radius"]
         mesh = grid((position - radius[:, None]).min(0), (position + radius[:, None]).max(0), 6 * radius.mean())
     cells = _mesh(mesh)
     keys = {"averaging": method, **{name: scenes.text_of(value) for name, value in options.items()}}
-    width = getattr(grains, "cell_width", 0.0) if period is None else period
-    result = _diptych.map_stress(given, pairs, cells._asdict(), width, keys)
+    result = _diptych.map_stress(given, pairs, cells._asdict(), periods, keys)
     result["covered"] = result["covered"].astype(bool)
     return StressMap(mesh=cells, **result)
 

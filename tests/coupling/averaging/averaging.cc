@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 
 #include "benchmarks/homogenisation/airy_network.h"
+#include "coupling/averaging/periodic.h"
+#include "coupling/averaging/point_stress.h"
 #include "tests/coupling/averaging/averaging_cases.h"
 
 namespace
@@ -57,6 +59,102 @@ namespace
           EXPECT_LT(loss(distribute(options, TargetCells(mesh, period), carriers), carriers), 1e-12) << period;
         });
       }
+  }
+
+  // A network in a cell with two periods, and the same network moved by one row of its mesh. Whole periods of each grain are
+  // random, and the contacts follow.
+  Network moved_in_cell(Network network, const Period &cell, const Eigen::Vector2d &step, const std::uint64_t seed)
+  {
+    std::mt19937_64              random(seed);
+    std::vector<Eigen::Vector2d> moves;
+    for (Eigen::Vector2d &x : network.position)
+      {
+        moves.emplace_back(step + cell.vectors *
+                                    Eigen::Vector2d(std::floor(uniform(random, -1, 2)), std::floor(uniform(random, -1, 2))));
+        x += moves.back();
+      }
+    follow_grains(moves, network.contacts);
+    return network;
+  }
+
+  // Parallelograms over the cell from `corner` on.
+  QuadMesh mesh_of(const Period &cell, const Eigen::Vector2d &corner, const unsigned int columns, const unsigned int rows)
+  {
+    QuadMesh mesh = box_mesh({0, 0}, {1, 1}, columns, rows);
+    for (Eigen::Vector2d &x : mesh.node)
+      x = corner + cell.vectors * x;
+    return mesh;
+  }
+
+  // A cell that is periodic in both directions has no edge.
+  TEST(Averaging, CellWithTwoPeriodsHasNoSeamAndAddsUpToTheGrains)
+  {
+    const Period       cell((Eigen::Matrix2d() << 20, 6, -3, 28).finished());
+    const unsigned int columns = 7, rows = 10;
+    const TargetCells  target(mesh_of(cell, {1, 2}, columns, rows), cell);
+    const Network      first    = moved_in_cell(random_network({0, 0}, {20, 30}, 400, 8), cell, {0, 0}, 9);
+    const Network      moved    = moved_in_cell(first, cell, cell.vectors.col(1) / rows, 10);
+    const Carriers     carriers = random_carriers(first, 11);
+    for (const AveragingOptions &options : averaging_methods)
+      {
+        SCOPED_TRACE(name_of(options));
+        const CellSums before = distribute(options, target, carriers);
+        EXPECT_LT(loss(before, carriers), 1e-12);
+        CellSums after = distribute(options, target, random_carriers(moved, 11)), back = after;
+        for (unsigned int to = 0; to < rows * columns; ++to)
+          {
+            const unsigned int from = (to + columns) % (rows * columns);
+            back.of_grains.row(to)  = after.of_grains.row(from);
+            back.uniform.row(to)    = after.uniform.row(from);
+            back.tapered.row(to)    = after.tapered.row(from);
+          }
+        EXPECT_LT(difference(before, back), 1e-10);
+      }
+  }
+
+  // One disc of diameter 1 in every parallelogram of 1, 60 degrees, with unit forces at its six contacts: sigma = sqrt(3) 1 and
+  // the solid fraction pi / (2 sqrt 3), in every cell and by every method. Contacts across all edges reach other images.
+  TEST(Averaging, LatticeInACellWithTwoPeriodsHasTheStressOfTheLattice)
+  {
+    const int             n    = 6;
+    const Eigen::Matrix2d unit = (Eigen::Matrix2d() << 1, 0.5, 0, std::sqrt(0.75)).finished();
+    const Period          cell(Eigen::Matrix2d(n * unit));
+    Network               network;
+    for (int k = 0; k < n * n; ++k)
+      {
+        network.position.emplace_back(unit * Eigen::Vector2d(k % n, k / n));
+        network.radius.push_back(0.5);
+        for (const auto &[along, up] : {std::pair(1, 0), std::pair(0, 1), std::pair(-1, 1)})
+          {
+            const Eigen::Vector2d there(k % n + along, k / n + up), image = (there / n).array().floor();
+            const int             j      = int(std::lround((there - n * image).x() + n * (there - n * image).y()));
+            const Eigen::Vector2d branch = unit * Eigen::Vector2d(along, up), shift = cell.vectors * image;
+            network.contacts.push_back({k, j, network.position.back() + 0.5 * branch, -branch, -branch, shift.x(), 0, shift.y()});
+          }
+      }
+    network = moved_in_cell(network, cell, {0, 0}, 12);
+    diptych::discrete::Snapshot grains;
+    grains.position = network.position, grains.radius = network.radius, grains.window_forces = network.contacts;
+    grains.mean_spin_term.assign(network.radius.size(), 0.);
+    grains.cell_vectors        = cell.vectors;
+    const QuadMesh        mesh = mesh_of(cell, {-0.31, -0.23}, n, n);
+    const TargetCells     target(mesh, cell);
+    const Eigen::Vector4d expected(std::sqrt(3.), 0, 0, std::sqrt(3.));
+    for (const AveragingOptions &options : averaging_methods)
+      {
+        const CellSums sums = distribute(options, target, moment_carriers(grains.position, grains.radius, grains.window_forces));
+        for (unsigned int k = 0; k < target.n_cells(); ++k)
+          EXPECT_LT((sums.uniform.row(k).head<4>().transpose() / target.area[k] - expected).norm(), 1e-10) << name_of(options);
+      }
+    const MappedGrains mapped = map_grains(mesh, grains);
+    EXPECT_TRUE(mapped.has_collar);
+    EXPECT_LT(mapped.nodal_residual, 1e-12);
+    for (const Eigen::Matrix2d &stress : cell_stress(mesh, mapped.moment))
+      EXPECT_LT((stress - std::sqrt(3.) * Eigen::Matrix2d::Identity()).norm(), 1e-12);
+    for (const double solid : grain_cover(mesh, grains).solid_fraction)
+      EXPECT_NEAR(solid, M_PI / std::sqrt(12.), 1e-12);
+    const Eigen::Matrix2d middle = stress_at_points(mesh, grains, {{0, 0}}, KernelShape::gauss, 2.)[0];
+    EXPECT_LT((middle - std::sqrt(3.) * Eigen::Matrix2d::Identity()).norm(), 1e-3); // the kernel's quadrature
   }
 
   // A periodic sample has no sides: if the grains move by one column of a regular grid, the sums move by one column.
