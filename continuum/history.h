@@ -58,7 +58,8 @@ namespace diptych::continuum
     visit("axial_strain", r.axial_strain, "-", "descent of the upper platen / initial height");
     visit("stress_ratio", r.stress_ratio, "-",
           ColumnMeaning{"t/s of the mean stress; nan if the sample carries no stress", true});
-    visit("volumetric_strain", r.volumetric_strain, "-", "1 - V/V0, dilation negative");
+    visit("volumetric_strain", r.volumetric_strain, "-",
+          "1 - V/V0, dilation negative; geometry = small_strain: trace of the mean strain");
     visit("sxx", r.mean_stress(0, 0), "pressure", "mean stress over the area, xx component");
     visit("sxy", r.mean_stress(0, 1), "pressure", "mean stress, xy component (x component of the force on a face with normal y)");
     visit("syy", r.mean_stress(1, 1), "pressure", "mean stress, yy component");

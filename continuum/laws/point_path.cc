@@ -87,13 +87,14 @@ namespace diptych::continuum
     return path;
   }
 
-  void validate(const PathSize &size)
+  void validate(const NamedPath name, const PathSize &size)
   {
     std::ostringstream wrong;
     if (!(size.pressure > 0 && std::isfinite(size.pressure)))
       wrong << "pressure = " << size.pressure << " must be positive";
-    else if (!(size.strain > 0 && size.strain < 1))
-      wrong << "axial_strain = " << size.strain << " must lie in (0, 1)";
+    else if (const double most = name == NamedPath::simple_shear ? 1e4 : 1; !(size.strain > 0 && size.strain < most))
+      wrong << "axial_strain = " << size.strain << " must lie in (0, " << most << "); path " << name_of(name)
+            << (name == NamedPath::simple_shear ? " shears" : " shortens the height") << " by it";
     else if (!(size.step >= 1e-7 && size.step < 1))
       wrong << "step = " << size.step << " must lie in [1e-7, 1)";
     if (!wrong.str().empty())
@@ -102,7 +103,7 @@ namespace diptych::continuum
 
   PointPath named_path(const NamedPath name, const PathSize &size)
   {
-    validate(size);
+    validate(name, size);
     PointPath path = PointPath::from(size.pressure, size.k0);
     if (name == NamedPath::constant_volume)
       path.controls[1] = Control::volume;

@@ -77,13 +77,13 @@ namespace diptych::continuum
   struct PathSize
   {
     double pressure = 1;    // lateral stress of the start, also out of the plane [pressure], positive
-    double strain   = 0.1;  // final 1 - h/h0, in (0, 1); simple_shear: final 2 exy
+    double strain   = 0.1;  // final 1 - h/h0, in (0, 1); simple_shear: final 2 exy, up to 1e4
     double step     = 1e-3; // increment of this strain; the last step may be shorter
     double k0       = 1;    // lateral over axial stress of the start, positive
   };
 
   // Throws std::invalid_argument with the member of `size` that is out of range.
-  void      validate(const PathSize &size);
+  void      validate(NamedPath name, const PathSize &size);
   PointPath named_path(NamedPath name, const PathSize &size);
 
   // Divides the way between two rows into equal steps: at most `strain_step` in a strain and 1 % of the pressure in a stress. The

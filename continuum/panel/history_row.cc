@@ -40,6 +40,27 @@ namespace diptych::continuum
       return sum(moment, mesh.communicator()) / sum(problem.geometry().area, mesh.communicator());
     }
 
+    // Mean trace of the small strain on the initial shape, positive in compression; the divergence of the place itself is 2.
+    double mean_trace(const BoundaryValueProblem &problem, const std::vector<Eigen::Vector2d> &position)
+    {
+      const auto &mesh     = problem.discretisation();
+      const auto &geometry = problem.geometry();
+      double      dilation = 0;
+      for (std::size_t c = 0; c < geometry.cells.size(); ++c)
+        for (unsigned int q = 0; q < mesh.reference.n_points; ++q)
+          {
+            const PointGeometry &point      = geometry.cells[c].points[q];
+            double               divergence = -2;
+            for (unsigned int node = 0; node < mesh.reference.n_nodes; ++node)
+              {
+                const Eigen::Vector2d &x = position[mesh.cells[c].nodes[node]];
+                divergence += point.gradient[node][0] * x.x() + point.gradient[node][1] * x.y();
+              }
+            dilation += point.area * divergence;
+          }
+      return 0 - sum(dilation, mesh.communicator()) / sum(geometry.area, mesh.communicator());
+    }
+
     void add_point_sums(const BoundaryValueProblem &problem, HistoryRow &row)
     {
       const auto  &mesh     = problem.discretisation();
@@ -92,8 +113,8 @@ namespace diptych::continuum
       row.dissipation                   = sum(dissipation, mesh.communicator());
       row.max_equivalent_plastic_strain = dealii::Utilities::MPI::max(largest, mesh.communicator());
       const double moved_area           = sum(problem.moved_geometry().area, mesh.communicator());
-      row.volumetric_strain             = 1 - moved_area / problem.initial_area();
-      row.width                         = moved_area / height;
+      row.volumetric_strain = problem.moves() ? 1 - moved_area / problem.initial_area() : mean_trace(problem, position);
+      row.width             = moved_area / height;
     }
 
     void add_localisation(const BoundaryValueProblem &problem, HistoryRow &row)

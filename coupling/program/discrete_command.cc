@@ -121,9 +121,11 @@ namespace diptych::coupling
       const auto         at   = [&](const double progress) { return text_of(rows.back().loading_variable, progress); };
       std::ostringstream text;
       text.precision(4);
-      text << "discrete panel: peak t/s " << peak.value << " at " << at(peak.progress) << ", at the end "
-           << mean_over_progress(history, "stress_ratio", end - width, end) << " at " << at(end) << "; " << rows.back().step
-           << " steps";
+      text << "discrete panel: ";
+      if (std::isfinite(peak.value)) // a shorter loading has no running mean
+        text << "peak t/s " << peak.value << " at " << at(peak.progress) << ", ";
+      text << "t/s at the end " << mean_over_progress(history, "stress_ratio", end - width, end) << " at " << at(end) << "; "
+           << rows.back().step << " steps";
       if (const double number = inertial_number(scene);
           scene.loading.mode != discrete::LoadingMode::time && std::isfinite(number))
         text << ", I = " << number;

@@ -14,6 +14,7 @@
 #include "discrete/files/csv_file.h"
 #include "discrete/files/table_file.h"
 #include "discrete/files/words.h"
+#include "discrete/files/wrong_keys.h"
 
 namespace diptych::coupling
 {
@@ -46,12 +47,12 @@ namespace diptych::coupling
         return path_of_table(line.path, scene);
       try
         {
-          return continuum::named_path(
+          return named_path_of(
             *name, {scene.loading.pressure, scene.loading.axial_strain, scene.continuum.initial_step, scene.continuum.k0});
         }
-      catch (const std::invalid_argument &error)
+      catch (const discrete::WrongKeys &error)
         {
-          throw SceneError(line.target + ": loading/pressure, loading/axial_strain or continuum/initial_step: " + error.what());
+          throw SceneError(line.target + ": " + error.what());
         }
     }
 
@@ -65,12 +66,17 @@ namespace diptych::coupling
         return text_of(shears ? continuum::LoadingVariable::shear_strain : continuum::LoadingVariable::axial_strain,
                        row.progress);
       };
-      const auto         peak = std::max_element(rows.begin(), rows.end(),
-                                                 [](const auto &a, const auto &b) { return a.stress_ratio < b.stress_ratio; });
+      const auto         ratio = [](const MaterialPointRow &row) { return row.syy + row.sxx > 0 ? row.stress_ratio : -1; };
+      const auto         peak  = std::max_element(rows.begin(), rows.end(),
+                                                  [&](const auto &a, const auto &b) { return ratio(a) < ratio(b); });
       std::ostringstream text;
       text.precision(6);
-      text << "peak stress ratio " << peak->stress_ratio << " at " << at(*peak) << ", " << rows.back().stress_ratio << " at "
-           << at(rows.back());
+      text << "peak stress ratio " << peak->stress_ratio << " at " << at(*peak) << ", ";
+      if (ratio(rows.back()) < 0)
+        text << "mean stress " << 0.5 * (rows.back().sxx + rows.back().syy) << " (tension)";
+      else
+        text << rows.back().stress_ratio;
+      text << " at " << at(rows.back());
       const auto outside = std::find_if(rows.begin(), rows.end(),
                                         [](const auto &row) { return row.verdict == continuum::PointVerdict::zz_outside; });
       if (outside != rows.end())

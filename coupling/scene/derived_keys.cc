@@ -289,6 +289,14 @@ namespace diptych::coupling
       if (o.method.method != Method::automatic)
         return;
       const double accuracy = o.accuracy.accuracy, cost = cost_over_springs(scene, accuracy);
+      if (o.lateral.lateral == discrete::Lateral::cell && has_no_pressure(discrete_loading(scene.loading).path))
+        {
+          o.method.method     = Method::compliant;
+          scene.method_reason = "loading/path prescribes exx and eyy, and rigid grains have no stress of their own then";
+          if (given.count("discrete/penalty_stiffness") == 0)
+            o.penalty.stiffness = 1e4;
+          return;
+        }
       o.method.method     = Method::nscd;
       scene.method_reason = accuracy < accuracy_of_springs
                               ? "springs are right to " + discrete::exact_text(accuracy_of_springs) + " only"

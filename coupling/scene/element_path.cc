@@ -5,9 +5,23 @@
 #include "coupling/scene/scene_error.h"
 #include "discrete/files/csv_file.h"
 #include "discrete/files/words.h"
+#include "discrete/files/wrong_keys.h"
 
 namespace diptych::coupling
 {
+  continuum::PointPath named_path_of(const continuum::NamedPath name, const continuum::PathSize &size)
+  {
+    try
+      {
+        return continuum::named_path(name, size);
+      }
+    catch (const std::invalid_argument &error)
+      {
+        throw discrete::WrongKeys({"loading/axial_strain", "loading/path", "loading/pressure", "continuum/initial_step"},
+                                  std::string("loading/") + error.what());
+      }
+  }
+
   bool PathOption::names_a_file() const
   {
     return !continuum::value_of<continuum::NamedPath>(text);
@@ -31,6 +45,8 @@ namespace diptych::coupling
           places.push_back(c);
         }
     const std::string first = file + ", header line: ";
+    if (table.rows.size() < 2)
+      throw SceneError(file + ": the path has one row, the start; it needs at least two");
     if (places.size() != 3)
       throw SceneError(first + std::to_string(places.size()) + " of the columns prescribe strain or stress; give three of " +
                        discrete::listed(controls) + ", for example eyy, sxx, exy");
@@ -50,13 +66,17 @@ namespace diptych::coupling
         const bool is_header = wrong.row == continuum::WrongPath::header;
         throw SceneError((is_header ? first : text_of(Place(file, table.line[wrong.row])) + ": ") + wrong.what());
       }
+    const Eigen::Vector3d start = path.values[0];
+    for (Eigen::Vector3d &row : path.values) // strains count from the first row
+      for (int k = 0; k < 3; ++k)
+        row[k] -= is_stress(path.controls[k]) ? 0 : start[k];
     return path;
   }
 
   discrete::CellPath cell_path(const PathOption &option, const continuum::PathSize &size)
   {
     const auto                 name  = continuum::value_of<continuum::NamedPath>(option.text);
-    const continuum::PointPath point = name ? continuum::named_path(*name, size) : read_path_table(option.text, size.pressure);
+    const continuum::PointPath point = name ? named_path_of(*name, size) : read_path_table(option.text, size.pressure);
     discrete::CellPath         path;
     for (int k = 0; k < 3; ++k)
       {
@@ -66,8 +86,6 @@ namespace diptych::coupling
     path.values = point.values;
     for (std::size_t row = 0; row < path.values.size(); ++row)
       path.progress.push_back(point.progress_at(row));
-    if (path.values.size() < 2)
-      throw SceneError(option.text + ": the path of a cell needs at least two rows");
     return path;
   }
 } // namespace diptych::coupling

@@ -22,8 +22,12 @@ namespace diptych::coupling
   }
 
   // Path of a CSV file from the lateral stress `pressure` and the axial one pressure / k0. Three columns are named like controls;
-  // a column `progress` is optional. Throws SceneError with file, line, column and range.
+  // a column `progress` is optional. Strains of the path count from the first row of the file. Throws SceneError with file, line,
+  // column and range.
   continuum::PointPath read_path_table(const std::string &file, double pressure, double k0 = 1);
+
+  // As continuum::named_path(). Throws WrongKeys.
+  continuum::PointPath named_path_of(continuum::NamedPath name, const continuum::PathSize &size);
 
   // Path of the cell of grains that `option` names. The size holds the pressure; a name also takes its strain and step.
   discrete::CellPath cell_path(const PathOption &option, const continuum::PathSize &size);

@@ -39,7 +39,7 @@ namespace diptych::coupling
     loading.strain_rate              = o.strain_rate;
     loading.normal_pressure          = o.normal_pressure;
     if (o.mode == discrete::LoadingMode::path)
-      loading.path = cell_path(o.path, {o.pressure, o.axial_strain, 1e-3 * o.axial_strain});
+      loading.path = cell_path(o.path, {o.pressure, o.axial_strain, std::max(1e-7, 1e-3 * o.axial_strain)});
     return loading;
   }
 

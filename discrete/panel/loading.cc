@@ -127,6 +127,14 @@ namespace diptych::discrete
     }
   } // namespace
 
+  bool has_no_pressure(const CellPath &path)
+  {
+    for (int k = 0; k < 3; ++k)
+      if (path.is_stress[k] && !path.form.row(k).head<2>().isZero(0))
+        return false;
+    return true;
+  }
+
   void validate(const CellPath &path)
   {
     if (path.values.size() < 2 || path.progress.size() != path.values.size())

@@ -49,6 +49,9 @@ namespace diptych::discrete
     std::vector<double>          progress; // of each row, ascending: the loading variable
   };
 
+  // True if no normal stress is prescribed, so that the stress follows from the stiffness of the grains alone.
+  bool has_no_pressure(const CellPath &path);
+
   // Throws WrongKeys if there are too few rows, or one does not lead on.
   void validate(const CellPath &path);
 

@@ -53,6 +53,23 @@ namespace diptych::discrete
     return text.str();
   }
 
+  std::optional<std::string> rigid_obstacle(const Loading &loading, const StepResult &last, const double mean_diameter)
+  {
+    constexpr double largest_stress = 30, largest_overlap = 0.01; // P, mean diameters
+    const double     stress = 0.5 * (last.lattice.contacts[0] + last.lattice.contacts[1]) / loading.pressure,
+                 overlap    = last.largest_penetration / mean_diameter;
+    if (loading.mode != LoadingMode::path || !has_no_pressure(loading.path) ||
+        (stress <= largest_stress && overlap <= largest_overlap))
+      return {};
+    std::ostringstream text;
+    text << "rigid grains have no stress of their own if loading/path prescribes exx and eyy and the grains fill the cell (mean "
+            "stress "
+         << stress << " P, overlap " << overlap
+         << " mean diameters). Use springs (discrete/method = compliant or penalty, which auto chooses), prescribe a stress, or "
+            "prepare a looser sample (sample/preparation_friction)";
+    return text.str();
+  }
+
   std::string press_text(const Options &options)
   {
     std::ostringstream text;
@@ -69,10 +86,12 @@ namespace diptych::discrete
     return text.str();
   }
 
-  std::string interpenetration_text(const int step, const double penetration)
+  std::string interpenetration_text(const int step, const double penetration, const Options &options)
   {
     std::ostringstream text;
     text << "step " << step << ": grains interpenetrate by " << penetration << " mean diameters";
+    if (options.method.method != Method::nscd)
+      text << "; discrete/penalty_stiffness = " << options.penalty.stiffness << " is too soft for these stresses";
     return text.str();
   }
 

@@ -6,17 +6,21 @@
 #include <string>
 
 #include "discrete/panel/options.h"
+#include "discrete/stepping/time_stepping.h"
 
 namespace diptych::discrete
 {
   std::string unrest_text(const PreparationReport &report);
   std::string press_text(const Options &options); // springs blew up while they took up the pressure
   std::string momentum_text(int step, double residual);
-  std::string interpenetration_text(int step, double penetration); // [mean diameters]
+  std::string interpenetration_text(int step, double penetration, const Options &options); // [mean diameters]
 
   // Reason why a cell cannot follow its path any further, if there is one. The prescribed stress accelerates a cell whose grains
   // do not carry it, and a large shear narrows every cell until a grain would meet two images of another one.
   std::optional<std::string> cell_obstacle(const State &state, const Loading &loading, double mean_diameter, double density);
+
+  // Reason why rigid grains cannot follow a path that has_no_pressure(), if there is one.
+  std::optional<std::string> rigid_obstacle(const Loading &loading, const StepResult &last, double mean_diameter);
 
   std::string endless_text(int stage, double steps, const StepChoice &choice);
 

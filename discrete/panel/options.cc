@@ -59,8 +59,8 @@ namespace diptych::discrete
       const std::string method  = "discrete/method = " + name_of(o.method.method),
                         lateral = "discrete/lateral = " + name_of(o.lateral.lateral);
       const bool moves          = o.lateral.lateral == Lateral::rigid_walls || o.lateral.lateral == Lateral::periodic;
-      unused.unless(springs, method, {"penalty_stiffness", "penalty_damping"});
-      unused.unless(penalty, method, {"penalty_step_fraction", "penalty_preload", "penalty_preload_friction"});
+      unused.unless(springs, method, {"penalty_stiffness", "penalty_damping", "penalty_preload"});
+      unused.unless(penalty, method, {"penalty_step_fraction", "penalty_preload_friction"});
       unused.unless(!penalty || o.penalty.preload > 0, "discrete/penalty_preload = 0", {"penalty_preload_friction"});
       unused.unless(
         !penalty, method,
@@ -96,6 +96,21 @@ namespace diptych::discrete
                         "the last stage is at " + exact_text(loading.stages.back()) +
                           ", but the progress of loading/path ends at " + exact_text(end) +
                           ": leave out loading/axial_strain, or end there; without a column progress the rows count 0, 1, ...");
+      for (const auto &[key, gravity] : {std::pair("discrete/gravity_y", options.stepping.gravity_y),
+                                         std::pair("discrete/gravity_x", options.stepping.gravity_x)})
+        if (gravity != 0)
+          throw WrongKeys({key, "discrete/lateral"},
+                          key + (" = " + exact_text(gravity)) +
+                            ": nothing carries the weight of a cell, which has no bottom; leave it out");
+      // As cell_obstacle() demands of the loading; discs fill 0.84 of a dense cell.
+      const double grains = expected_grains(sample),
+                   shape  = std::sqrt(std::min(sample.width_over_height, 1 / sample.width_over_height)),
+                   side = shape * std::sqrt(0.25 * M_PI * grains / 0.84), least = 4 * (sample.radius_max + 0.5);
+      if (sample.file.empty() && !(sample.width > 0 && sample.height > 0) && side < least)
+        throw WrongKeys({"sample/grains", "sample/width_over_height", "discrete/lateral"},
+                        "a cell of sample/grains = " + exact_text(grains) + " is only " + exact_text(std::round(10 * side) / 10) +
+                          " mean diameters wide, but a grain must not meet two images of another one: give at least " +
+                          exact_text(std::ceil(grains * least * least / (side * side))) + " grains");
       if (!sample.file.empty())
         throw WrongKeys({"sample/file", "discrete/lateral"}, "sample/file: a cell cannot be read from a file");
       if (sample.rough_platens)

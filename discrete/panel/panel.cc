@@ -66,7 +66,8 @@ namespace diptych::discrete
         return fail(""); // stopped while the file was read
       now.state          = std::move(prepared.state);
       report.preparation = prepared.report;
-      const bool ready   = (prepared.report.quiet || fail(unrest_text(report.preparation))) && (!presses() || press(prepared));
+      const bool ready   = (prepared.report.quiet || fail(unrest_text(report.preparation))) &&
+                         (!presses(prepared) || press(prepared));
       report.preparation_cpu_s = cpu_seconds() - start;
       report.initial_height    = sample_height(now.state);
       report.platen_speed      = loading_.mode == LoadingMode::time ? 0 : rate_ * report.initial_height;
@@ -75,7 +76,9 @@ namespace diptych::discrete
       now.step = prepared.step; // length of the step that the impulses belong to
       StepSetting setting;
       setting.step          = prepared.step;
-      setting.law           = same_friction(presses() ? options_.penalty.preload_friction : prepared.report.friction);
+      setting.law           = presses(prepared) && !penalty()
+                                ? options_.law
+                                : same_friction(presses(prepared) ? options_.penalty.preload_friction : prepared.report.friction);
       setting.mean_diameter = setting_.mean_diameter;
       prepared_ = make_snapshot(now.state, prepared.last_step, {}, make_reference(now.state, setting_.mean_diameter, 0.),
                                 setting);
@@ -137,17 +140,27 @@ namespace diptych::discrete
     bool penalty() const { return options_.method.method == Method::penalty; }
     bool stop_requested() const { return hooks_.stop_requested && hooks_.stop_requested(); }
 
-    bool presses() const { return penalty() && loading_.mode != LoadingMode::time && options_.penalty.preload > 0; }
+    bool springs() const { return penalty() || setting_.compliance.stiffness > 0; }
 
-    // Compresses the springs of the penalty method. Returns false if it was stopped or the springs blew up.
+    // Springs of a file may be under stress already.
+    bool presses(const PreparedSample &prepared) const
+    {
+      return springs() && (penalty() || prepared.report.steps > 0) && loading_.mode != LoadingMode::time &&
+             options_.penalty.preload > 0;
+    }
+
+    // Compresses the springs. Returns false if it was stopped or the springs blew up.
     bool press(PreparedSample &prepared)
     {
-      const LoadingStart start = loading_start();
-      auto pressed = press_springs(now.state, {options_.penalty, start, setting_, sample_.density}, [this](const double share) {
-        show_progress("pressing the springs", share);
-        return !stop_requested();
-      });
-      if (!pressed || pressed->last_step.solve.status != SolveStatus::converged)
+      const LoadingStart start   = loading_start();
+      StepSetting        setting = setting_;
+      setting.step               = prepared.step;
+      auto pressed               = press_springs(now.state, {options_.penalty, start, setting, sample_.density, prepared},
+                                                 [this](const double share) {
+                                     show_progress("pressing the springs", share);
+                                     return !stop_requested();
+                                   });
+      if (!pressed || pressed->last_step.solve.status == SolveStatus::blown_up)
         return fail(pressed ? press_text(options_) : "");
       prepared.last_step = std::move(pressed->last_step);
       prepared.step      = pressed->step;
@@ -245,15 +258,11 @@ namespace diptych::discrete
       return false;
     }
 
-    // Between prescribed walls that cannot give way, rigid grains are forced into each other.
+    // Between prescribed walls that cannot give way, rigid grains are forced into each other; springs may be too soft.
     bool interpenetrate(const double penetration)
     {
       constexpr double limit = 0.3; // mean diameters
-      if (penetration <= limit || options_.method.method != Method::nscd)
-        return false;
-      now.report.status  = Status::not_converged;
-      now.report.message = interpenetration_text(now.row.step, penetration);
-      return true;
+      return penetration > limit && !fail(interpenetration_text(now.row.step, penetration, options_));
     }
 
     // Takes a step. If the sweeps stall, takes two halves, and these in halves again. Each half is another problem, and it mostly
@@ -297,7 +306,9 @@ namespace diptych::discrete
       now.report.axial_strain = strains.axial;
       now.report.shear_strain = strains.shear;
       now.report.progress     = loading_progress(now.state, loading_, now.reference.platen, now.reference.height);
-      const auto obstacle     = cell_obstacle(now.state, loading_, sample_.mean_diameter, sample_.density);
+      auto obstacle           = cell_obstacle(now.state, loading_, sample_.mean_diameter, sample_.density);
+      if (!obstacle && done && !springs())
+        obstacle = rigid_obstacle(loading_, last_, sample_.mean_diameter);
       if (!done || (obstacle && !fail(*obstacle)))
         return;
       ++now.report.steps;

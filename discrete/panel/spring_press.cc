@@ -1,4 +1,4 @@
-// diptych: preload of the springs of the penalty method before the loading
+// diptych: preload of the springs of penalty and compliant before the loading
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/panel/spring_press.h"
 
@@ -8,27 +8,54 @@
 
 namespace diptych::discrete
 {
+  namespace
+  {
+    // Implicit springs take up the pressure in about ten steps.
+    constexpr long   least_steps        = 20;
+    constexpr double unbalanced_at_rest = 0.005;
+
+    void hold_prepared_stress(State &state, const SpringPress &press)
+    {
+      const LoadingMode mode = press.start.loading.mode;
+      if (mode == LoadingMode::path)
+        return;
+      set_drives(state, {press.start.loading, press.start.lateral, {}, press.start.rate});
+      if (mode != LoadingMode::plane_shear && press.prepared.report.steps > 0)
+        state.walls[1].drive_y = AppliedForce{{{0.}, {press.prepared.last_step.wall_force[1].y()}}};
+    }
+  } // namespace
+
   std::optional<PressedSample> press_springs(State &state, SpringPress press, const std::function<bool(double)> &go_on)
   {
+    const bool   implicit = press.setting.compliance.stiffness > 0;
     const double pressure = press.setting.pressure;
-    press.setting.law     = same_friction(press.penalty.preload_friction);
-    press.setting.step    = penalty_step(state.grains, press.penalty.stiffness * pressure, press.penalty.step_fraction);
-    const double duration = press.penalty.preload * press.setting.mean_diameter * std::sqrt(press.density / pressure);
-    const long   n        = std::lround(std::ceil(duration / press.setting.step));
+    if (!implicit)
+      {
+        press.setting.law  = same_friction(press.penalty.preload_friction);
+        press.setting.step = penalty_step(state.grains, press.penalty.stiffness * pressure, press.penalty.step_fraction);
+        state.impulses.clear();
+      }
+    else
+      press.setting.solver.tolerance = 1e-4;
+    press.setting.accept_unconverged = true;
+    const double duration            = press.penalty.preload * press.setting.mean_diameter * std::sqrt(press.density / pressure);
+    const long   n                   = std::lround(std::ceil(duration / press.setting.step));
 
     stop(state);
-    state.impulses.clear();
-    if (press.start.loading.mode != LoadingMode::path) // a path starts from the isotropic pressure of the preparation
-      set_drives(state, {press.start.loading, press.start.lateral, {}, press.start.rate});
+    hold_prepared_stress(state, press);
     PenaltyState  springs;
+    StepCache     cache;
     PressedSample pressed{{}, press.setting.step};
-    for (long k = 0; k < n; ++k)
+    bool          rests = false;
+    for (long k = 0; k < n && !rests; ++k)
       {
         if (!go_on(double(k) / double(n)))
           return {};
-        pressed.last_step = advance_penalty(state, springs, press.setting, press.penalty);
-        if (pressed.last_step.solve.status != SolveStatus::converged)
+        pressed.last_step = implicit ? advance(state, press.setting, cache)
+                                     : advance_penalty(state, springs, press.setting, press.penalty);
+        if (pressed.last_step.solve.status == SolveStatus::blown_up)
           break;
+        rests = implicit && k >= least_steps && pressed.last_step.unbalanced_force < unbalanced_at_rest;
       }
     stop(state);
     return pressed;

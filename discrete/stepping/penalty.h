@@ -27,11 +27,12 @@ namespace diptych::discrete
     visitor("penalty_damping", o.damping, "-", {0., 1.},
             "penalty and compliant: damping of the normal dashpot as a fraction of the critical damping of the two bodies; there "
             "is no other damping");
-    visitor("penalty_preload", o.preload, "d sqrt(rho/P)", {0., 1e6},
-            "time in which the springs take up the pressure before the loading, with the platens at rest; 0: no preload. "
-            "loading/mode = time has no preload");
+    visitor(
+      "penalty_preload", o.preload, "d sqrt(rho/P)", {0., 1e6},
+      "time in which the springs take up the stress of the preparation before the loading (compliant: the longest time, and only "
+      "a prepared sample); 0: no preload. loading/mode = time has no preload");
     visitor("penalty_preload_friction", o.preload_friction, "-", {0., 100.},
-            "Coulomb coefficient of all contacts during the preload");
+            "penalty: Coulomb coefficient of all contacts during the preload");
   }
 
   // Step fraction x sqrt(m_min / stiffness), where m_min is the smallest mass of a free grain. [time] `stiffness` kn is a force

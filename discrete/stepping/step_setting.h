@@ -34,12 +34,12 @@ namespace diptych::discrete
             "Coulomb coefficient at the platens; below `friction` the sample slides along them");
     visitor("wall_friction", o.wall_friction, "-", {0., 100.}, "Coulomb coefficient at rigid side walls");
     visitor(
-      "rolling_friction", o.rolling_friction, "-", {0., 100.},
+      "rolling_friction", o.rolling_friction, "-", {0., 10.},
       "coefficient of rolling resistance between grains: the couple of a contact is at most this x the harmonic mean of the two "
       "radii x the normal force; 0: none. The preparation of a sample has none");
-    visitor("platen_rolling_friction", o.platen_rolling_friction, "-", {0., 100.},
+    visitor("platen_rolling_friction", o.platen_rolling_friction, "-", {0., 10.},
             "coefficient of rolling resistance at the platens; the length is the radius of the grain");
-    visitor("wall_rolling_friction", o.wall_rolling_friction, "-", {0., 100.},
+    visitor("wall_rolling_friction", o.wall_rolling_friction, "-", {0., 10.},
             "coefficient of rolling resistance at rigid side walls; the length is the radius of the grain");
     visitor("normal_restitution", o.normal_restitution, "-", {0., 1.},
             "Newton's restitution coefficient in the normal direction; 0: no rebound, 1: elastic");

@@ -56,6 +56,28 @@ class Element(Folder):
         self.assertIn("sxx = 1, syy", record["law"]["failure"])
         self.assertTrue(os.path.exists(self.path("report.html")))
 
+    def test_strains_of_a_table_count_from_its_first_row(self):
+        table = write(os.path.join(self.work, "path.csv"), "eyy,sxx,exy\n0.2,1,0\n0.21,1,0\n")
+        finished("element", SCENE, *SMALL, *setting(loading_path=table, loading_axial_strain=1,
+                                                    loading_stage_strain=1), "--output", self.folder)
+        for one in [*self.histories("discrete.csv"), *self.histories("material_point.csv")]:
+            numpy.testing.assert_allclose(one["eyy"], 0.01 * one["progress"], atol=1e-12)
+
+    def test_what_a_cell_cannot_do_is_refused_by_key_and_place(self):
+        table = write(os.path.join(self.work, "path.csv"), "eyy,sxx,exy\n0,1,0\n")
+        for keys, *texts in ((dict(discrete_gravity_y=-1), "discrete/gravity_y = -1", "no bottom"),
+                             (dict(sample_grains=12), "sample/grains = 12", "give at least"),
+                             (dict(loading_axial_strain=3, loading_stage_strain=1), "loading/axial_strain = 3",
+                              "must lie in (0, 1)"),
+                             (dict(loading_path=table), "path.csv", "one row")):
+            self.expect(2, ["discrete", SCENE, *SMALL, *setting(**keys), "--output", self.folder], *texts)
+        # a shear strain may be large, and a short run has no running mean
+        words = setting(loading_path="simple_shear", loading_axial_strain=2, loading_stage_strain=1,
+                        loading_inertial_number=0.1)
+        finished("discrete", SCENE, *SMALL, *words, "--output", self.folder)
+        words = setting(loading_axial_strain=1e-4, loading_stage_strain=1e-4)
+        self.assertNotIn("inf", finished("discrete", SCENE, *SMALL, *words, "--output", self.path("short")).stdout)
+
     def test_after_a_stop_the_finished_samples_are_kept(self):
         words = ("element", SCENE, *SMALL, "--seeds", "1-3", "--jobs", "1", "--output", self.folder)
         errors = self.expect_stopped(signal.SIGINT, lambda: any(

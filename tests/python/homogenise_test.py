@@ -98,6 +98,34 @@ def test_the_stress_of_another_code_is_that_of_its_files(name, copy, tmp_path): 
         np.testing.assert_allclose(mean[[0, 4]], [row.sxx, row.syy], rtol=1e-6)
 
 
+def test_maps_of_a_cell_keep_its_stress_and_follow_its_strain(tmp_path):
+    """Simple shear to 2 exy = 1.2 in six stages: the cell takes other lattice vectors on the way. Over a stage the mean
+    gradient of exp of the symmetric strain has the shear sinh(0.1)."""
+    (tmp_path / "cell.prm").write_text("")
+    words = {"sample/grains": 150, "discrete/lateral": "cell", "discrete/friction": 0.4, "loading/mode": "path",
+             "loading/path": "simple_shear", "loading/axial_strain": 1.2, "loading/stage_strain": 0.2,
+             "loading/inertial_number": 0.03, "discrete/tolerance": 1e-3}
+    program("discrete", tmp_path / "cell.prm", "--output", tmp_path / "cell", "--quiet",
+            *(word for key, value in words.items() for word in ("--set", f"{key}={value}")))
+    snapshots = diptych.load(tmp_path / "cell").discrete.snapshots
+    last = snapshots[-1]
+    assert abs(last.cell_a1_x - snapshots[0].cell_a1_x) < 0.5 * abs(snapshots[0].cell_a1_x), "other vectors"
+    pairs = last.window
+    branch = last.position[pairs.j] + np.column_stack([pairs.shift, pairs.shift_y]) - last.position[pairs.i]
+    total = -np.einsum("ca,cb->ab", pairs.force, branch)
+    for method in ("segments", "centroid", "laguerre", "kernel", "projection"):
+        found = diptych.map_stress(last, method=method)
+        assert found.area.sum() == pytest.approx(last.area, rel=1e-12) and found.outside_share == 0
+        np.testing.assert_allclose((found.area[:, None, None] * found.stress).sum(0), total,
+                                   atol=1e-12 * np.abs(total).max())
+        assert found.solid_fraction @ found.area == pytest.approx(np.pi * np.sum(last.radius**2), rel=1e-12)
+    found = diptych.homogenise(snapshots)
+    for increment in found.increments[:-1]:
+        assert increment["strain_xy"] == pytest.approx(np.sinh(0.1), rel=0.02)
+    scatter = [row["scatter_s"] for row in found.resolution_study["kernel"]]
+    assert scatter == sorted(scatter, reverse=True)
+
+
 def test_one_frame_has_all_but_strain_and_bands(copy, tmp_path):  # noqa: F811
     kind, files, _ = copy("plain_csv")
     said = program("homogenise", kind, *files, "--frames", "2", "--output", tmp_path / "out")

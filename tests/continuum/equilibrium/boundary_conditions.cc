@@ -149,6 +149,8 @@ namespace
     // Relaxing s_xx from 1 to 0 at fixed height reduces s_yy by nu/(1 - nu) = 0.25. Then E/(1 - nu^2) x 1e-3 = 0.520833 is
     // added.
     EXPECT_NEAR(c.end().mean_stress(1, 1), 0.75 + 0.520833, 1e-4);
+    // The trace of the strain: eyy = 1e-3 and exx = (1 - nu^2)/E (-1 - 0.25 (0.520833 - 0.25)) = -2.05e-3.
+    EXPECT_NEAR(c.end().volumetric_strain, 1e-3 - 2.05e-3, 1e-7);
   }
 
   // A rigid smooth wall under pressure moves as one. The mean of s_xx balances it, also if the field is inhomogeneous.

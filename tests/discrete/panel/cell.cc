@@ -201,6 +201,35 @@ namespace
       }
   }
 
+  // Oedometer (eyy, exx, exy) and constant volume (eyy, volume, exy): no stress is prescribed.
+  ElementTest strains_only(const double eyy, const double volume)
+  {
+    const Eigen::Matrix3d form = (Eigen::Matrix3d() << 0, 1, 0, 1, 1, 0, 0, 0, 0.5).finished();
+    return {"strains", form, {false, false, false}, {{0, 0, 0}, {eyy, volume, 0}}};
+  }
+
+  // The springs have taken up P before the path begins, though no stress is prescribed. Of the first rows, each 2e-5 of strain
+  // long, the mean stress is that of the preparation.
+  TEST(Cell, SpringsStartAtTheStressOfThePreparation)
+  {
+    for (const Method method : {Method::penalty, Method::compliant})
+      {
+        Options options                 = cell_options(method);
+        options.method.history_interval = 1;
+        options.penalty.stiffness       = 1000;
+        const Course course             = loaded(small_sample(100), loading_of(strains_only(1e-4, 0)), options);
+        ASSERT_EQ(course.report.status, Status::finished) << course.report.message;
+        EXPECT_NEAR(0.5 * course.rows.front().stress.trace(), P, 0.1 * P) << name_of(method);
+      }
+  }
+
+  TEST(Cell, RigidGrainsEndAPathThatCompressesThem)
+  {
+    const Course course = loaded(small_sample(100), loading_of(strains_only(0.02, 0.02)), cell_options());
+    EXPECT_EQ(course.report.status, Status::not_converged);
+    EXPECT_NE(course.report.message.find("no stress of their own"), std::string::npos) << course.report.message;
+  }
+
   // The time of a row follows from its changes; a path needs a cell.
   TEST(Cell, ARowThatChangesNothingIsRefused)
   {
