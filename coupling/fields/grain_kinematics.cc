@@ -84,9 +84,13 @@ namespace diptych::coupling
     const Images            images = images_of(target, grains.position, reach);
     DisplacementField       field;
     field.position = images.position;
-    for (const unsigned int i : images.grain)
+    // A free width moves an image relative to its grain.
+    const double stretch = to.cell_width > 0 ? 1 - from.cell_width / to.cell_width : 0.;
+    for (std::size_t k = 0; k < images.grain.size(); ++k)
       {
-        field.increment.push_back(grains.increment[i]);
+        const unsigned int    i    = images.grain[k];
+        const Eigen::Vector2d away = images.position[k] - grains.position[i];
+        field.increment.emplace_back(grains.increment[i] + stretch * away);
         field.weight.push_back(grains.weight[i]);
         field.rotation.push_back(grains.rotation[i]);
       }

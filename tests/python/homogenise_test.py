@@ -101,7 +101,7 @@ def test_the_stress_of_another_code_is_that_of_its_files(name, copy, tmp_path): 
 def test_maps_of_a_cell_keep_its_stress_and_follow_its_strain(tmp_path):
     """Simple shear to 2 exy = 1.2 in six stages: the cell takes other lattice vectors on the way. Over a stage the mean
     gradient of exp of the symmetric strain has the shear sinh(0.1)."""
-    (tmp_path / "cell.prm").write_text("")
+    (tmp_path / "cell.prm").write_text("# all in the words\n")
     words = {"sample/grains": 150, "discrete/lateral": "cell", "discrete/friction": 0.4, "loading/mode": "path",
              "loading/path": "simple_shear", "loading/axial_strain": 1.2, "loading/stage_strain": 0.2,
              "loading/inertial_number": 0.03, "discrete/tolerance": 1e-3}
@@ -120,8 +120,9 @@ def test_maps_of_a_cell_keep_its_stress_and_follow_its_strain(tmp_path):
                                    atol=1e-12 * np.abs(total).max())
         assert found.solid_fraction @ found.area == pytest.approx(np.pi * np.sum(last.radius**2), rel=1e-12)
     found = diptych.homogenise(snapshots)
-    for increment in found.increments[:-1]:
-        assert increment["strain_xy"] == pytest.approx(np.sinh(0.1), rel=0.02)
+    for increment, fields in zip(found.increments, found.maps[1:]):
+        assert increment["strain_xy"] == pytest.approx(np.sinh(0.1), rel=0.03)  # volume changes turn it a little
+        assert np.average(fields["strain_increment"][:, 0, 1], weights=fields["area"]) == pytest.approx(0.1, rel=0.15)
     scatter = [row["scatter_s"] for row in found.resolution_study["kernel"]]
     assert scatter == sorted(scatter, reverse=True)
 

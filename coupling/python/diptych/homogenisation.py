@@ -161,8 +161,11 @@ def _band(band: Band, d: float) -> dict[str, Any]:
 def _between(start: Any, end: Any, maps: tuple[Array, Array], missing: list[dict[str, str]]) -> dict[str, Any]:
     """Mean strain and bands from one frame to another. maps: strain increment (k, 2, 2) and area (k) of the cells."""
     strain, area = maps
-    known = np.isfinite(strain[:, 0, 0])
+    known, now = np.isfinite(strain[:, 0, 0]), periods_of(end)
     mean = np.average(strain[known], axis=0, weights=area[known]) if known.any() else np.full((2, 2), np.nan)
+    if len(now) == 2:  # a cell knows it exactly
+        kept = np.linalg.inv(now) @ _earlier_periods(start, end, increment(start, end))
+        mean = 0.5 * (kept + kept.T) - np.eye(2)
     row: dict[str, Any] = {"from": start.progress, "to": end.progress, "strain_xx": mean[0, 0], "strain_yy": mean[1, 1],
                            "strain_xy": mean[0, 1]}
     try:

@@ -114,6 +114,18 @@ namespace
       }
   }
 
+  // A sample whose period grew from 11.4 to 12, u = (0.05 x, 0) at the later places. Every third grain is shifted by a period.
+  TEST(GrainFields, ReproducesTheStretchOfAPeriodicSample)
+  {
+    discrete::Snapshot from = hexagonal(20);
+    for (std::size_t i = 0; i < from.position.size(); i += 3)
+      from.position[i].x() += 12, from.contacts.clear(), from.window_forces.clear();
+    const discrete::Snapshot to = moved(from, [](const Eigen::Vector2d &x) { return Eigen::Vector2d(0.05 * x.x(), 0); });
+    from.cell_width             = 11.4;
+    for (const Eigen::Matrix2d &gradient : grain_fields(hexagonal_mesh(20), from, to, {}).displacement_gradient)
+      EXPECT_LT((gradient - Eigen::Vector2d(0.05, 0).asDiagonal().toDenseMatrix()).norm(), 1e-12);
+  }
+
   // A common velocity adds to the velocity and changes nothing else.
   TEST(GrainFields, CommonVelocityChangesNothingElse)
   {
