@@ -51,25 +51,6 @@ namespace diptych::coupling
       return image_of;
     }
 
-    // For every node of the right side, the node of the left side one period away.
-    std::map<unsigned int, unsigned int> left_of(const QuadMesh                  &mesh,
-                                                 const std::vector<BoundaryEdge> &boundary,
-                                                 const double                     period)
-    {
-      const double                                 tolerance = 1e-6 * period;
-      std::vector<std::pair<double, unsigned int>> by_height;
-      for (const auto &edge : boundary)
-        by_height.emplace_back(mesh.node[edge.from].y(), edge.from);
-      std::sort(by_height.begin(), by_height.end());
-      std::map<unsigned int, unsigned int> left;
-      for (const auto &[height, right] : by_height)
-        for (auto other = std::lower_bound(by_height.begin(), by_height.end(), std::make_pair(height - tolerance, 0u));
-             other != by_height.end() && other->first <= height + tolerance; ++other)
-          if (std::abs(mesh.node[right].x() - mesh.node[other->second].x() - period) <= tolerance)
-            left[right] = other->second;
-      return left;
-    }
-
     struct PeriodicBoundary
     {
       std::map<unsigned int, unsigned int> left; // the left node that belongs to each node of the right side
@@ -82,7 +63,11 @@ namespace diptych::coupling
       std::set<std::pair<unsigned int, unsigned int>> edges;
       for (const auto &edge : boundary)
         edges.emplace(edge.from, edge.to);
-      PeriodicBoundary result{left_of(mesh, boundary, period), {}, {}};
+      const std::vector<unsigned int> same = same_nodes(mesh, period, 1e-6 * period);
+      PeriodicBoundary                result;
+      for (unsigned int node = 0; node < same.size(); ++node)
+        if (same[node] != node)
+          result.left[node] = same[node];
 
       std::set<std::pair<unsigned int, unsigned int>> sides;
       std::map<unsigned int, unsigned int>            on_side;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/scene/scene.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace diptych::coupling
@@ -39,7 +40,7 @@ namespace diptych::coupling
     loading.strain_rate              = o.strain_rate;
     loading.normal_pressure          = o.normal_pressure;
     if (o.mode == discrete::LoadingMode::path)
-      loading.path = cell_path(o.path, {o.pressure, o.axial_strain, std::max(1e-7, 1e-3 * o.axial_strain)});
+      loading.path = cell_path(o.path, {o.pressure, o.axial_strain, std::clamp(1e-3 * o.axial_strain, 1e-7, 0.5)});
     return loading;
   }
 

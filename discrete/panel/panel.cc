@@ -137,9 +137,8 @@ namespace diptych::discrete
   private:
     LoadingStart loading_start() const { return {loading_, options_.lateral, options_.drives, rate_}; }
 
-    bool penalty() const { return options_.method.method == Method::penalty; }
     bool stop_requested() const { return hooks_.stop_requested && hooks_.stop_requested(); }
-
+    bool penalty() const { return options_.method.method == Method::penalty; }
     bool springs() const { return penalty() || setting_.compliance.stiffness > 0; }
 
     // Springs of a file may be under stress already.
@@ -153,9 +152,7 @@ namespace diptych::discrete
     bool press(PreparedSample &prepared)
     {
       const LoadingStart start   = loading_start();
-      StepSetting        setting = setting_;
-      setting.step               = prepared.step;
-      auto pressed               = press_springs(now.state, {options_.penalty, start, setting, sample_.density, prepared},
+      auto               pressed = press_springs(now.state, {options_.penalty, start, setting_, sample_.density, prepared},
                                                  [this](const double share) {
                                      show_progress("pressing the springs", share);
                                      return !stop_requested();

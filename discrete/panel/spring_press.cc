@@ -36,7 +36,10 @@ namespace diptych::discrete
         state.impulses.clear();
       }
     else
-      press.setting.solver.tolerance = 1e-4;
+      {
+        press.setting.step             = press.prepared.step;
+        press.setting.solver.tolerance = 1e-4;
+      }
     press.setting.accept_unconverged = true;
     const double duration            = press.penalty.preload * press.setting.mean_diameter * std::sqrt(press.density / pressure);
     const long   n                   = std::lround(std::ceil(duration / press.setting.step));

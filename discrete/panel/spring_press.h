@@ -16,7 +16,7 @@ namespace diptych::discrete
   {
     const PenaltyOptions &penalty;
     const LoadingStart   &start;    // sets the sides; its wall drives are ignored
-    StepSetting           setting;  // with the friction of the loading; compliant: with the step of the preparation
+    StepSetting           setting;  // with the friction of the loading
     double                density;  // of the grains
     const PreparedSample &prepared; // a path keeps its isotropic pressure, and a platen its force; in a file platens rest
   };

@@ -67,8 +67,8 @@ class Element(Folder):
         table = write(os.path.join(self.work, "path.csv"), "eyy,sxx,exy\n0,1,0\n")
         for keys, *texts in ((dict(discrete_gravity_y=-1), "discrete/gravity_y = -1", "no bottom"),
                              (dict(sample_grains=12), "sample/grains = 12", "give at least"),
-                             (dict(loading_axial_strain=3, loading_stage_strain=1), "loading/axial_strain = 3",
-                              "must lie in (0, 1)"),
+                             (dict(loading_axial_strain=3, loading_stage_strain=1), "loading/axial_strain=3",
+                              "axial_strain = 3 must lie in (0, 1)"),
                              (dict(loading_path=table), "path.csv", "one row")):
             self.expect(2, ["discrete", SCENE, *SMALL, *setting(**keys), "--output", self.folder], *texts)
         # a shear strain may be large, and a short run has no running mean
