@@ -14,8 +14,8 @@ from running import content, SOURCE, write
 PACKAGE = os.path.join(SOURCE, "coupling", "python", "diptych")
 
 # The rooms of the package from the ground up: a folder or a module. A room imports itself and those before it.
-ROOMS = ("errors", "words", "files", "entries", "compiled", "scenes", "plotting", "arrays", "operators", "laws",
-         "panels", "problems", "results", "sheets", "averaging_width", "homogenisation", "shipped", "importers",
+ROOMS = ("errors", "words", "files", "entries", "compiled", "scenes", "plotting", "arrays", "sheets", "operators",
+         "laws", "panels", "problems", "results", "averaging_width", "homogenisation", "shipped", "importers",
          "report/data", "report/charts", "report/tables", "report/page", "report", "campaigns/runs",
          "campaigns/studies", "campaigns/ensembles", "campaigns/calibration", "campaigns/plans", "campaigns/exchange",
          "campaigns/element", "campaigns", "")
