@@ -25,13 +25,26 @@ def _instant(path: str, lines: list[str]) -> tuple[int, float]:
     raise refused(path, "the file ends without '$steps'", len(lines))
 
 
-def _motions(path: str) -> tuple[int, float, np.ndarray, np.ndarray]:
-    """Step, time, and (n, 3) displacement and velocity of every body, in the order of the file."""
+def _motions(path: str, bodies: Bodies) -> tuple[int, float, np.ndarray, np.ndarray]:
+    """Step, time, and (n, 3) displacement and velocity of every body, in the order of BODIES.DAT.
+
+    The pre-processor writes into DOF.INI only the bodies that do not start from 0; there a body is found by its number.
+    """
     lines = read_lines(path)
     x, v = (np.array([[field(path, k, line, rf"{name}\({axis}\)=") for axis in (1, 2, 3)]
                       for k, line in enumerate(lines, 1) if name + "(1)=" in line]).reshape(-1, 3) for name in "XV")
     if len(x) != len(v):
         raise refused(path, f"{len(x)} bodies have X, but {len(v)} have V; is the file truncated?", len(lines))
+    if _tail(path) == "INI" and len(x) < len(bodies.number):
+        given = [line.split()[1] for line in lines if re.fullmatch(r"\s*RBDY2\s+\d+\s*", line)]
+        rows = [k for k, number in enumerate(bodies.number) if number in given]
+        if not len(x) == len(given) == len(set(given)) == len(rows):
+            raise refused(path, f"has {len(x)} of the {len(bodies.number)} bodies of {bodies.path}, and their numbers "
+                          "do not tell which ones (each must occur once in both files)")
+        by_number = {number: k for k, number in enumerate(given)}
+        full = np.zeros((2, len(bodies.number), 3))
+        full[:, rows] = np.array([x, v])[:, [by_number[bodies.number[k]] for k in rows]]
+        x, v = full
     return *_instant(path, lines), x, v
 
 
@@ -123,7 +136,7 @@ def read(options: Options) -> list[Frame]:
     frames = [frame for path in files["h5"] for frame in _hdf5_frames(path, bodies, gravity)]
     contacts = {_tail(path): path for path in files["Vloc_Rloc"]}
     for path in files["DOF"]:
-        step, time, x, v = _motions(path)
+        step, time, x, v = _motions(path, bodies)
         frames.append(Frame(_tail(path), {}, step=step, time=time, gravity=gravity, grain_file=path))
         place_bodies(frames[-1], bodies, x, v)
         if _tail(path) in contacts:

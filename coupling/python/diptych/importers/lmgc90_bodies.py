@@ -18,6 +18,7 @@ class Bodies:
     """Arrays with one entry a body, in the order of the file; body k of a contact is entry k - 1."""
 
     path: str
+    number: list[str]  # as the file names the body
     is_wall: np.ndarray
     size: np.ndarray  # radius of a disc, half thickness of a wall
     place: np.ndarray  # (n, 3) coo1, coo2, coo3
@@ -79,7 +80,8 @@ def read_bodies(path: str, densities: dict[str, float], options: Options) -> Bod
     is_wall, size = np.array([block["is_wall"] for block in blocks]), np.array([block["size"] for block in blocks])
     equivalent = np.array([block.get("avrd", 0.0) for block in blocks])
     density = np.array([block.get("density", math.nan) for block in blocks])
-    return Bodies(path=path, is_wall=is_wall, size=size, place=np.array([block["place"] for block in blocks]),
+    return Bodies(path=path, number=[block["number"] for block in blocks], is_wall=is_wall, size=size,
+                  place=np.array([block["place"] for block in blocks]),
                   mass=density * math.pi * np.where(equivalent != 0, equivalent, size)**2)
 
 
