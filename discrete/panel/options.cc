@@ -34,7 +34,7 @@ namespace diptych::discrete
       unused.unless(!generated, file,
                     {"lower_platen", "upper_platen", "left_wall", "right_wall", "allowed_overlap", "prepare_file"});
       unused.unless(generated, file,
-                    {"grains", "radius_distribution", "radius_min", "radius_max", "radius_table", "width_over_height", "height",
+                    {"grains", "radius_distribution", "radius_min", "radius_max", "radius_table", "width_over_height",
                      "solid_fraction", "box_solid_fraction", "target_solid_fraction"});
       unused.unless(prepared, "sample/prepare_file = false",
                     {"preparation_steps", "preparation_step", "preparation_tolerance", "preparation_max_sweeps",
@@ -111,8 +111,6 @@ namespace diptych::discrete
                         "a cell of sample/grains = " + exact_text(grains) + " is only " + exact_text(std::round(10 * side) / 10) +
                           " mean diameters wide, but a grain must not meet two images of another one: give at least " +
                           exact_text(std::ceil(grains * least * least / (side * side))) + " grains");
-      if (!sample.file.empty())
-        throw WrongKeys({"sample/file", "discrete/lateral"}, "sample/file: a cell cannot be read from a file");
       if (sample.rough_platens)
         throw WrongKeys({"sample/rough_platens", "discrete/lateral"}, "sample/rough_platens = true: a cell has no platens");
       if (options.method.store_problems)
@@ -135,7 +133,9 @@ namespace diptych::discrete
     const bool        of_file = !sample.file.empty(), sweeps = !of_file || sample.prepare_file;
     const std::string sides = "discrete/lateral = " + name_of(lateral);
     Unused{"sample", keys}.unless(lateral == Lateral::rigid_walls, sides, {"left_wall", "right_wall"});
-    Unused{"sample", keys}.unless(!of_file || lateral == Lateral::periodic, "sample/file with " + sides, {"width"});
+    Unused{"sample", keys}.unless(!of_file || lateral == Lateral::cell, "sample/file with " + sides, {"height"});
+    Unused{"sample", keys}.unless(!of_file || lateral == Lateral::periodic || lateral == Lateral::cell,
+                                  "sample/file with " + sides, {"width"});
     Unused{"discrete", keys}.unless(options.method.method == Method::imported,
                                     "discrete/method = " + name_of(options.method.method), {"file"});
     Unused{"discrete", keys}.unless(options.method.method == Method::nscd || options.method.method == Method::compliant || sweeps,

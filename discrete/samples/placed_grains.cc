@@ -119,7 +119,7 @@ namespace diptych::discrete
     SampleBox  box = box_around(o, file);
     FileSample sample{{}, file.stage};
     State     &state = sample.state;
-    enclose(state, preparation.lateral, {o.width, 0});
+    enclose(state, preparation.lateral, {o.width, o.height});
     for (std::size_t w = 0; w < state.walls.size(); ++w)
       state.walls[w].point = {w % 2 == 0 ? *box.left_x : *box.right_x, w % 2 == 0 ? *box.lower_y : *box.upper_y};
     if (!std::holds_alternative<RigidSides>(preparation.lateral))
@@ -132,8 +132,20 @@ namespace diptych::discrete
         if (periodic->width <= 0)
           throw WrongKeys({"sample/width", "discrete/lateral"},
                           "sample/width = 0: for a periodic sample from a file, give its period here");
-        box.cell_width = periodic->width;
       }
+    if (Lattice *lattice = state.lattice())
+      {
+        box.lower_y.reset();
+        box.upper_y.reset();
+        if (file.stage && !file.stage->cell_vectors.isZero())
+          lattice->vectors = file.stage->cell_vectors;
+        if (!(lattice->area() > 0))
+          throw WrongKeys({"sample/width", "sample/height", "sample/file", "discrete/lateral"},
+                          "sample/file = " + o.file + " holds no cell: give its periods with sample/width and sample/height");
+        for (Eigen::Vector2d &v : file.grains.velocity)
+          v.setZero(); // the motion of the cell is part of the velocities in files
+      }
+    box.periodicity = state.periodicity;
     check_grains(file, box, o.allowed_overlap);
     if (const auto &fixed = file.grains.fixed; std::all_of(fixed.begin(), fixed.end(), [](const auto held) { return held != 0; }))
       throw std::invalid_argument("every grain is fixed (column or dataset `fixed`), so nothing can move");

@@ -144,19 +144,26 @@ namespace diptych::discrete
       return fixed;
     }
 
-    Grains read_grains(const StageReader &stage)
+    Grains read_grains(const StageReader &stage, const bool of_another_code)
     {
+      const auto is_told = [&](const char *dataset) { return !of_another_code || stage.file.has(stage.group + "/" + dataset); };
+
       const std::size_t n = stage.file.read(stage.group + "/grains/radius").size();
       if (n == 0)
         stage.refuse("grains/radius", "contains no grain; allowed: 1 or more");
       Grains grains;
       grains.radius   = stage.numbers("grains/radius", n, smallest_length);
       grains.position = stage.vectors("grains/position", n);
-      grains.velocity = stage.vectors("grains/velocity", n);
-      grains.rotation = stage.numbers("grains/rotation", n, -largest_magnitude);
-      grains.spin     = stage.numbers("grains/spin", n, -largest_magnitude);
-      grains.mass     = stage.numbers("grains/mass", n, 0.);
-      grains.fixed    = read_fixed(stage, n);
+      grains.velocity.assign(n, Eigen::Vector2d::Zero());
+      grains.rotation = grains.spin = std::vector<double>(n, 0.);
+      if (is_told("grains/velocity"))
+        grains.velocity = stage.vectors("grains/velocity", n);
+      if (is_told("grains/rotation"))
+        grains.rotation = stage.numbers("grains/rotation", n, -largest_magnitude);
+      if (is_told("grains/spin"))
+        grains.spin = stage.numbers("grains/spin", n, -largest_magnitude);
+      grains.mass  = stage.numbers("grains/mass", n, 0.);
+      grains.fixed = read_fixed(stage, n);
       for (std::size_t k = 0; k < n; ++k)
         if (grains.mass[k] == 0)
           stage.refuse("grains/mass", "entry " + std::to_string(k) + " (counted from 0) = 0; allowed: more than 0");
@@ -265,13 +272,12 @@ namespace diptych::discrete
         " grains of similar size lie in one square with sides of length " + exact_text(side) + ", on top of each other");
     }
 
-    void check_overlaps(const GrainFile &file, const std::optional<double> &cell_width, const double allowed)
+    void check_overlaps(const GrainFile &file, const Periodicity &periodicity, const double allowed)
     {
       const Grains &g = file.grains;
       State         state;
-      state.grains = g;
-      if (cell_width)
-        state.periodicity = PeriodicWidth{*cell_width};
+      state.grains      = g;
+      state.periodicity = periodicity;
       check_crowds(file, state);
       int                    n_pairs = 0;
       std::optional<Contact> worst;
@@ -321,17 +327,24 @@ namespace diptych::discrete
     const Hdf5Reader  file(path);
     const int         number = chosen_stage(file, path, wanted);
     const StageReader stage{file, path, stage_name(number)};
-    GrainFile         result{path, read_grains(stage)};
+    const bool        of_another_code = std::isnan(file.attribute(stage.group, "step")); // imported frames have no step
+    GrainFile         result{path, read_grains(stage, of_another_code)};
     StoredStage      &stored = result.stage.emplace();
     stored.number            = number;
-    stored.time              = stage.attribute("time", -largest_magnitude);
-    stored.step              = stage.attribute("step", 0.);
-    stored.lower_y           = stage.attribute("lower_y", -largest_magnitude);
-    stored.upper_y           = stage.attribute("upper_y", stored.lower_y);
-    stored.left_x            = stage.place("left_x");
-    stored.right_x           = stage.place("right_x");
-    stored.mean_diameter     = stage.attribute("mean_diameter", smallest_length);
-    stored.impulses          = read_impulses(stage, result.grains.size());
+    if (!of_another_code)
+      {
+        stored.time     = stage.attribute("time", -largest_magnitude);
+        stored.step     = stage.attribute("step", 0.);
+        stored.impulses = read_impulses(stage, result.grains.size());
+      }
+    stored.lower_y       = stage.attribute("lower_y", -largest_magnitude);
+    stored.upper_y       = stage.attribute("upper_y", stored.lower_y);
+    stored.left_x        = stage.place("left_x");
+    stored.right_x       = stage.place("right_x");
+    stored.mean_diameter = stage.attribute("mean_diameter", smallest_length);
+    for (const int k : {0, 1, 2, 3})
+      if (const double part = stage.place(std::array{"cell_a1_x", "cell_a1_y", "cell_a2_x", "cell_a2_y"}[k]); std::isfinite(part))
+        stored.cell_vectors(k % 2, k / 2) = part;
     return result;
   }
 
@@ -344,7 +357,7 @@ namespace diptych::discrete
     for (const BoxSide &side : sides)
       if (side.place)
         check_against_side(file, side, allowed_overlap);
-    check_overlaps(file, box.cell_width, allowed_overlap);
+    check_overlaps(file, box.periodicity, allowed_overlap);
   }
 
   TimeTable read_time_table(const std::string &path, const std::string &column)

@@ -15,13 +15,14 @@ namespace diptych::discrete
   // Contents of a stage of a snapshot file besides its grains.
   struct StoredStage
   {
-    int                      number  = 0;                 // of the group stage_NNNN
-    double                   time    = 0;                 // [time]
-    double                   step    = 0;                 // length of the step that the impulses belong to [time]
-    double                   lower_y = 0, upper_y = 0;    // platens [length]
-    double                   left_x = NAN, right_x = NAN; // side walls [length]; NaN without side walls
-    double                   mean_diameter = 0;           // [length]
-    std::vector<PairImpulse> impulses;                    // closed contacts, ascending in (i, j); sign as in State; may be empty
+    int                      number  = 0;                             // of the group stage_NNNN
+    double                   time    = 0;                             // [time]
+    double                   step    = 0;                             // length of the step that the impulses belong to [time]
+    double                   lower_y = 0, upper_y = 0;                // platens [length]
+    double                   left_x = NAN, right_x = NAN;             // side walls [length]; NaN without side walls
+    double                   mean_diameter = 0;                       // [length]
+    Eigen::Matrix2d          cell_vectors  = Eigen::Matrix2d::Zero(); // of a cell; 0: there is none
+    std::vector<PairImpulse> impulses; // closed contacts, ascending in (i, j); sign as in State; may be empty
   };
 
   struct GrainFile
@@ -40,7 +41,7 @@ namespace diptych::discrete
   {
     std::optional<double> lower_y = {}, upper_y = {}; // platens [length]
     std::optional<double> left_x = {}, right_x = {};  // side walls [length]
-    std::optional<double> cell_width = {};            // period along x [length]
+    Periodicity           periodicity = {};
   };
 
   // Reads a CSV file. Its header names x, y, r and, optionally, vx, vy, omega and fixed in any order; missing columns are 0. x, y
@@ -52,8 +53,10 @@ namespace diptych::discrete
   // Writes such a file with all columns. The numbers read back with the same bits; rotations and masses are lost.
   void write_grains_csv(const std::string &path, const Grains &grains);
 
-  // Grains of one stage (default: the last) of a file of write_snapshots. If grains/fixed is absent, all grains are free. Throws
-  // std::invalid_argument if the file is truncated or incomplete, the stage does not exist, or sizes or values are impossible.
+  // Grains of one stage (default: the last) of a file of write_snapshots. If grains/fixed is absent, all grains are free.
+  // A frame of another code has no step: it has no impulses, and grains whose velocities and spins are not told are at rest.
+  // Throws std::invalid_argument if the file is truncated or incomplete, the stage does not exist, or sizes or values are
+  // impossible.
   // The message contains file, dataset, row, value and range.
   GrainFile read_grains_hdf5(const std::string &path, int stage = -1);
 

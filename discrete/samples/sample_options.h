@@ -76,8 +76,10 @@ namespace diptych::discrete
     visitor("width_over_height", o.width_over_height, "-", {0.05, 20.},
             "width / height of the sample; below 1 a shear band at 45 degrees ends at the sides");
     visitor("width", o.width, "length", {0., 1e12},
-            "width of the sample; 0: from the number of grains. For a periodic sample from a file: its period");
-    visitor("height", o.height, "length", {0., 1e12}, "height of the sample; 0: from the number of grains");
+            "width of the sample; 0: from the number of grains. For a periodic sample from a file: its period, "
+            "which a discrete.h5 with lateral = cell contains");
+    visitor("height", o.height, "length", {0., 1e12},
+            "height of the sample; 0: from the number of grains. For a cell from a file: its vertical period");
     visitor("density", o.density, "mass/length^2", {1e-12, 1e12}, "density of the grains, per unit thickness");
     visitor("solid_fraction", o.solid_fraction, "-", {0.3, 0.92},
             "expected solid fraction; relates the number of grains to the size of the sample");

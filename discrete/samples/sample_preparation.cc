@@ -248,7 +248,8 @@ namespace diptych::discrete
       if (file.stage)
         {
           state.impulses = file.stage->impulses;
-          sample.step    = file.stage->step;
+          if (file.stage->step > 0)
+            sample.step = file.stage->step;
         }
       sample.report.quiet          = true; // a sample from a file need not be at rest
       sample.report.solid_fraction = solid_fraction(state, o.mean_diameter);

@@ -176,7 +176,7 @@ namespace
     const std::string rows = "0.5,0,1,0\n19.75,0,1,0\n";
     EXPECT_EQ(check(rows, {}, 0.), "");
     SampleBox cell;
-    cell.cell_width = 20;
+    cell.periodicity = PeriodicWidth{20};
     EXPECT_EQ(check(rows, cell, 0.).find(", line 2 and line 3: the grains overlap by 1.25 of"), 0u);
   }
 
