@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -23,6 +24,8 @@ namespace diptych::discrete
     double          shift   = 0; // x of the touching image of j minus x of j; not 0 only across the edge of a periodic cell
     double          couple  = 0; // of rolling resistance on i, counter-clockwise; the opposite acts on j [pressure * length^2]
     double          shift_y = 0; // y of that image minus y of j; not 0 only in a cell that is periodic in both directions
+
+    double acting_couple() const { return std::isnan(couple) ? 0 : couple; } // NaN: not in the files of another code
   };
 
   enum class ContactStatus : std::uint8_t

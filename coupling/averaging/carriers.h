@@ -103,10 +103,10 @@ namespace diptych::coupling
     const int n = int(position.size());
     if (contact.i < 0 || contact.i >= n || contact.j < 0)
       refuse_contact(contact);
-    action(unsigned(contact.i), Eigen::Vector2d(contact.point - position[contact.i]), contact.force, contact.couple);
+    action(unsigned(contact.i), Eigen::Vector2d(contact.point - position[contact.i]), contact.force, contact.acting_couple());
     if (contact.j < n)
       action(unsigned(contact.j),
              Eigen::Vector2d(contact.point - position[contact.j] - Eigen::Vector2d(contact.shift, contact.shift_y)),
-             Eigen::Vector2d(-contact.force), -contact.couple);
+             Eigen::Vector2d(-contact.force), -contact.acting_couple());
   }
 } // namespace diptych::coupling

@@ -47,15 +47,18 @@ namespace diptych::python
     std::vector<discrete::ContactForce> contact_list(const py::dict &from)
     {
       std::vector<int>             i, j;
-      std::vector<Eigen::Vector2d> point, normal, force;
+      std::vector<Eigen::Vector2d> point, normal, force, shift;
+      std::vector<double>          couple;
       take_array<int>(from, "i", i);
       take_array<int>(from, "j", j);
       take_array<double>(from, "point", point);
       take_array<double>(from, "normal", normal);
       take_array<double>(from, "force", force);
+      take_array<double>(from, "shift", shift);
+      take_array<double>(from, "couple", couple);
       std::vector<discrete::ContactForce> contacts;
       for (std::size_t k = 0; k < i.size(); ++k)
-        contacts.push_back({i[k], j[k], point[k], normal[k], force[k]});
+        contacts.push_back({i[k], j[k], point[k], normal[k], force[k], shift[k].x(), couple[k], shift[k].y()});
       return contacts;
     }
 
@@ -65,6 +68,10 @@ namespace diptych::python
       discrete::State state;
       state.grains.position = s.position;
       state.grains.radius   = s.radius;
+      if (s.cell_vectors(1, 1) != 0)
+        state.periodicity = discrete::Lattice{s.cell_vectors};
+      else if (s.cell_width > 0)
+        state.periodicity = discrete::PeriodicWidth{s.cell_width};
       state.walls.resize(std::isfinite(s.left_x) && std::isfinite(s.right_x) ? 4 : 2);
       state.walls[0].point = {0, s.lower_y};
       state.walls[1].point = {0, s.upper_y};
@@ -73,8 +80,13 @@ namespace diptych::python
           state.walls[2].point = {s.left_x, 0};
           state.walls[3].point = {s.right_x, 0};
         }
-      s.outline         = discrete::make_outline(state, s.mean_diameter);
-      s.area            = discrete::outline_area(s.outline);
+      s.outline = discrete::make_outline(state, s.mean_diameter);
+      s.area    = discrete::outline_area(s.outline);
+      if (state.lattice())
+        {
+          s.lower_y = s.outline.left.front().y();
+          s.upper_y = s.outline.right.back().y();
+        }
       s.window_forces   = s.contacts;
       s.internal_moment = discrete::internal_moments(s.position, s.contacts, s.mean_spin_term);
       if (!has_contacts)

@@ -13,7 +13,8 @@ namespace diptych::discrete
     std::vector<Eigen::Matrix2d> moment(position.size(), Eigen::Matrix2d::Zero());
     for (const ContactForce &c : forces)
       {
-        const Eigen::Matrix2d couple{{0, 0.5 * c.couple}, {-0.5 * c.couple, 0}}; // l f^T has the couple l_x f_y - l_y f_x
+        const Eigen::Matrix2d couple{{0, 0.5 * c.acting_couple()},
+                                     {-0.5 * c.acting_couple(), 0}}; // l f^T has the couple l_x f_y - l_y f_x
         moment[c.i] -= (c.point - position[c.i]) * c.force.transpose() + couple;
         if (std::size_t(c.j) < position.size())
           moment[c.j] += (c.point - position[c.j] - Eigen::Vector2d(c.shift, c.shift_y)) * c.force.transpose() + couple;

@@ -17,6 +17,12 @@ namespace diptych::discrete
   {
     const auto contact_fields = [](auto &entry, auto &&visit) { visit_contact_fields(entry, visit); };
 
+    // Frames of another code may lack the couples, which are then NaN.
+    bool has_couples(const std::vector<ContactForce> &contacts)
+    {
+      return std::none_of(contacts.begin(), contacts.end(), [](const ContactForce &c) { return std::isnan(c.couple); });
+    }
+
     void write_contacts(Hdf5Writer &file, const std::string &group, const std::vector<ContactForce> &contacts)
     {
       std::vector<int> body;
@@ -27,7 +33,8 @@ namespace diptych::discrete
       file.attribute(group + "/body", "meaning", contact_bodies);
       for_each_column(contacts, contact_fields,
                       [&](const std::string &name, const auto &values, const char *unit, const char *meaning) {
-                        write_field(file, group + "/" + name, values, unit, meaning);
+                        if (name != "couple" || has_couples(contacts))
+                          write_field(file, group + "/" + name, values, unit, meaning);
                       });
     }
 
@@ -92,6 +99,8 @@ namespace diptych::discrete
       visit_grain_fields(s, write);
       visit_contact_lists(s, [&](const std::string &name, const std::vector<ContactForce> &contacts, const char *, const char *) {
         write_contacts(file, group + "/" + name, contacts);
+        if (!has_couples(contacts))
+          missing += name + "/couple ";
       });
       if (is_known(s.step))
         write_impulses(file, group + "/contacts/impulse", s);
@@ -137,7 +146,8 @@ namespace diptych::discrete
         }
       set_columns(contacts, contact_fields, [&](const std::string &name, auto &values) {
         using Value = typename std::decay_t<decltype(values)>::value_type;
-        if ((name == "couple" || name == "image_shift_y") && !file.has(group + "/" + name)) // files of earlier versions
+        if ((name == "couple" || name == "image_shift_y") &&
+            !file.has(group + "/" + name)) // files of earlier versions, or not told
           return values.resize(contacts.size());
         values = read_field<Value>(file, group + "/" + name);
         check.size(list + name, values.size(), contacts.size());
@@ -237,6 +247,9 @@ namespace diptych::discrete
         check.refuse("grains/position", "contains no grain");
       visit_contact_lists(s, [&](const std::string &name, std::vector<ContactForce> &contacts, const char *, const char *) {
         contacts = read_contacts(file, group + "/" + name, s.position.size(), check);
+        if (missing.find(name + "/couple ") != std::string::npos)
+          for (ContactForce &contact : contacts)
+            contact.couple = NAN;
       });
       visit_contact_values(s, [&](const std::string &name, auto &values, const char *, const char *) {
         using Value          = typename std::decay_t<decltype(values)>::value_type;

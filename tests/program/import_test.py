@@ -191,6 +191,43 @@ class Export(Case):
         nodes = history(self.path("both"), "continuum.csv")
         self.assertAlmostEqual(nodes["shear_strain"][-1], back["shear_strain"][-1], places=9)
 
+    def test_a_cell_goes_to_other_codes_and_back_and_starts_a_run(self):
+        """Stresses, strains and areas of the cell's own history; the first row of the run is the start of the other."""
+        cell = write(self.path("cell.prm"), "subsection discrete\n  set lateral = cell\nend\nsubsection loading\n  "
+                     "set mode = path\n  set path = simple_shear\n  set axial_strain = 0.01\nend\n")
+        words = setting(sample_grains=100, discrete_rolling_friction=0.1)
+        self.done("discrete", cell, *words, "--output", self.path("own"), "--quiet")
+        own = history(self.path("own"))
+        with h5py.File(self.path("own", "discrete.h5")) as file:
+            n = len(file)
+            at = [numpy.argmin(abs(own["progress"] - file[f"stage_{k:04d}"].attrs["progress"])) for k in range(n)]
+            couple = file[f"stage_{n - 1:04d}/contacts/couple"][()]
+        for stage in range(n):
+            self.done("export", self.path("own"), "--format", "csv", "--stage", str(stage), "--output",
+                      self.path("tables"), "--quiet")
+        self.done("import", "csv", *glob.glob(self.path("tables", "*.csv")), "--output", self.path("back"), "--quiet")
+        back = history(self.path("back"))
+        for name in ("sxx", "sxy", "syy", "solid_fraction", "exx", "eyy", "exy", "shear_strain"):
+            numpy.testing.assert_allclose(back[name][1:], own[name][at][1:], rtol=1e-4, atol=2e-5, err_msg=name)
+        with h5py.File(self.path("back", "discrete.h5")) as file:
+            self.assertAlmostEqual(abs(file[f"stage_{n - 1:04d}/contacts/couple"][()]).sum(), abs(couple).sum())
+        self.done("export", self.path("own"), "--format", "dump", "--output", self.path("dump"), "--quiet")
+        self.done("import", "lammps", *glob.glob(self.path("dump", "*")), "--output", self.path("again"), "--quiet")
+        numpy.testing.assert_allclose(history(self.path("again"))["syy"], back["syy"], rtol=1e-9)
+        self.done("export", self.path("own"), "--format", "lammps", "--output", self.path("start"), "--quiet")
+        self.assertIn(b"boundary p p p", content(self.path("start", "in.sample")))
+        self.done("import", "lammps", self.path("start", "sample.data"), "--output", self.path("data"), "--quiet")
+        self.assertAlmostEqual(history(self.path("data"))["solid_fraction"][0], back["solid_fraction"][0])
+        for start in ("own", "back"):
+            self.done("discrete", cell, "--set", "sample/file=" + self.path(start, "discrete.h5"), "--output",
+                      self.path("from_" + start), "--quiet")
+            first = history(self.path("from_" + start))
+            self.assertAlmostEqual(first["solid_fraction"][0], own["solid_fraction"][-1], delta=1e-3)
+        table = write(self.path("grains.csv"), "x,y,r\n" + "".join(f"{x},{y},0.5\n" for x in range(9) for y in range(6)))
+        words = ("discrete", cell, "--set", "sample/file=" + table, "--output", self.path("x"))
+        self.refused(*words, says="give its periods with sample/width and sample/height")
+        self.refused(*words, *setting(sample_width=8.5, sample_height=6), says="the grains overlap by 1 of")
+
     def test_what_is_exported_comes_back(self):
         self.done("import", "lammps", *LAMMPS, "--output", self.path("mine"), "--quiet")
         self.done("run", self.path("mine", "scene.prm"), "--output", self.path("both"), "--quiet", *COARSE)

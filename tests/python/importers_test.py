@@ -57,13 +57,14 @@ def test_forces_on_every_grain_add_up_to_the_resultants(name, tolerance, copy):
 # Numbers that were known before: a biaxial sample of 24 discs, with forces or without.
 CASES = {"03": ("csv", "*.csv", {}), "18": ("lammps", "*", {}), "20": ("lammps", "*", {}), "21": ("lammps", "*", {}),
          "29": ("liggghts", "*", {"thickness": 1.0}), "34": ("lmgc90", "*", {}), "35": ("lmgc90", "*", {}),
-         "36": ("lmgc90", "*", {})}
+         "36": ("lmgc90", "*", {}), "101": ("lmgc90", "*", {})}
 
 
 @pytest.mark.parametrize("case", CASES)
 def test_one_sample_in_the_spellings_of_public_files(case):
     """Quoted heads of R; xs ys; a tilt of 0; a section that occurs twice; wall contacts without names for their
-    columns. LMGC90: ax1= for axe1=; the angle of a wall in coo3; numbers of bodies that repeat."""
+    columns. LMGC90: ax1= for axe1=; the angle of a wall in coo3; numbers of bodies that repeat; a DOF.INI of two
+    bodies."""
     kind, pattern, options = CASES[case]
     record = importers.check(kind, sorted((PUBLIC / case).glob(pattern)), **options)
     first = record["frames"][0]
@@ -92,8 +93,8 @@ def test_data_files_have_velocities_and_other_styles(tmp_path):
     with pytest.raises(diptych.SceneError, match="line 7: the columns of atom_style ellipsoid"):
         importers.read("lammps", [path])
     assert len(importers.read("lammps", [path], columns=["particles=id,type,x,y,z,diameter,a,b"])[0].grains["id"]) == 3
-    path.write_text(text.replace("0 0 0 xy", "0.1 0 0 xy"))
-    with pytest.raises(diptych.SceneError, match="line 5: the box is tilted"):
+    path.write_text(text.replace("0 0 0 xy", "0 0.1 0 xy"))
+    with pytest.raises(diptych.SceneError, match="line 5: the box is tilted out of the x-y plane"):
         importers.read("lammps", [path])
 
 

@@ -4,7 +4,7 @@
 
 import argparse
 
-from ..importers.exports import FORMATS
+from ..importers import exports, readers
 from ..words import Parser, add_output, add_overwrite, add_quiet, number
 
 _LEVELS = "auto, or two accuracies: means of the grains in the limit of short steps"
@@ -93,7 +93,8 @@ def add_element(parser: Parser) -> None:
 
 def add_homogenise(parser: Parser) -> None:
     parser.add_argument("target", metavar="SOURCE",
-                        help="folder with grains, or a format or reader as for import, then FILES")
+                        help="folder with grains; or, with FILES behind it, a format or reader as for import: "
+                             + ", ".join(readers.FORMATS) + ", READER.py")
     parser.add_argument("files", metavar="FILES", nargs="*", help="files of grains, contacts and walls of another code")
     parser.add_argument("--grid", metavar="D", type=number(0.5, 1000), default=3.0,
                         help="size of the cells in mean diameters (default: 3)")
@@ -118,10 +119,14 @@ def _add_import_options(parser: Parser) -> None:
             ("timestep", "time step, for codes that count steps"),
             ("density", "mass per area, if no file contains masses"),
             ("pressure", "lateral pressure (default: that of the right wall in the first frame with forces)"),
-            ("mean-diameter", "unit d of the results (default: mean of the grains)")):
+            ("mean-diameter", "unit d of the results (default: mean of the grains)"),
+            ("period-x", "period along x of a periodic sample, if the files do not contain it"),
+            ("period-y", "period along y, for a cell that is periodic in both directions")):
         parser.add_argument("--" + name, metavar="NUMBER", type=number(1e-30, 1e30), help=meaning)
     parser.add_argument("--gravity", metavar="GX,GY", type=_vector,
                         help="acceleration of the grains (default: that of the files)")
+    parser.add_argument("--plane", choices=("xy", "xz"), default="xy",
+                        help="plane of a layer of spheres; xz: z of the files points upwards (default: xy)")
     parser.add_argument("--frames", metavar="LIST", default="",
                         help="only these frames, such as 10-20,30; counted from 0 in ascending order")
     parser.add_argument("--walls-touch", action="store_true",
@@ -131,8 +136,9 @@ def _add_import_options(parser: Parser) -> None:
 
 
 def add_import(parser: Parser) -> None:
-    parser.add_argument("format", metavar="FORMAT",
-                        help="code that wrote the files, or a Python file that registers your own reader")
+    parser.add_argument("format", metavar=f"FORMAT {{{','.join(readers.FORMATS)}}}",
+                        help="code that wrote the files; csv: tables of any origin; or a Python file (READER.py) that "
+                             "registers a reader of your own")
     parser.add_argument("files", metavar="FILES", nargs="+", help="files of grains, contacts and walls, in any order")
     add_output(parser, "folder of the imported sample", required=True)
     _add_import_options(parser)
@@ -140,7 +146,7 @@ def add_import(parser: Parser) -> None:
 
 def add_export(parser: Parser) -> None:
     parser.add_argument("target", metavar="FOLDER", help="result folder")
-    parser.add_argument("--format", required=True, choices=FORMATS, help="code that reads them; dump: OVITO")
+    parser.add_argument("--format", required=True, choices=exports.FORMATS, help="code that reads them; dump: OVITO")
     add_output(parser, "folder of the exported files (default: FOLDER_for_FORMAT)")
     parser.add_argument("--stage", metavar="N", type=number(0, 1000000, True), default=0,
                         help="number of the snapshot (default: 0, the prepared sample); not for dump")

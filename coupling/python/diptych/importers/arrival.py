@@ -13,6 +13,7 @@ from ..entries import describe
 from ..errors import SceneError
 from .checks import check_arrival
 from .frames import Frame, Options, completed, refused
+from .periods import is_cell
 from .touching import Instant, take_contacts, total
 
 describe("import.json", """\
@@ -148,9 +149,11 @@ def _note_what_is_lacking(arrival: Arrival) -> None:
     for name, what in (("mass", "masses"), ("velocity", "velocities"),
                        ("spin", "spins (their term in the internal moment counts as 0)"), ("rotation", "rotations")):
         told[what] = np.isfinite(last.grains[name][0]).all()
+    couple = last.contacts["couple"]
+    told["couples of contacts (rolling resistance; they count as 0)"] = not np.isnan(couple).any()
     told["times"] = math.isfinite(last.time)
     told["which contacts slide"] = np.any(last.contacts["status"] != 3)
-    told["contacts with walls"] = "contacts with walls" in arrival.lacking or any(
+    told["contacts with walls"] = is_cell(last.period) or "contacts with walls" in arrival.lacking or any(
         np.any(frame.contacts["j"] >= len(arrival.id)) for frame in arrival.frames)
     told["dissipation, energies and means over stages (a frame is one instant)"] = False
     told.update({f"contacts of frame {frame.name}": frame.has_contacts for frame in arrival.frames})

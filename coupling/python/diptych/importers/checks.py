@@ -6,6 +6,7 @@ from typing import Any, Iterator, NoReturn
 
 import numpy as np
 
+from .periods import images_within, is_cell
 from .touching import AXIS, INWARD, SIDES, Instant, length, total
 
 # Values above these limits cause a warning. The balance is relative to the mean contact force. It is 1e-6 if a code
@@ -38,7 +39,7 @@ def _checked_solid_fraction(now: Instant) -> float:
         if beyond > MOST_BEYOND * len(x):
             raise now.refused(f"the centres of {beyond} of {len(x)} grains lie beyond the {SIDES[side]} wall; it "
                               "stands across the sample", "wall_file")
-    share = total(np.pi * now.grains["radius"] * now.grains["radius"]) / _area(now)
+    share = total(np.pi * now.grains["radius"] * now.grains["radius"]) / now.area()
     if share > MOST_SOLID_FRACTION:  # false without side walls
         raise now.refused(f"the discs cover {int(100 * share)} % of the area between the walls; at most "
                           f"{int(100 * MOST_SOLID_FRACTION)} % is possible. Check the places of the walls and the "
@@ -46,26 +47,25 @@ def _checked_solid_fraction(now: Instant) -> float:
     return share
 
 
-def _area(now: Instant) -> float:
-    return (now.place[3] - now.place[2]) * (now.place[1] - now.place[0])
-
-
-def _near_pairs(now: Instant) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Pairs that may overlap, by octaves of the larger radius: one large grain does not make all pairs neighbours."""
+def _near_pairs(now: Instant) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+    """Pairs that may overlap and their distances, by octaves of the larger radius: one large grain does not make all
+    pairs neighbours."""
     from scipy.spatial import cKDTree  # loads slowly
 
     x, r = now.grains["position"], now.grains["radius"]
     octave = np.floor(np.log2(r))
     for k in np.unique(octave):
-        rows, others = np.flatnonzero(octave == k), np.flatnonzero(octave <= k)
-        tree, tree_of_others = cKDTree(x[rows]), cKDTree(x[others])
+        rows = np.flatnonzero(octave == k)
+        all_rows, places = images_within(now.period, x, REACH * r[rows].max())
+        keep = octave[all_rows] <= k
+        others, tree, tree_of_others = all_rows[keep], cKDTree(places[rows]), cKDTree(places[keep])
         surely = tree.count_neighbors(tree_of_others, r[rows].min()) - len(rows)
         if surely > 2 * MOST_OVERLAPS * len(r):  # before they fill the memory
             _refuse_overlaps(now)
         near = tree.sparse_distance_matrix(tree_of_others, REACH * r[rows].max(), output_type="ndarray")
         i, j = rows[near["i"]], others[near["j"]]
         once = (r[j] < r[i]) | ((r[j] == r[i]) & (j < i))
-        yield i[once], j[once]
+        yield i[once], j[once], near["v"][once]
 
 
 def _refuse_overlaps(now: Instant) -> NoReturn:
@@ -76,8 +76,8 @@ def _largest_overlap(now: Instant) -> float:
     """The largest overlap of two grains, or of a grain and a wall; negative: the smallest gap."""
     x, r, count = now.grains["position"], now.grains["radius"], 0
     largest = np.nanmax(r[:, None] - INWARD * (x[:, AXIS] - now.place), initial=-np.inf)
-    for i, j in _near_pairs(now):
-        overlap = r[i] + r[j] - length(x[i] - x[j])
+    for i, j, distance in _near_pairs(now):
+        overlap = r[i] + r[j] - distance
         largest, count = max(largest, overlap.max(initial=-np.inf)), count + np.sum(overlap > 0)
     if count > MOST_OVERLAPS * len(r):
         _refuse_overlaps(now)
@@ -106,7 +106,8 @@ def _check_balance(now: Instant, ids: np.ndarray, check: dict[str, Any]) -> np.n
     against = bool(np.isfinite(grains["resultant"][0]).all())
     if against:
         rest = rest - grains["resultant"]
-    vertical_only = not against and not np.isfinite(now.place[2])  # the files do not contain the pressure on free sides
+    # the files do not contain the pressure on free sides
+    vertical_only = not against and now.period is None and not np.isfinite(now.place[2])
     found, without = (_residual(forces, mean, vertical_only) for forces in (rest + grains["weight"], rest))
     if against and without[0] < found[0]:
         found = without
@@ -129,13 +130,13 @@ def _add_stresses(now: Instant, check: dict[str, Any]) -> None:
     c, x, n = now.contacts, now.grains["position"], len(now.grains["id"])
     on_wall = c["j"] >= n
     corner = np.array([now.place[2], now.place[0]])
-    ends = np.where(on_wall[:, None], c["point"], x[np.where(on_wall, 0, c["j"])])
+    ends = np.where(on_wall[:, None], c["point"], x[np.where(on_wall, 0, c["j"])] + c["shift"])
     contacts = total(_outer(c["force"], x[c["i"]] - ends))
     walls = -total(np.concatenate([_outer(c["force"], c["point"] - corner)[on_wall],
                                    _outer(now.grains["weight"], x - corner)]))
-    check["contact_stress"] = contacts / _area(now)
+    check["contact_stress"] = contacts / now.area()
     if all(check[side + "_contacts"] for side in SIDES):
-        check["wall_stress"] = walls / _area(now)
+        check["wall_stress"] = walls / now.area()
         check["stress_difference"] = abs(contacts - walls).max() / abs(walls).max()
 
 
@@ -144,7 +145,7 @@ def _doubts(now: Instant, check: dict[str, Any], gravity: np.ndarray | None, arr
     miss = {name: value / arrival.mean_diameter for name, value in now.miss.items()}
     grain, resultants = f"grain {check['balance_worst_grain']}", check["balance_against_resultants"]
     # Without contacts on walls, which is reported, grains at the walls cannot be in balance.
-    told = "contacts with walls" not in arrival.lacking
+    told = "contacts with walls" not in arrival.lacking or is_cell(now.period)
     why = ("a contact missing, repeated or of the wrong sign?" if gravity is None
            else f"their weight missing? --gravity {gravity[0]:g},{gravity[1]:g}")
     found = [
@@ -172,11 +173,16 @@ def _doubts(now: Instant, check: dict[str, Any], gravity: np.ndarray | None, arr
             for applies, value, most, what in found if applies and value > most]
 
 
+def axial_strain(now: Instant, first_height: float) -> Any:
+    """Descent of the upper wall / first height; of a cell 1 - exp(-eyy), which is the same change of height."""
+    return 1 - (np.exp(-now.strain[1, 1]) if is_cell(now.period) else (now.place[1] - now.place[0]) / first_height)
+
+
 def _check(now: Instant, first_height: float, arrival: Any) -> dict[str, Any]:
     """The numbers of a frame, with the names of import.json; nan: unknown."""
     n, solid_fraction = len(arrival.id), _checked_solid_fraction(now)
     check: dict[str, Any] = {
-        "frame": now.name, "time": now.time, "axial_strain": 1 - (now.place[1] - now.place[0]) / first_height,
+        "frame": now.name, "time": now.time, "axial_strain": axial_strain(now, first_height),
         "grains": n, "mass": total(now.grains["mass"]), "solid_fraction": solid_fraction,
         "largest_overlap": _largest_overlap(now) / arrival.mean_diameter,
         "contacts": int(np.sum(now.contacts["j"] < n)),

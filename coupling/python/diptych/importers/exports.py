@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import _diptych
 from ..entries import describe
-from ..errors import SceneError
+from .walls import CELL
 
 FORMATS = ("lammps", "csv", "dump")
 
@@ -47,54 +47,57 @@ def _rows(template: str, *columns: Any) -> str:
     return "".join(template % tuple(row) for row in np.column_stack(columns).tolist())
 
 
-def _box(s: Any) -> tuple[float, float, float, float]:
-    """Left, right, lower and upper place of the walls; nan: there is none."""
-    if s.cell_width > 0:
-        raise SceneError("export: the sample is periodic (discrete/lateral) and has no side walls, which other codes "
-                         "need")
-    return s.left_x, s.right_x, s.lower_y, s.upper_y
+def _cell(s: Any) -> np.ndarray | None:
+    """Vectors a1 and a2 (columns) of a sample that is periodic in both directions."""
+    return np.array([[s.cell_a1_x, s.cell_a2_x], [s.cell_a1_y, s.cell_a2_y]]) if s.cell_a2_y else None
 
 
 def as_csv(s: Any, stage: int) -> dict[str, str]:
     """Particles, contacts and walls, with the stage in their names. Columns that a sample lacks are left out."""
-    left, right, lower, upper = _box(s)
     n, c = len(s), s.contacts
-    names, columns = ["id,x,y,r"], [np.arange(n), s.position, s.radius]
+    told, columns = ["id,x,y,r"], [np.arange(n), s.position, s.radius]
     for name, values in (("mass", s.mass), ("vx,vy", s.velocity), ("omega", s.spin)):
         if not np.isnan(values).any():
-            names.append(name)
+            told.append(name)
             columns.append(values)
-    head = ",".join(names)
+    head = ",".join(told)
     particles = head + "\n" + _rows("%d" + ",#" * head.count(","), *columns)
     acts = np.any(c.force != 0, axis=1)
     j = np.where(c.j < n, c.j, n - c.j - 1)
-    contacts = ("# force on i; j = -1 lower, -2 upper, -3 left, -4 right wall\ni,j,fx,fy,px,py\n"
-                + _rows("%d,%d,#,#,#,#", c.i[acts], j[acts], c.force[acts], c.point[acts]))
-    walls = {"frame": stage, "left_x": left, "right_x": right, "lower_y": lower, "upper_y": upper,
-             "upper_travel": s.upper_platen_displacement_x}
-    if not (math.isfinite(left) and math.isfinite(right)):
-        del walls["left_x"], walls["right_x"]
+    of_contacts = [c.i[acts], j[acts], c.force[acts], c.point[acts]]
+    of_contacts += [] if np.isnan(c.couple).any() else [c.couple[acts]]
+    names = "i,j,fx,fy,px,py" + ",couple" * (len(of_contacts) > 4)
+    contacts = (f"# force on i; j = -1 lower, -2 upper, -3 left, -4 right wall\n{names}\n"
+                + _rows("%d,%d" + ",#" * (names.count(",") - 1), *of_contacts))
+    if _cell(s) is not None:
+        walls = {"frame": stage, **{name: getattr(s, name) for name in CELL}}
+    else:
+        walls = {"frame": stage, "left_x": s.left_x, "right_x": s.right_x, "cell_width": s.cell_width or math.nan,
+                 "lower_y": s.lower_y, "upper_y": s.upper_y, "upper_travel": s.upper_platen_displacement_x}
+        walls = {name: value for name, value in walls.items() if math.isfinite(value)}
     return {f"particles_{stage}.csv": particles, f"contacts_{stage}.csv": contacts,
             f"walls_{stage}.csv": ",".join(walls) + "\n" + ",".join(map(_exact, walls.values())) + "\n"}
 
 
 def _script(scene: dict[str, dict[str, Any]], s: Any) -> str:
-    left, right, lower, upper = (_diptych.text_of_number(place) for place in _box(s))
+    places = s.left_x, s.right_x, s.lower_y, s.upper_y
+    left, right, lower, upper = (_diptych.text_of_number(place) for place in places)
+    edges = "p p p" if _cell(s) is not None else "p f p" if s.cell_width else "f f p"
     law, p, rho, d = scene["discrete"], scene["loading"]["pressure"], scene["sample"]["density"], s.mean_diameter
     stiffness = 1e4 * p
     damping = math.sqrt(stiffness / (rho * math.pi * d * d / 4))
-    lines = ["# Discs of sample.data between walls at rest, springs kn = 1e4 P (rigid grains have none), dashpots near "
-             "critical."]
+    lines = ["# Discs of sample.data between walls or periods at rest, springs kn = 1e4 P (rigid grains have none), "
+             "dashpots near critical."]
     if law["rolling_friction"] > 0:
         lines.append("# They roll freely here; `rolling sds` of pair_style granular resists rolling.")
-    lines += ["units si", "dimension 2", "boundary f f p", "newton off", "comm_modify vel yes", "atom_style sphere",
+    lines += ["units si", "dimension 2", "boundary " + edges, "newton off", "comm_modify vel yes", "atom_style sphere",
               "read_data sample.data", f"set group all density/disc {_exact(rho)}",
               f"variable kn equal {_exact(stiffness)}",
               "variable kt equal 0.8*${kn}", f"variable gn equal {_exact(damping)}", "variable gt equal 0.5*${gn}",
               f"pair_style gran/hooke/history ${{kn}} ${{kt}} ${{gn}} ${{gt}} {_exact(law['friction'])} 1",
               "pair_coeff * *"]
-    walls = [("lower", f"INF INF {lower} INF INF INF", "platen_friction"),
-             ("upper", f"INF INF INF {upper} INF INF", "platen_friction")]
+    walls = [] if _cell(s) is not None else [("lower", f"INF INF {lower} INF INF INF", "platen_friction"),
+                                             ("upper", f"INF INF INF {upper} INF INF", "platen_friction")]
     if math.isfinite(s.left_x) and math.isfinite(s.right_x):
         walls += [("left", f"{left} INF INF INF INF INF", "wall_friction"),
                   ("right", f"INF {right} INF INF INF INF", "wall_friction")]
@@ -115,26 +118,43 @@ def _script(scene: dict[str, dict[str, Any]], s: Any) -> str:
 
 
 def as_lammps(s: Any, scene: dict[str, dict[str, Any]]) -> dict[str, str]:
-    """A data file and a script. Rigid grains have no contact stiffness and damping: the script states its own."""
-    _, _, lower, upper = _box(s)
-    room, n, x = 2 * s.mean_diameter, len(s), s.position
-    bounds = {"x": (x[:, 0].min() - 5 * room, x[:, 0].max() + 5 * room), "y": (lower - room, upper + room)}
+    """A data file and a script. Rigid grains have no contact stiffness and damping: the script states its own.
+
+    LAMMPS needs the first vector of a cell along x, so the cell is turned."""
+    room, n, x, tilt = 2 * s.mean_diameter, len(s), s.position, ""
+    bounds = {"x": (x[:, 0].min() - 5 * room, x[:, 0].max() + 5 * room), "y": (s.lower_y - room, s.upper_y + room)}
+    cell = _cell(s)
+    if s.cell_width:
+        left = s.outline_left[0, 0]
+        bounds["x"] = left, left + s.cell_width
+    elif cell is not None:
+        a1 = cell[:, 0] / np.linalg.norm(cell[:, 0])
+        turn = np.array([a1, (-a1[1], a1[0])])
+        (width, xy), (_, height) = turn @ cell
+        bounds, tilt = {"x": (0.0, width), "y": (0.0, height)}, f"{_exact(xy)} 0 0 xy xz yz\n"
+        x = np.linalg.solve(cell, x.T).T % 1 @ (turn @ cell).T
     data = (f"LAMMPS data file: discs of a prepared sample; in.sample sets density/disc\n\n{n} atoms\n1 atom types\n\n"
             + "".join(f"{_exact(low)} {_exact(high)} {axis}lo {axis}hi\n" for axis, (low, high) in bounds.items())
-            + "-0.5 0.5 zlo zhi\n\nAtoms # sphere\n\n"
+            + "-0.5 0.5 zlo zhi\n" + tilt + "\nAtoms # sphere\n\n"
             + _rows("%d 1 # # # # 0", 1 + np.arange(n), 2 * s.radius, np.full(n, scene["sample"]["density"]), x))
     return {"sample.data": data, "in.sample": _script(scene, s)}
 
 
 def _section(stage: int, s: Any, rows: str, n_rows: int) -> str:
     """Head of a section. Sides without a wall have the outermost surface of the grains as the bound of the box."""
-    periodic, x, r = s.cell_width > 0, s.position[:, 0], s.radius
+    periodic, x, r, cell = s.cell_width > 0, s.position[:, 0], s.radius, _cell(s)
     left, right = (0, s.cell_width) if periodic else ((x - r).min(), (x + r).max())
     if not periodic:
         left, right = np.fmin(left, s.left_x), np.fmax(right, s.right_x)  # nan: there is no wall
     lines = ["ITEM: TIMESTEP", str(stage), *(["ITEM: TIME", _exact(s.time)] if math.isfinite(s.time) else []),
-             f"ITEM: NUMBER OF {rows}", str(n_rows), f"ITEM: BOX BOUNDS {'pp' if periodic else 'ff'} ff pp",
-             f"{_exact(left)} {_exact(right)}", f"{_exact(s.lower_y)} {_exact(s.upper_y)}", "-0.5 0.5"]
+             f"ITEM: NUMBER OF {rows}", str(n_rows)]
+    if cell is None:
+        lines += [f"ITEM: BOX BOUNDS {'pp' if periodic else 'ff'} ff pp", f"{_exact(left)} {_exact(right)}",
+                  f"{_exact(s.lower_y)} {_exact(s.upper_y)}", "-0.5 0.5"]
+    else:  # each line a vector and a component of the corner
+        lines += ["ITEM: BOX BOUNDS abc origin pp pp pp",
+                  *(f"{_exact(a[0])} {_exact(a[1])} 0 {_exact(at)}" for a, at in zip(cell.T, s.outline_left[0])),
+                  "0 0 1 -0.5"]
     return "\n".join(lines) + "\n"
 
 

@@ -13,7 +13,8 @@ from ..errors import SceneError
 # Names of the arrays -> number of their axes; those of two axes are vectors.
 GRAINS = {"id": 1, "position": 2, "radius": 1, "mass": 1, "velocity": 2, "spin": 1, "rotation": 1, "resultant": 2,
           "line": 1}
-CONTACTS = {"first": 1, "second": 1, "wall": 1, "force": 2, "point": 2, "overlap": 1, "slides": 1, "line": 1}
+CONTACTS = {"first": 1, "second": 1, "wall": 1, "force": 2, "point": 2, "overlap": 1, "couple": 1, "slides": 1,
+            "line": 1}
 REQUIRED = {"grains": ("id", "position", "radius"), "contacts": ("first", "second", "wall", "force")}
 
 
@@ -57,8 +58,10 @@ class Frame:
               (n, counter-clockwise), "resultant" (n, 2: of all forces, as the code summed them up), "line" (n, of the
               file)
     contacts  "first", "second" (m, ids), "wall" (m, index in `walls`, -1: two grains), "force" (m, 2, on `first`); if
-              known "point" (m, 2), "overlap" (m), "slides" (m, 0 or 1), "line" (m). None: the files hold no contacts
+              known "point" (m, 2), "overlap" (m), "couple" (m, of rolling resistance on `first`, counter-clockwise),
+              "slides" (m, 0 or 1), "line" (m). None: the files hold no contacts
     walls     list of Wall
+    period    (2, 2), whose columns are the vectors a1 and a2 of a periodic sample; a2 = 0: along x only. None: none
     gravity   acceleration of every grain; None: unknown
     time      of the instant; None: unknown. step: its number
     spheres   True: one layer of spheres, so stresses need Options.thickness; False: discs
@@ -71,6 +74,7 @@ class Frame:
     contacts: dict[str, np.ndarray] | None = None
     _: KW_ONLY
     walls: list[Wall] = field(default_factory=list)
+    period: Any = None
     gravity: tuple[float, float] | None = None
     time: float | None = None
     step: int | None = None
@@ -98,6 +102,9 @@ class Options:
     pressure: float | None = None
     mean_diameter: float | None = None
     gravity: tuple[float, float] | None = None
+    period_x: float | None = None
+    period_y: float | None = None
+    plane: str = "xy"  # or "xz": a layer whose y is the z of the files
     frames: str = ""
     walls_touch: bool = False
     notes: list[str] = field(default_factory=list)
@@ -112,6 +119,15 @@ class Options:
                 self.used.add(text)
                 return names
         return None
+
+    def axes(self) -> list[int]:
+        """Indices of the two axes of a layer of spheres; of the axis of spins it is the one left."""
+        self.used.add("plane")
+        return [0, 2] if self.plane == "xz" else [0, 1]
+
+    def has_columns(self, kind: str, width: int) -> bool:
+        """True if the user named so many columns of a kind."""
+        return any(text.startswith(kind + "=") and text.count(",") == width - 1 for text in self.columns)
 
     def time_of(self, step: int) -> float | None:
         """The time of a step, if --timestep is given."""

@@ -10,8 +10,9 @@ import numpy as np
 from .. import _diptych, scenes
 from ..errors import SceneError
 from .arrival import Arrival
-from .checks import sum_of_forces
+from .checks import axial_strain, sum_of_forces
 from .frames import refused
+from .periods import is_cell
 from .touching import SIDES, Instant, dot, length, total
 
 GROWTH = 1e-9  # least growth of the loading variable between two frames
@@ -20,18 +21,23 @@ MOST_DIAMETERS = 1e5  # between the lower and the upper wall
 
 def _require_places(arrival: Arrival) -> None:
     for now in arrival.frames:
-        if not np.isfinite(now.place[:2]).all():
+        if is_cell(now.period) != is_cell(arrival.frames[0].period):
+            raise now.refused("is periodic in other directions than the first frame")
+        if not np.isfinite(now.place[:2]).all() and not is_cell(now.period):
             raise now.refused("the places of the lower and the upper wall are in none of the files; give a table with "
                               "frame, lower_y and upper_y (or width and height), or use --walls-touch")
     for now in arrival.frames:
-        n = (now.place[1] - now.place[0]) / arrival.mean_diameter
+        height = now.period[1, 1] if is_cell(now.period) else now.place[1] - now.place[0]
+        n = height / arrival.mean_diameter
         if not 1 <= n <= MOST_DIAMETERS:
-            raise now.refused(f"the lower and the upper wall are {_diptych.text_of_number(n)} mean diameters apart; 1 "
+            raise now.refused(f"the lower and the upper end are {_diptych.text_of_number(n)} mean diameters apart; 1 "
                               "to 100000 are allowed", "wall_file")
 
 
 def _loading_variable(arrival: Arrival, strains: dict[str, np.ndarray]) -> str:
     """The strain that grows from frame to frame. Raises SceneError if neither does."""
+    if is_cell(arrival.frames[0].period):
+        return "path"  # of any strains
     grows = {name: bool(np.all(strain[1:] > strain[:-1] + GROWTH)) for name, strain in strains.items()}
     first, last = arrival.frames[0], arrival.frames[-1]
     if not any(grows.values()):
@@ -55,10 +61,15 @@ def _snapshot(now: Instant, first: Instant, setting: dict[str, Any]) -> Any:
     grains |= {"mean_spin_term": np.where(np.isfinite(spin_term), spin_term, 0), "rattler": touched == 0,
                "fixed": np.zeros(n), "applied_force": g["weight"]}
     setting |= {"time": now.time - (first.time if math.isfinite(first.time) else 0), "step": math.nan,
-                "residual": math.nan, "upper_platen_displacement_x": now.travel - first.travel,
-                "upper_platen_displacement_y": now.place[1] - first.place[1],
-                **dict(zip(("lower_y", "upper_y", "left_x", "right_x"), now.place)),
-                **_forces(now, ("lower_platen_force_", "upper_platen_force_"))}
+                "residual": math.nan}
+    if is_cell(now.period):
+        setting |= dict(zip(("cell_a1_x", "cell_a2_x", "cell_a1_y", "cell_a2_y"), now.period.ravel()))
+    else:
+        setting |= {"upper_platen_displacement_x": now.travel - first.travel,
+                    "upper_platen_displacement_y": now.place[1] - first.place[1],
+                    "cell_width": 0.0 if now.period is None else now.period[0, 0],
+                    **dict(zip(("lower_y", "upper_y", "left_x", "right_x"), now.place)),
+                    **_forces(now, ("lower_platen_force_", "upper_platen_force_"))}
     return _diptych.grain_snapshot(grains, now.contacts if now.has_contacts else None, setting)
 
 
@@ -73,6 +84,7 @@ UNKNOWN = ("kinetic_energy_ratio", "friction_dissipation", "impact_dissipation",
            "rolling_dissipation", "energy_residual", "momentum_residual", "residual", "skew_moment", "inertial_number",
            "spin_term_share", "core_sxx", "core_sxy", "core_syy", "side_sxx",
            "platen_sxx")
+STRAINS = {"exx": (0, 0), "eyy": (1, 1), "exy": (0, 1)}  # of a cell
 SAME = ("time", "axial_strain", "shear_strain", "progress", "walk")  # as in the snapshot
 WALL_FORCES = [side + "_f" for side in SIDES]
 
@@ -88,11 +100,14 @@ def _row(now: Instant, check: dict[str, Any], s: Any, first_area: float) -> dict
     row |= {"sxx": sxx, "sxy": sxy, "syx": syx, "syy": syy, "volumetric_strain": 1 - s.area / first_area,
             "stress_ratio": t / mean if np.isfinite(stress).all() and mean > 0 else math.nan,
             "solid_fraction": total(np.pi * g["radius"] * g["radius"]) / s.area,
-            "width": s.area / (now.place[1] - now.place[0]), "contacts": len(c["i"]),
+            "width": s.area / (s.cell_a2_y or now.place[1] - now.place[0]), "contacts": len(c["i"]),
             "kinetic_energy": total(0.5 * g["mass"] * (dot(g["velocity"], g["velocity"]) + turning)),
             "rattlers": int(s.rattler.sum()), "max_penetration": check["largest_overlap"],
             "unbalanced_force": _unbalanced_force(now) if len(c["i"]) else math.nan,
             "platen_sliding": np.mean(status == 2) if len(status) and np.all(c["status"] != 3) else math.nan}
+    if is_cell(now.period):
+        row |= dict.fromkeys(("drive_sxx", "drive_syy", "drive_sxy"), math.nan)
+        row |= {name: now.strain[at] for name, at in STRAINS.items()}
     if math.isfinite(g["spin"][0]) and math.isfinite(g["mass"][0]):
         row["spin_term_share"] = total(s.mean_spin_term) / s.area / mean
     return row
@@ -107,18 +122,21 @@ def results_of(arrival: Arrival) -> Any:
     _require_places(arrival)
     first = arrival.frames[0]
     height = first.place[1] - first.place[0]
-    strains = {"axial_strain": np.array([1 - (now.place[1] - now.place[0]) / height for now in arrival.frames]),
-               "shear_strain": np.array([(now.travel - first.travel) / height for now in arrival.frames])}
+    strains = {"axial_strain": np.array([axial_strain(now, height) for now in arrival.frames]),
+               "shear_strain": np.array([2 * now.strain[0, 1] if is_cell(now.period) else
+                                         (now.travel - first.travel) / height for now in arrival.frames])}
     walk = _loading_variable(arrival, strains) if len(arrival.frames) > 1 else "axial_strain"
     snapshots = []
     for k, now in enumerate(arrival.frames):
         at = {name: strain[k] for name, strain in strains.items()}
-        at |= {"walk": walk, "progress": at[walk], "mean_diameter": arrival.mean_diameter}
+        at |= {"walk": walk, "progress": at.get(walk, k), "mean_diameter": arrival.mean_diameter}
         snapshots.append(_snapshot(now, first, at))
     rows = [{**_row(now, check, s, snapshots[0].area), "step": k}
             for k, (now, check, s) in enumerate(zip(arrival.frames, arrival.checks, snapshots))]
     for before, row in zip(rows, rows[1:]):
-        rate = (row["progress"] - before["progress"]) / np.float64(row["time"] - before["time"])
+        strain = np.linalg.norm([(1 + (name == "exy")) * (row[name] - before[name]) for name in STRAINS]) if (
+            walk == "path") else row["progress"] - before["progress"]
+        rate = strain / np.float64(row["time"] - before["time"])
         mean = 0.5 * (row["sxx"] + row["syy"])
         row["inertial_number"] = rate * arrival.mean_diameter * np.sqrt(arrival.density / mean)
     return _diptych.grain_results(snapshots, rows)
@@ -157,7 +175,8 @@ def scene_of(arrival: Arrival, results: Any, pressure: float | None) -> str:
                            "mode": "descent" if is_axial else "shear", "axial_strain": stages[-1], "stages": stages,
                            **({"strain_rate": rows["progress"][-1] / time} if time > 0 and math.isfinite(time) else {})}
     sections["discrete"] = {"method": "imported", "file": "discrete.h5",
-                            "lateral": "rigid_walls" if has_sides else "end_grains"}
+                            "lateral": "rigid_walls" if has_sides else
+                            "periodic" if results.snapshots[0].cell_width else "end_grains"}
     if has_sides and is_axial:  # rough platens would hold the corners that the wall takes along
         sections["continuum"] = {"platens": "smooth"}
     # The continuum is compared at instants, too.

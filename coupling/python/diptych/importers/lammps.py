@@ -6,9 +6,11 @@ import re
 
 import numpy as np
 
+from ..errors import SceneError
 from .dumps import PLACES, Section, add_section, is_dump, read_dump, require_same_steps
 from .frames import Frame, Options, Wall, acting, contacts_of, joined, refused, rows_of
 from .lammps_data import is_data_file, read_data
+from .periods import shifts_of
 from .tables import DIAMETER, RADIUS, Table
 from .walls import sorted_files
 
@@ -25,10 +27,6 @@ def _walls_in(table: Table) -> list[str]:
 def _kinds_of(section: Section, options: Options) -> list[str]:
     """The kinds of rows that a section has: grains, contacts, walls."""
     table = section.table
-    for axis in (0, 1):
-        if section.periodic[axis]:
-            raise refused(table.path, f"the box is periodic along {'xy'[axis]}; the files do not show contacts across "
-                          "its edge")
     if section.kind == "ENTRIES":
         return ["contacts"]
     names = None if _walls_in(table) else options.columns_of("particles", len(table.columns))
@@ -52,7 +50,9 @@ def _contacts(table: Table, frame: Frame, options: Options) -> dict[str, np.ndar
     first, second, force = table.whole(*FIRST), table.whole(*SECOND), table.vectors("fx", "fy")
     ids, position = frame.grains["id"], frame.grains["position"]
     a, b = rows_of(ids, first), rows_of(ids, second)
-    branch, size = position[a] - position[b], np.linalg.norm(force, axis=1)
+    branch = position[a] - position[b]
+    branch = branch - shifts_of(frame.period, branch)
+    size = np.linalg.norm(force, axis=1)
     across = abs(branch[:, 0] * force[:, 1] - branch[:, 1] * force[:, 0])  # else the columns mean something else
     table.refuse((across > 1e-4 * np.linalg.norm(branch, axis=1) * size) & (a >= 0) & (b >= 0),
                  lambda _: "fx, fy are not parallel to the line of the centres; do the columns have another meaning "
@@ -93,9 +93,11 @@ def _frame(section: Section, found: dict[str, dict[int, Section]], options: Opti
 
 def read(options: Options) -> list[Frame]:
     """Frames of dumps, or of data files. Raises SceneError."""
+    if options.plane != "xy":
+        raise SceneError("import lammps: --plane xz would have no effect: discs in two dimensions lie in the x-y plane")
     files = sorted_files(options, dump=is_dump, data_file=is_data_file)
     found: dict[str, dict[int, Section]] = {"grains": {}, "contacts": {}, "walls": {}}
-    for section in (section for path in files["dump"] for section in read_dump(path)):
+    for section in (section for path in files["dump"] for section in read_dump(path, options)):
         for kind in _kinds_of(section, options):
             add_section(found[kind], section, options)
     require_same_steps(found, options)

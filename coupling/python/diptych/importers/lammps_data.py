@@ -7,6 +7,7 @@ from typing import Callable
 import numpy as np
 
 from .frames import Frame, Options, refuse_where, refused, rows_of
+from .periods import period_of
 from .tables import Table, grains_of, rows_below
 from .text import floats_of, int_of, read_lines
 
@@ -47,13 +48,18 @@ def _section(path: str, lines: list[str], head: int, count: int, columns: Callab
 
 def read_data(path: str, options: Options) -> Frame:
     """The frame of a data file. Raises SceneError."""
-    lines, count, grains = read_lines(path), 0, {}
+    lines, count, grains, tilt, size = read_lines(path), 0, {}, 0.0, {"xlo": 0.0, "ylo": 0.0}
     for k, line in enumerate(lines):
         words = line.split()
         if words[1:] == ["atoms"]:
             count = int_of(path, k + 1, words[0], "the number of grains")
-        elif words[3:6] == ["xy", "xz", "yz"] and any(floats_of(path, k + 1, words[:3], "a tilt of the box")):
-            raise refused(path, "the box is tilted; only upright boxes are supported", k + 1)
+        elif words[2:4] in (["xlo", "xhi"], ["ylo", "yhi"]):
+            low, high = floats_of(path, k + 1, words[:2], "a bound of the box")
+            size[words[2]] = high - low
+        elif words[3:6] == ["xy", "xz", "yz"]:
+            tilt, *others = floats_of(path, k + 1, words[:3], "a tilt of the box")
+            if any(others):
+                raise refused(path, "the box is tilted out of the x-y plane", k + 1)
         elif words[:1] == ["Atoms"]:
             table = _section(path, lines, k, count, lambda width: _columns(path, k + 1, words[2:], width, options))
             grains = grains_of(table, options)
@@ -70,4 +76,6 @@ def read_data(path: str, options: Options) -> Frame:
                 grains["spin"] = table.numbers("wz")[order]
     if not grains:
         raise refused(path, "contains no section Atoms")
-    return Frame(path, grains, grain_file=path)
+    # LAMMPS tilts periodic boxes only; whether an upright one is periodic stands in the script.
+    period = period_of([size["xlo"], 0], [tilt, size["ylo"]]) if tilt else None
+    return Frame(path, grains, grain_file=path, period=period)

@@ -8,6 +8,7 @@ import numpy as np
 
 from .dumps import Section, add_section, is_dump, read_dump, require_same_steps
 from .frames import Frame, Options, Wall, contacts_of, joined, refused, rows_of
+from .periods import shifts_of
 from .tables import Table
 from .text import number_in_name
 from .walls import sorted_files, wall_of
@@ -41,11 +42,19 @@ def _named(section: Section, kind: str, options: Options) -> Table | None:
     return next((Table(table.path, columns, table.rows, table.lines) for columns in found if columns), None)
 
 
-def _pair(table: Table, keyword: str, first: int) -> np.ndarray:
-    return table.vectors(f"{keyword}.{first}", f"{keyword}.{first + 1}")
+def _pair(table: Table, keyword: str, first: int, options: Options) -> np.ndarray:
+    """(n, 2) the part in the plane of the layer of the vector that begins at column `first` of a keyword."""
+    return table.vectors(*(f"{keyword}.{first + axis}" for axis in options.axes()))
 
 
-def _fits(table: Table | None, kind: str, frame: Frame) -> bool:
+def _couple(table: Table, lever: np.ndarray, options: Options) -> np.ndarray:
+    """(n) couple on the grain: its torque about its centre less the moment of the force, which acts at `lever`."""
+    axis, sign = (3, 1) if options.axes() == [0, 1] else (2, -1)
+    force = _pair(table, "force", 1, options)
+    return sign * table.numbers(f"torque.{axis}") - (lever[:, 0] * force[:, 1] - lever[:, 1] * force[:, 0])
+
+
+def _fits(table: Table | None, kind: str, frame: Frame, options: Options) -> bool:
     """True if the ids and places of the rows are those of grains: two in a contact, the third id in a wall contact."""
     if table is None:
         return False
@@ -53,8 +62,9 @@ def _fits(table: Table | None, kind: str, frame: Frame) -> bool:
         rows = rows_of(frame.grains["id"], table.numbers(column))
         is_there = rows >= 0
         if table.has("pos.1"):
-            off = np.linalg.norm(frame.grains["position"][rows] - _pair(table, "pos", place), axis=1)
-            is_there &= off <= frame.grains["radius"][rows]
+            off = frame.grains["position"][rows] - _pair(table, "pos", place, options)
+            off = off - shifts_of(frame.period, off)
+            is_there &= np.linalg.norm(off, axis=1) <= frame.grains["radius"][rows]
         if np.sum(is_there) < 0.9 * len(rows):
             return False
     return True
@@ -72,7 +82,7 @@ def _kinds_of(sections: list[Section], frames: dict[int, Frame], options: Option
         group, frame, table = _group_of(section), frames[section.step], section.table
         if group in kinds:
             continue
-        fitting = [kind for kind in USUAL if _fits(_named(section, kind, options), kind, frame)]
+        fitting = [kind for kind in USUAL if _fits(_named(section, kind, options), kind, frame, options)]
         if not fitting:
             raise refused(table.path, f"step {section.step}: {len(table.columns)} columns are neither contacts nor "
                           "wall contacts; give the compute's keywords: --columns contacts=pos,id,... or "
@@ -81,30 +91,52 @@ def _kinds_of(sections: list[Section], frames: dict[int, Frame], options: Option
     return kinds
 
 
+@np.errstate(all="ignore")
+def _levers(frame: Frame, first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """(n, 2) from the first grain to the middle of the overlap, where LIGGGHTS lets the force act."""
+    a, b = (rows_of(frame.grains["id"], ids) for ids in (first, second))
+    x, r = frame.grains["position"], frame.grains["radius"]
+    branch = x[b] - x[a]
+    branch = branch - shifts_of(frame.period, branch)
+    distance = np.linalg.norm(branch, axis=1)
+    return (0.5 * (distance + r[a] - r[b]) / distance)[:, None] * branch
+
+
 def _contacts(table: Table, frame: Frame, options: Options) -> dict[str, np.ndarray]:
-    table.refuse(table.numbers("id.3") != 0, lambda k: "a contact across a periodic edge; walls are needed")
+    if frame.period is None and options.period_x is None:
+        table.refuse(table.numbers("id.3") != 0, lambda k: "a contact across a periodic edge, but the box is not "
+                     "periodic; give --period-x and --period-y, or a table of cell_width")
     frame.contact_file = table.path
-    return contacts_of(table.whole("id.1"), table.whole("id.2"), _pair(table, "force", 1), line=table.lines,
-                       point=_pair(table, "contactPoint", 1) if table.has("contactPoint.1") else None,
-                       overlap=table.optional(options, "delta.1"))
+    first, second, couple = table.whole("id.1"), table.whole("id.2"), None
+    if table.has("torque.1"):
+        couple = _couple(table, _levers(frame, first, second), options)
+    return contacts_of(first, second, _pair(table, "force", 1, options), line=table.lines,
+                       point=_pair(table, "contactPoint", 1, options) if table.has("contactPoint.1") else None,
+                       overlap=table.optional(options, "delta.1"), couple=couple)
 
 
-def _wall_contacts(table: Table, frame: Frame, _: Options) -> dict[str, np.ndarray]:
+def _wall_contacts(table: Table, frame: Frame, options: Options) -> dict[str, np.ndarray]:
     """The contact point is the first point of `pos`; the keyword contactPoint is 0 for plates."""
     numbers, wall = np.unique(table.whole("id.1"), return_inverse=True)
     frame.walls += [Wall(f"mesh {number}") for number in numbers]
     frame.contact_file = frame.contact_file or table.path
-    return contacts_of(table.whole("id.3"), -1, _pair(table, "force", 1), wall, line=table.lines,
-                       point=_pair(table, "pos", 1) if table.has("pos.1") else None)
+    grain, force, point, couple = table.whole("id.3"), _pair(table, "force", 1, options), None, None
+    if table.has("pos.1"):
+        point = _pair(table, "pos", 1, options)
+        if table.has("torque.1"):
+            lever = point - frame.grains["position"][rows_of(frame.grains["id"], grain)]
+            couple = _couple(table, lever, options)
+    return contacts_of(grain, -1, force, wall, line=table.lines, point=point, couple=couple)
 
 
-def _add_plates(path: str, frame: Frame) -> None:
-    """Planes of an STL along x or y. It has six digits, so it gives only places that no other file contains."""
+def _add_plates(path: str, frame: Frame, options: Options) -> None:
+    """Planes of an STL along the axes of the layer. It has six digits, so it gives only places that no other file
+    contains."""
     import meshio  # type: ignore
 
     try:
         mesh = meshio.stl.read(path)  # meshio.read ends the process
-        corners = mesh.points[mesh.cells_dict["triangle"]]
+        corners = mesh.points[mesh.cells_dict["triangle"]][:, :, options.axes()]
     except Exception as error:  # of many kinds, on damaged files
         raise refused(path, f"is no STL of triangles ({error}); is it truncated?") from error
     middle = frame.grains["position"].mean(axis=0)
@@ -131,7 +163,7 @@ def read(options: Options) -> list[Frame]:
     """Frames of dumps. Raises SceneError."""
     files = sorted_files(options, stl=lambda path: path.endswith(".stl"), dump=is_dump)
     found: dict[str, dict[int, Section]] = {"grains": {}, "contacts": {}, "walls": {}}
-    sections = [section for path in files["dump"] for section in read_dump(path)]
+    sections = [section for path in files["dump"] for section in read_dump(path, options)]
     for section in sections:
         if section.kind == "ATOMS":
             add_section(found["grains"], section, options)
@@ -147,5 +179,5 @@ def read(options: Options) -> list[Frame]:
                  for kind, take in (("contacts", _contacts), ("walls", _wall_contacts)) if step in found[kind]]
         frame.contacts = joined(*parts) if parts else None
         if step in plates:
-            _add_plates(plates[step], frame)
+            _add_plates(plates[step], frame, options)
     return list(frames.values())

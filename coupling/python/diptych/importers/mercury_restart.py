@@ -9,6 +9,8 @@ from typing import Callable
 import numpy as np
 
 from .frames import Frame, Wall, contacts_of, joined, refuse_where, refused
+from .periods import period_of
+from .tables import refuse_other_plane
 from .text import floats_of, int_of, read_lines
 
 
@@ -31,10 +33,20 @@ class _Rows:
 
     path: str
     rows: list[tuple[int, list[str]]]  # line from 1, words
+    axes: list[int]  # of the layer
+
+    def vectors(self, key: str) -> np.ndarray:
+        """(rows, 2) the part in the plane of the layer of the vectors behind a keyword."""
+        return self.after(key, 3)[:, self.axes]
+
+    def turns(self, key: str) -> np.ndarray:
+        """(rows) the part that turns within the plane of the layer, counter-clockwise; x, z and y are left-handed."""
+        values = self.after(key, 3)
+        return values[:, 2] if self.axes == [0, 1] else -values[:, 1]
 
     def having(self, key: str) -> "_Rows":
         """The rows that contain a keyword."""
-        return _Rows(self.path, [row for row in self.rows if key in row[1]])
+        return _Rows(self.path, [row for row in self.rows if key in row[1]], self.axes)
 
     def after(self, key: str, n: int = 1) -> np.ndarray:
         """(rows, n) numbers behind a keyword, which every row must contain."""
@@ -54,12 +66,15 @@ class _Rows:
 def _side(wall: _Rows) -> str:
     """The normal points outwards: `normal` in files of 2015, else the x axis turned by a quaternion (w, x, y, z)."""
     if wall.having("normal").rows:
-        nx, ny, _ = wall.after("normal", 3)[0]
+        normal = wall.after("normal", 3)[0]
     else:
         w, x, y, z = wall.after("orientation", 4)[0]
-        nx, ny = w * w + x * x - y * y - z * z, 2 * (x * y + w * z)
+        normal = np.array([w * w + x * x - y * y - z * z, 2 * (x * y + w * z), 2 * (x * z - w * y)])
+    nx, ny = normal[wall.axes]
     if max(abs(nx), abs(ny)) < 0.99:
-        raise refused(wall.path, f"the normal of this wall, ({nx:g}, {ny:g}), is neither along x nor along y",
+        told, other = ", ".join(f"{part:g}" for part in normal), abs(normal[2]) > 0.99 and wall.axes[1] == 1
+        raise refused(wall.path, f"the normal of this wall, ({told}), is neither along x nor along "
+                      f"{'xyz'[wall.axes[1]]}" + "; if the layer lies in the x-z plane, give --plane xz" * other,
                       wall.lines()[0])
     return ("left" if nx < 0 else "right") if abs(nx) > abs(ny) else "lower" if ny < 0 else "upper"
 
@@ -68,19 +83,42 @@ def _wall(wall: _Rows) -> tuple[int, Wall]:
     if wall.rows[0][1][:1] != ["InfiniteWall"]:
         raise refused(wall.path, "expected an InfiniteWall; other shapes are not supported", wall.lines()[0])
     side, number = _side(wall), int(wall.after("id")[0, 0])
-    return number, Wall(f"wall {number}", side, wall.after("position", 3)[0, 0 if side in ("left", "right") else 1],
-                        force=tuple(wall.after("force", 3)[0, :2]))
+    return number, Wall(f"wall {number}", side, wall.vectors("position")[0, 0 if side in ("left", "right") else 1],
+                        force=tuple(wall.vectors("force")[0]))
+
+
+def _period(rows: _Rows) -> np.ndarray | None:
+    """The period of boundaries: PeriodicBoundary has its vector as `shift`, LeesEdwardsBoundary its box and `shift`."""
+    shifts = []
+    for row in rows.rows:
+        one = _Rows(rows.path, [row], rows.axes)
+        if row[1][0] == "PeriodicBoundary":
+            shifts.append(one.vectors("shift")[0])
+        elif row[1][0] == "LeesEdwardsBoundary":
+            left, right, down, up, shift = (one.after(key)[0, 0] for key in ("left", "right", "down", "up", "shift"))
+            shifts += [np.array([right - left, 0]), np.array([shift, up - down])]
+    a1, a2 = np.zeros(2), np.zeros(2)
+    for shift in shifts:
+        if shift[1] == 0 and shift[0] != 0:
+            a1 = np.abs(shift)
+        elif shift[1] != 0:
+            a2 = np.sign(shift[1]) * shift
+    return period_of(a1, a2)
 
 
 def _grains(rows: _Rows, masses_of: Callable[[np.ndarray], np.ndarray]) -> tuple[dict[str, np.ndarray], bool]:
     """The grains, and whether some of them are fixed."""
-    turn, radius, inverse = rows.after("orientation", 4), rows.after("radius")[:, 0], rows.after("invMass")[:, 0]
+    radius, inverse = rows.after("radius")[:, 0], rows.after("invMass")[:, 0]
     refuse_where(rows.path, radius <= 0, rows.lines(), lambda k: "a radius must be positive")
     refuse_where(rows.path, inverse < 0, rows.lines(), lambda k: "invMass is negative")
+    turn, place = rows.after("orientation", 4), rows.after("position", 3)
+    if rows.axes == [0, 1]:
+        refuse_other_plane(rows.path, place[:, 1], place[:, 2])
+    about = turn[:, 3] if rows.axes == [0, 1] else -turn[:, 2]
     ids = rows.after("id")[:, 0].astype(int) if rows.having("id").rows else np.arange(len(radius))
-    grains = {"id": ids, "radius": radius, "line": rows.lines(), "position": rows.after("position", 3)[:, :2],
-              "velocity": rows.after("velocity", 3)[:, :2], "resultant": rows.after("force", 3)[:, :2],
-              "spin": rows.after("angularVelocity", 3)[:, 2], "rotation": 2 * np.arctan2(turn[:, 3], turn[:, 0]),
+    grains = {"id": ids, "radius": radius, "line": rows.lines(), "position": rows.vectors("position"),
+              "velocity": rows.vectors("velocity"), "resultant": rows.vectors("force"),
+              "spin": rows.turns("angularVelocity"), "rotation": 2 * np.arctan2(about, turn[:, 0]),
               "mass": np.where(inverse > 0, 1 / np.where(inverse > 0, inverse, 1), masses_of(radius))}
     return grains, bool(np.any(inverse == 0))
 
@@ -91,32 +129,33 @@ def _contacts(rows: _Rows, key: str, walls: dict[int, int] | None = None) -> dic
     first, second = rows.after(key, 2).astype(int).T
     wall = np.array([-1 if walls is None else walls.get(number, -2) for number in second.tolist()], dtype=int)
     refuse_where(rows.path, wall == -2, rows.lines(), lambda k: f"wall {second[k]} does not exist")
-    return contacts_of(first, second, rows.after("force", 3)[:, :2], wall, point=rows.after("contactPoint", 3)[:, :2],
-                       line=rows.lines())
+    return contacts_of(first, second, rows.vectors("force"), wall, point=rows.vectors("contactPoint"),
+                       couple=rows.turns("torque"), line=rows.lines())
 
 
-def read_restart(path: str) -> Restart:
-    """Reads a restart file. Raises SceneError naming file, line and the expected text."""
+def read_restart(path: str, axes: list[int]) -> Restart:
+    """Reads a restart file; `axes` are those of the layer. Raises SceneError naming file, line and expected text."""
     rows = [(k, line.split()) for k, line in enumerate(read_lines(path), 1)]
-    sections = {"Walls": _Rows(path, [])}
+    sections = {"Walls": _Rows(path, [], axes), "Boundaries": _Rows(path, [], axes)}
     for k, words in rows:
-        if len(words) == 2 and words[0] in ("Walls", "Particles", "Interactions"):
+        if len(words) == 2 and words[0] in ("Walls", "Boundaries", "Particles", "Interactions"):
             count = int_of(path, k, words[1], "the number of " + words[0])
-            sections[words[0]] = _Rows(path, rows[k:k + count])
+            sections[words[0]] = _Rows(path, rows[k:k + count], axes)
             if len(rows) < k + count:
                 raise refused(path, f"the file ends before {count} {words[0]}; is it complete?", len(rows))
-    head = _Rows(path, rows[:next((k for k, (_, words) in enumerate(rows) if words[:1] == ["Particles"]), 0)])
+    head = _Rows(path, rows[:next((k for k, (_, words) in enumerate(rows) if words[:1] == ["Particles"]), 0)], axes)
     time = head.having("timeStep").after("time")
     if not len(time) or not sections["Particles"].rows:
         raise refused(path, "the file ends without particles or without a time; is it a restart file, and complete?",
                       len(rows))
-    gravity, density = head.having("gravity").after("gravity", 3), head.having("density").after("density")
+    gravity, density = head.having("gravity").vectors("gravity"), head.having("density").after("density")
     frame = Frame(f"time {time[0, 0]:.10g}", {}, time=time[0, 0],
-                  gravity=tuple(gravity[0, :2]) if len(gravity) else None,
+                  gravity=tuple(gravity[0]) if len(gravity) else None,
                   spheres=bool(np.any(head.having("particleDimensions").after("particleDimensions") == 3)),
                   grain_file=path, contact_file=path)
     restart = Restart(frame, density[0, 0] if len(density) else math.nan)
-    walls = dict(_wall(_Rows(path, [row])) for row in sections["Walls"].rows)
+    frame.period = _period(sections["Boundaries"])
+    walls = dict(_wall(_Rows(path, [row], axes)) for row in sections["Walls"].rows)
     frame.walls = list(walls.values())
     frame.grains, restart.has_fixed = _grains(sections["Particles"], restart.masses_of)
     if "Interactions" in sections:

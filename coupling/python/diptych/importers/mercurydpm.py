@@ -14,7 +14,7 @@ from .text import float_of, int_of, read_lines
 from .walls import sorted_files
 
 COLUMNS = {6: "x y vx vy r angle omega info".split(),
-           8: "x y z vx vy vz r angle_x angle_y angle omega_x omega_y omega info".split()}
+           8: "x y z vx vy vz r angle_x angle_y angle_z omega_x omega_y omega_z info".split()}
 CONTACTS = "time i j cx cy cz overlap tangential_overlap fn ft nx ny nz tx ty tz".split()
 SAME_TIME = 1e-8  # relative; files have ten digits
 
@@ -30,7 +30,7 @@ def _data_frames(path: str, options: Options) -> list[Frame]:
         if len(head) not in COLUMNS:
             raise refused(path, f"{len(head)} entries; the head of a frame has 6 (2D) or 8 (3D)", k)
         count, time = int_of(path, k, head[0], "the number of grains"), float_of(path, k, head[1], "time")
-        table = rows_below(path, lines, k, count, COLUMNS[len(head)])
+        table = rows_below(path, lines, k, count, COLUMNS[len(head)]).in_plane(options)
         frame = Frame("time " + head[1], grains_of(table, options), time=time, grain_file=path)
         old = frames.setdefault(time, frame)
         if old is not frame and not np.array_equal(old.grains["position"], frame.grains["position"]):
@@ -41,7 +41,7 @@ def _data_frames(path: str, options: Options) -> list[Frame]:
     return list(frames.values())
 
 
-def _add_fstat(path: str, frames: list[Frame]) -> None:
+def _add_fstat(path: str, frames: list[Frame], options: Options) -> None:
     """Three comments before a frame, the first "# TIME 1"; rows of 16 numbers."""
     found: dict[int, tuple[list[list[str]], list[int]]] = {}  # rows and their lines
     index, comments, done = -1, 0, False
@@ -64,7 +64,7 @@ def _add_fstat(path: str, frames: list[Frame]) -> None:
             found[index][0].append(words)
             found[index][1].append(k)
     for index, (rows, lines) in found.items():
-        _take_rows(Table(path, CONTACTS, rows, lines), frames[index])
+        _take_rows(Table(path, CONTACTS, rows, lines).in_plane(options), frames[index])
 
 
 def _take_rows(table: Table, frame: Frame) -> None:
@@ -122,10 +122,10 @@ def read(options: Options) -> list[Frame]:
         raise refused("import mercurydpm", "no file contains grains (*.data or *.restart)")
     if found["fstat"] and not found["data"]:
         raise refused(found["fstat"][0], "needs the .data file of the same run")
-    restarts: list[Restart] = [read_restart(path) for path in found["restart"]]
+    restarts: list[Restart] = [read_restart(path, options.axes()) for path in found["restart"]]
     frames = [frame for path in found["data"] for frame in _data_frames(path, options)]
     for path in found["fstat"]:
-        _add_fstat(path, frames)
+        _add_fstat(path, frames, options)
     for frame in frames:
         if frame.contacts is not None and not any(restart.has_fixed for restart in restarts):
             _require_both_halves(frame)
@@ -136,6 +136,8 @@ def read(options: Options) -> list[Frame]:
     for frame in frames:
         if restarts:
             frame.gravity, frame.spheres = restarts[0].frame.gravity, restarts[0].frame.spheres
+            frame.period = next((one.frame.period for one in restarts if one.frame.time == frame.time),
+                                restarts[0].frame.period)
             frame.grains.setdefault("mass", restarts[0].masses_of(frame.grains["radius"]))
         else:
             frame.lacking = ["density and gravity (a .restart file of the run contains them)"]

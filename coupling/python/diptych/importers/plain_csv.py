@@ -21,11 +21,13 @@ def _add_contacts(table: Table, frame: Frame, options: Options) -> None:
     swap = first < 0
     first, second = np.where(swap, second, first), np.where(swap, first, second)
     force = np.where(swap[:, None], -force, force)
+    couple = table.optional(options, "couple")
+    couple = None if couple is None else np.where(swap, -couple, couple)
     numbers = sorted({int(number) for number in second[second < 0]}, reverse=True)
     frame.walls += [Wall(f"wall {number}") for number in numbers]
     wall = np.array([numbers.index(number) if number < 0 else -1 for number in second], dtype=int)
     frame.contacts = acting(contacts_of(first, second, force, wall, line=table.lines,
-                                        overlap=table.optional(options, "overlap", "penetration"),
+                                        overlap=table.optional(options, "overlap", "penetration"), couple=couple,
                                         point=table.optional_vectors(options, ("px", "point_x"), ("py", "point_y"))))
     frame.contact_file = table.path
 

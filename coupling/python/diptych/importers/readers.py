@@ -12,11 +12,12 @@ from ..errors import SceneError
 from .arrival import arrive
 from .frames import CONTACTS, GRAINS, Frame, Options, refused
 from .grain_results import results_of
+from .periods import period_of
 from .walls import add_wall_tables
 
 Reader = Callable[[Options], "list[Frame]"]
-_MODULES = {"lammps": "lammps", "liggghts": "liggghts", "yade": "yade", "lmgc90": "lmgc90", "mercurydpm": "mercurydpm",
-            "csv": "plain_csv"}
+FORMATS = {"lammps": "lammps", "liggghts": "liggghts", "yade": "yade", "lmgc90": "lmgc90", "mercurydpm": "mercurydpm",
+           "csv": "plain_csv"}
 registered: dict[str, Reader] = {}
 
 
@@ -31,9 +32,9 @@ def register(name: str) -> Callable[[Reader], Reader]:
 def _reader(name: str) -> Reader:
     if name in registered:
         return registered[name]
-    if name in _MODULES:
-        return importlib.import_module("." + _MODULES[name], __package__).read
-    known = [*_MODULES, *registered]
+    if name in FORMATS:
+        return importlib.import_module("." + FORMATS[name], __package__).read
+    known = [*FORMATS, *registered]
     raise SceneError(f"import {name}: unknown format; known are {', '.join(known)} (the nearest is "
                      f"'{_diptych.nearest_name(name, known)}'), or a Python file that registers a reader")
 
@@ -54,10 +55,23 @@ def _refuse_unused(format: str, options: Options) -> None:
     """Refuses options that would have no effect, because the user believes that they count."""
     if options.timestep is not None and "timestep" not in options.used:
         raise SceneError(f"import {format}: --timestep would have no effect: these files contain times, or no steps")
+    if options.plane != "xy" and "plane" not in options.used:
+        raise SceneError(f"import {format}: --plane {options.plane} would have no effect: these files are read in x, y")
     for text in options.columns:
         if text not in options.used:
             raise SceneError(f"import {format}: --columns {text} would have no effect: no such file has so many "
                              "columns, or the files name them")
+
+
+def _add_period(frames: list[Frame], options: Options) -> None:
+    """Gives the frames the periods of --period-x and --period-y."""
+    if options.period_y is not None and options.period_x is None:
+        raise SceneError("--period-y needs --period-x; a sample that is periodic along y only is not supported")
+    for frame in frames if options.period_x is not None else []:
+        if frame.period is not None:
+            raise refused(frame.grain_file, f"frame {frame.name}: --period-x would have no effect: the files contain "
+                          "the period")
+        frame.period = period_of([options.period_x, 0], [0, options.period_y or 0])
 
 
 def read_frames(format: str, options: Options) -> list[Frame]:
@@ -72,6 +86,7 @@ def read_frames(format: str, options: Options) -> list[Frame]:
             raise SceneError(f"--columns {text}: is not KIND=NAME,NAME,..., where KIND is particles, contacts or walls")
     frames = reader(options)
     add_wall_tables(frames, options)
+    _add_period(frames, options)
     for frame in frames:
         frame.grain_file = frame.grain_file or f"import {format}"
         frame.contact_file = frame.contact_file or frame.grain_file

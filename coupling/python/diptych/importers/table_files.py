@@ -3,8 +3,9 @@
 """Files of tables: separated by semicolons, tabs, commas or blanks, with or without names of their columns."""
 
 import csv
+import os
 import re
-from typing import Callable, Sequence
+from typing import Callable, Iterable, Sequence
 
 import numpy as np
 
@@ -81,6 +82,17 @@ def read_table(path: str, names: Sequence[str] | None = None) -> Table:
     return Table(path, columns, rows, places)
 
 
+def _told_kind(path: str, options: Options, kinds: Iterable[str], width: int) -> tuple[str, Table] | None:
+    """The kind and the table, if --columns names so many columns. Of two such kinds that in the file's name counts."""
+    told = [kind for kind in kinds if options.has_columns(kind, width)]
+    if len(told) > 1:
+        told = [kind for kind in told if kind in os.path.basename(path).lower()] or told
+    if len(told) > 1:
+        raise refused(path, f"--columns {' and '.join(told)} name {width} columns each; the file's name must contain "
+                      "the kind that it holds")
+    return (told[0], read_table(path, options.columns_of(told[0], width))) if told else None
+
+
 def table_of_kind(path: str, options: Options, kinds: dict[str, Callable[[set[str]], bool]],
                   why: str = "") -> tuple[str, Table]:
     """The kind of a file, by the names of its columns (in lower case) or by --columns, and its table.
@@ -89,14 +101,16 @@ def table_of_kind(path: str, options: Options, kinds: dict[str, Callable[[set[st
     """
     lines = read_lines(path)
     columns, start = head_of(lines)
+    width = len(split(lines[start], _separator(lines[start]))) if start < len(lines) else 0
+    told = _told_kind(path, options, kinds, width) if len(columns) != width else None
+    if told:
+        return told
     for kind, has_columns in kinds.items():
         if has_columns({name.lower() for name in columns}):
             return kind, read_table(path)
-    width = len(split(lines[start], _separator(lines[start]))) if start < len(lines) else 0
-    for kind in kinds:
-        names = options.columns_of(kind, width)
-        if names:
-            return kind, read_table(path, names)
+    told = _told_kind(path, options, kinds, width)
+    if told:
+        return told
     found = f"its columns are {', '.join(columns)}" if columns else f"its {width} columns have no names"
     raise refused(path, f"{why}does not have the columns of {' or '.join(kinds)}; {found}; name them: "
                   "--columns KIND=NAME,NAME,...")
@@ -113,6 +127,7 @@ def by_frame(options: Options, kind_of: Callable[[str], tuple[str, Table]]) -> d
         if kind == "walls":
             options.wall_tables.append(table)
             continue
+        table = table.in_plane(options)
         numbers = table.whole("frame") if table.has("frame") else np.full(len(table.rows), number_in_name(path))
         for number in np.unique(numbers) if len(numbers) else [number_in_name(path)]:
             tables = found.setdefault(int(number), {})

@@ -9,6 +9,7 @@ import numpy as np
 from .frames import Options, SceneError, refuse_where, refused
 
 RADIUS, DIAMETER = ("radius", "r"), ("diameter", "d")
+SPIN, ROTATION = ("omegaz", "omega", "wz", "angVel_z", "omega_z", "spin"), ("rotation", "angle", "theta", "angle_z")
 
 
 class Table:
@@ -82,6 +83,14 @@ class Table:
         parts = self.optional(options, *x), self.optional(options, *y)
         return None if parts[0] is None or parts[1] is None else np.column_stack(parts)
 
+    def in_plane(self, options: Options) -> "Table":
+        """The table as the user sees the layer: with --plane xz, columns of y and z change their names."""
+        def partner(name: str) -> str:
+            other = name[:-1] + {"y": "z", "z": "y", "Y": "Z", "Z": "Y"}.get(name[-1:], "")
+            return other if self.columns.count(other) else name
+        upright = options.axes() == [0, 1]
+        return self if upright else Table(self.path, list(map(partner, self.columns)), self.rows, self.lines)
+
     def part(self, mask: Any) -> "Table":
         """The rows that a mask or a list of indices chooses."""
         index = np.arange(len(self.rows))[mask]
@@ -100,6 +109,12 @@ def rows_below(path: str, lines: Sequence[str], start: int, count: int, columns:
     return Table(path, columns, rows, np.arange(count) + start + 1)
 
 
+def refuse_other_plane(path: str, y: np.ndarray, z: np.ndarray | None) -> None:
+    """Refuses grains that all have the same y, but not the same z."""
+    if z is not None and len(y) > 2 and np.ptp(y) == 0 and np.ptp(z) > 0:
+        raise refused(path, f"all grains have y = {y[0]:g}: the layer lies in the x-z plane; give --plane xz")
+
+
 def grains_of(table: Table, options: Options, position: np.ndarray | None = None) -> dict[str, np.ndarray]:
     """The grains of a frame: id, x, y, radius or diameter; mass, vx, vy, omega, rotation, fx, fy if present.
 
@@ -114,10 +129,13 @@ def grains_of(table: Table, options: Options, position: np.ndarray | None = None
     for name, values in (("radius", radius), ("mass", mass)):
         if values is not None:
             table.refuse(values <= 0, lambda k: f"a {name} of {values[k]:g} must be positive")
+    if table.has("z"):
+        refuse_other_plane(table.path, table.numbers("y"), table.optional(options, "z"))
+    turn = 1 if options.plane == "xy" else -1  # x, z and y are left-handed
+    spin, rotation = (table.optional(options, *names) for names in (SPIN, ROTATION))
     grains = {"id": table.whole("id") if table.has("id") else np.arange(len(table.rows)), "radius": radius,
               "mass": mass, "position": table.vectors("x", "y") if position is None else position, "line": table.lines,
               "velocity": table.optional_vectors(options, ("vx", "vel_x"), ("vy", "vel_y")),
-              "spin": table.optional(options, "omegaz", "omega", "wz", "angVel_z", "spin"),
-              "rotation": table.optional(options, "rotation", "angle", "theta"),
+              "spin": None if spin is None else turn * spin, "rotation": None if rotation is None else turn * rotation,
               "resultant": table.optional_vectors(options, ("fx", "f_x"), ("fy", "f_y"))}
     return {name: values for name, values in grains.items() if values is not None}

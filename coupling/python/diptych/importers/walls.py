@@ -1,22 +1,28 @@
 # diptych: places and forces of walls from a table beside another code's files
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Tables of walls, a row a frame: step, time or frame; width and height, or some of left_x ... upper_y."""
+"""Tables of walls and periods, a row a frame: step, time or frame; width and height, some of left_x ... upper_y,
+cell_width, or cell_a1_x ... cell_a2_y."""
 
 from typing import Callable
 
 import numpy as np
 
 from .frames import Frame, Options, Wall, refused
+from .periods import period_of
 from .table_files import table_of_kind
 from .tables import Table
 
 PLACES = {"lower": "lower_y", "upper": "upper_y", "left": "left_x", "right": "right_x"}
 
 
+CELL = "cell_a1_x", "cell_a1_y", "cell_a2_x", "cell_a2_y"
+
+
 def is_wall_columns(columns: set[str]) -> bool:
-    """True for the columns of a wall table, in lower case."""
+    """True for the columns of a table of walls or periods, in lower case."""
     others = {"width", "left_x", "right_x", "step", "time", "frame"}
-    return bool(columns & {"height", "lower_y", "upper_y"} and columns & others)
+    return columns.issuperset(CELL) or bool(columns & {"height", "lower_y", "upper_y", "cell_width"}
+                                            and columns & others)
 
 
 def sorted_files(options: Options, **kinds: Callable[[str], bool]) -> dict[str, list[str]]:
@@ -73,6 +79,11 @@ def _add_row(table: Table, row: int, frame: Frame, options: Options) -> None:
         force = table.optional_vectors(options, [side + "_fx"], [side + "_fy"])
         if force is not None:
             wall_of(frame, side).force = tuple(force[row])
+    if table.has(*CELL):
+        a1_x, a1_y, a2_x, a2_y = (table.numbers(name)[row] for name in CELL)
+        frame.period = period_of([a1_x, a1_y], [a2_x, a2_y])
+    elif table.has("cell_width"):
+        frame.period = period_of([table.numbers("cell_width")[row], 0], [0, 0])
     if table.has("upper_travel"):
         wall_of(frame, "upper").travel = table.numbers("upper_travel")[row]
     if table.has("time") and frame.time is None:

@@ -24,8 +24,9 @@ KINDS = {"walls": is_wall_columns, "contacts": {"id1", "id2"}.issubset, "wall bo
 def _kind(path: str, options: Options) -> tuple[str, Table]:
     lines = [line for line in read_lines(path) if line.strip()]
     heads = [line for line in lines if line.startswith("#")]
-    if not heads and len(lines[0].split()) == len(CONTACTS):
-        return "contacts", read_table(path, options.columns_of("contacts", len(CONTACTS)) or CONTACTS)
+    width = len(lines[0].split())
+    if not heads and width == len(CONTACTS) and not any(options.has_columns(kind, width) for kind in KINDS):
+        return "contacts", read_table(path, CONTACTS)
     if any(re.match(r"#.*\bname\b.*\bid\b.*\baxis\b", line) for line in heads):
         return "wall bodies", read_table(path, BODIES)
     if heads[:1] == ["#format x_y_z_r"]:  # export.text
@@ -33,10 +34,13 @@ def _kind(path: str, options: Options) -> tuple[str, Table]:
     return table_of_kind(path, options, KINDS)
 
 
-def _add_walls(table: Table, frame: Frame) -> dict[int, int]:
+def _add_walls(table: Table, frame: Frame, options: Options) -> dict[int, int]:
     """Adds the walls, time and step of the comment "iter N time T". Returns the index of each wall by its id."""
     frame.wall_file, ids, axis = table.path, table.whole("id"), table.whole("axis")
-    table.refuse((axis != 0) & (axis != 1), lambda k: f"axis = {axis[k]} must be 0 (a wall across x) or 1 (across y)")
+    up = options.axes()[1]
+    table.refuse((axis != 0) & (axis != up), lambda k: f"axis = {axis[k]} must be 0 (a wall across x) or {up} (across "
+                 f"{'xyz'[up]})" + ("; if the layer lies in the x-z plane, give --plane xz" if axis[k] == 2 else ""))
+    axis = np.minimum(axis, 1)
     place, force = table.vectors("position_x", "position_y"), table.vectors("force_x", "force_y")
     frame.walls = [Wall(row[table.find("name")], place=place[k, axis[k]], force=tuple(force[k]))
                    for k, row in enumerate(table.rows)]
@@ -75,8 +79,8 @@ def _frame(number: int, tables: dict[str, Table], options: Options) -> Frame:
         raise refused(spheres.path,
                       f"has no ids (export.text renumbers the spheres), but {contacts.path} refers to grains by id; "
                       "use export.textExt with format='x_y_z_r_attrs' and attrs=['b.id', ...]")
-    frame = Frame(f"_{number}", grains_of(spheres, options), spheres=True, grain_file=spheres.path)
-    of_id = _add_walls(tables["wall bodies"], frame) if "wall bodies" in tables else {}
+    frame = Frame(f"_{number}", grains_of(spheres, options), step=number, spheres=True, grain_file=spheres.path)
+    of_id = _add_walls(tables["wall bodies"], frame, options) if "wall bodies" in tables else {}
     if contacts:
         _add_interactions(contacts, of_id, frame, options)
     return frame

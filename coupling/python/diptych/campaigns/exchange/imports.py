@@ -87,8 +87,10 @@ def import_files(word: str, given: ImportOptions, folder: str, options: Options)
     _diptych.require_usable(folder, False, options.overwrite, False)
     arrival = _read(word, given)
     results = results_of(arrival)
-    is_loading = len(results.snapshots) > 1
-    scene = scene_of(arrival, results, given.pressure) if is_loading else ""
+    why_no_scene = ("one frame is no loading, so there is no scene" if len(results.snapshots) == 1 else
+                    f"a cell has no counterpart on a mesh, so there is no scene; diptych homogenise {folder}"
+                    if results.snapshots[0].cell_a2_y else "")
+    scene = "" if why_no_scene else scene_of(arrival, results, given.pressure)
     with Folder(folder) as locked:
         if options.overwrite and not _diptych.is_empty_folder(folder):
             locked.set_aside([("the file", file) for file in given.files])
@@ -104,7 +106,7 @@ def import_files(word: str, given: ImportOptions, folder: str, options: Options)
         _diptych.record_grains(folder, json.dumps(plain(facts_of(arrival, results))))
     _say_checks(arrival, options)
     say(options, f"written to {folder}; both panels: diptych run {os.path.join(folder, 'scene.prm')}" if scene else
-        f"written to {folder}; one frame is no loading, so there is no scene")
+        f"written to {folder}; {why_no_scene}")
 
 
 def run_import(line: argparse.Namespace, options: Options) -> None:
