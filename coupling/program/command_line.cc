@@ -10,6 +10,7 @@
 #include <CLI/Formatter.hpp>
 
 #include "coupling/program/built_with.h"
+#include "coupling/program/command_examples.h"
 #include "coupling/program/option_values.h"
 #include "coupling/program/python_commands.h"
 #include "coupling/program/refused_line.h"
@@ -45,6 +46,8 @@ namespace diptych::coupling
         add_solve();
         add_results();
         add_others();
+        for (CLI::App *command : app.get_subcommands({}))
+          command->footer(example_of(command->get_name()) + "\n\n" + command->get_footer());
       }
 
       CLI::App &parser() { return app; }
@@ -66,7 +69,7 @@ namespace diptych::coupling
       }
 
       // clang-format off
-      void add_scene(CLI::App *to) { to->add_option("SCENE", line.target, "scene file, .prm or .json")->required(); }
+      void add_scene(CLI::App *to) { to->add_option("SCENE", line.target, "scene file, .prm or .json")->required()->type_name(""); }
       void add_output(CLI::App *to, const char *what = "result folder (default: results/<scene name>)") { to->add_option("--output", line.output, what)->type_name("DIR")->check(is_filled); }
       void add_set(CLI::App *to)
       {
@@ -76,7 +79,7 @@ namespace diptych::coupling
           ->allow_extra_args(false)->type_name("FILE");
       }
       void add_scene_output_set(CLI::App *to) { add_scene(to); add_output(to); add_set(to); }
-      void add_threads(CLI::App *to) { to->add_option("--threads", line.threads, "threads of the contact solver; every number gives the same bits")->check(in_range(1, 1024)); }
+      void add_threads(CLI::App *to) { to->add_option("--threads", line.threads, "threads of the contact solver, 1 to 1024; every number gives the same bits")->check(in_range(1, 1024))->type_name("N"); }
       void add_resume(CLI::App *to, const std::string &what) { to->add_flag("--resume", line.resume, "continue the results in the folder: " + what); }
       void add_quiet(CLI::App *to) { to->add_flag("--quiet", line.quiet, "print neither progress nor notes"); }
       // clang-format on
@@ -95,7 +98,8 @@ namespace diptych::coupling
       {
         to->add_option_function<std::string>(
             option, [take](const std::string &name) { take(*discrete::value_of<Choice>(name)); }, meaning)
-          ->check(one_of(choices_of(Choice())));
+          ->check(one_of(choices_of(Choice())))
+          ->type_name("{" + discrete::joined(choices_of(Choice()), ",") + "}");
       }
 
       void add_run()
@@ -135,7 +139,9 @@ namespace diptych::coupling
         add_quiet(point);
 
         CLI::App *law = add(Command::check_law, "check tangent, objectivity, dissipation, repeatability of a law of your own");
-        law->add_option("SCENE", line.target, "scene file, or a shared library, .so, with its usual parameters")->required();
+        law->add_option("SCENE", line.target, "scene file, or a shared library, .so, with its usual parameters")
+          ->required()
+          ->type_name("");
         add_set(law);
         add_quiet(law);
       }
@@ -144,15 +150,19 @@ namespace diptych::coupling
       {
         CLI::App *solve = add(Command::solve,
                               "solve one stored contact problem (FCLIB layout) and print sweeps, residual, seconds");
-        solve->add_option("PROBLEM", line.target, "problem file, .h5 or .hdf5")->required();
+        solve->add_option("PROBLEM", line.target, "problem file, .h5 or .hdf5")->required()->type_name("");
         solve->add_option("--output", line.output, "file for the problem with its solution")->check(is_filled)->type_name("FILE");
         add_choice<discrete::ContactSolver>(solve, "--solver", "psor (default): over-relaxed; nsgs: plain Gauss-Seidel",
                                             [this](const auto chosen) { line.solve.options.solver = chosen; });
-        solve->add_option("--tolerance", line.solve.options.tolerance,
-                          "largest residual: natural map relative to |r|; velocities to 100 times that, relative to |q| (default: 1e-8)")
-          ->check(in_range(1e-300, 0.999999));
+        solve
+          ->add_option(
+            "--tolerance", line.solve.options.tolerance,
+            "largest residual: natural map relative to |r|; velocities to 100 times that, relative to |q| (default: 1e-8)")
+          ->check(in_range(1e-300, 0.999999))
+          ->type_name("NUMBER");
         solve->add_option("--max-sweeps", line.solve.options.max_sweeps, "largest number of sweeps (default: 1000000)")
-          ->check(in_range(1, 2147483647));
+          ->check(in_range(1, 2147483647))
+          ->type_name("N");
         add_choice<discrete::ProblemForm>(solve, "--form", "default: body if the file has one",
                                           [this](const auto chosen) { line.solve.form = chosen; });
         add_threads(solve);
@@ -161,7 +171,7 @@ namespace diptych::coupling
       void add_results()
       {
         CLI::App *compare = add(Command::compare, "compare the panels of a result folder again, or evaluate an ensemble again");
-        compare->add_option("DIR", line.target, "result folder")->required();
+        compare->add_option("DIR", line.target, "result folder")->required()->type_name("");
         add_set(compare);
         add_quiet(compare);
       }
@@ -169,7 +179,8 @@ namespace diptych::coupling
       void add_others()
       {
         add(Command::new_scene, "print a commented scene to begin with: diptych new biaxial > my.prm")
-          ->add_option("TEMPLATE", line.target, "name of the template (default: list them)");
+          ->add_option("TEMPLATE", line.target, "name of the template (default: list them)")
+          ->type_name("");
         CLI::App *explain = add(Command::explain, "print every key of a scene (default, unit, range, meaning) or the content of "
                                                   "result files");
         explain
@@ -177,13 +188,15 @@ namespace diptych::coupling
             "SECTION", line.target,
             "a section, a key or a word in names of keys; results: the content of result files (default: all sections)")
           ->type_name("{" + discrete::joined(section_names(), ",") + ",results}");
-        explain->add_option("WORD", line.word, "after results: only entries whose file, name or meaning contains this word");
+        explain->add_option("WORD", line.word, "after results: only entries whose file, name or meaning contains this word")
+          ->type_name("");
         explain->add_flag("--json", line.prints_json, "all keys and entries of result files as JSON");
         add(Command::completion,
             "print a script that completes command lines; zsh loads it, too: source <(diptych completion bash)")
-          ->add_option("SHELL", line.target)
+          ->add_option("SHELL", line.target, "the script also serves zsh")
           ->required()
-          ->check(one_of({"bash"}));
+          ->check(one_of({"bash"}))
+          ->type_name("{bash}");
       }
 
       CommandLine                  &line;

@@ -30,9 +30,8 @@ _diptych()
       words=$(sed -n '/^Positionals:/,/^$/s/.*{\([^}]*\)}.*/\1/p' <<<"$help" | tr , ' ')
     fi
   fi
-  if [ -n "$words$key" ]; then
-    COMPREPLY=($(compgen -W "$words" -- "$word"))
-  else
+  COMPREPLY=($(compgen -W "$words" -- "$word"))
+  if [ ${#COMPREPLY[@]} -eq 0 ] && [ -z "$key" ]; then
     compopt -o filenames 2>/dev/null
     COMPREPLY=($(compgen -f -- "$word"))
   fi

@@ -28,6 +28,7 @@ namespace diptych::coupling
   {
     const std::string kind  = std::is_integral_v<Number> ? "a whole number" : "a number";
     CLI::Validator    range = CLI::Range(low, high);
+    range.description(""); // else the help shows it as "INT in [1 - 9]"
     return range.operation([=, check = range](const std::string &text) {
       const bool is_good = check(text).empty();
       return is_good ? "" : "'" + text + "' is not allowed; give " + kind + " from " + text_of(low) + " to " + text_of(high);
@@ -38,6 +39,7 @@ namespace diptych::coupling
   inline CLI::Validator one_of(const std::vector<std::string> &names)
   {
     CLI::Validator member = CLI::IsMember(names);
+    member.description("");
     return member.operation([=](const std::string &text) {
       const bool is_good = std::count(names.begin(), names.end(), text) > 0;
       return is_good ? ""

@@ -8,6 +8,7 @@
 
 #include <pybind11/stl.h>
 
+#include "coupling/program/command_examples.h"
 #include "coupling/program/python_commands.h"
 #include "coupling/python/bindings.h"
 #include "coupling/scene/derived_keys.h"
@@ -140,6 +141,7 @@ namespace diptych::python
         lines[name] = description;
       return lines;
     });
+    m.def("example_of", &coupling::example_of);
     m.attr("__version__")  = coupling::version;
     m.attr("git_revision") = coupling::git_revision;
   }

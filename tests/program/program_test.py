@@ -213,6 +213,18 @@ class CommandLine(Folder):
             with self.subTest(words=words):
                 self.expect(2, words, *texts)
 
+    def test_help_names_choices_and_ends_with_an_example(self):
+        names = re.findall(r"^  ([a-z-]+) ", diptych("--help").stdout.split("Subcommands:")[1], re.MULTILINE)
+        self.assertGreater(len(names), 15)
+        for name in names:
+            told = diptych(name, "--help").stdout
+            self.assertRegex(told, rf"\nExample: .*diptych {name} .", name)
+            for example in re.findall(r"\nExample: .*", told):
+                for option in re.findall(r" (--[a-z-]+)", example):
+                    self.assertRegex(told, rf"\n  {option}\b", name)
+            self.assertNotRegex(told, r" in \[|TEXT|FLOAT|INT\b", name)
+        self.assertIn("{lammps,liggghts,yade,lmgc90,mercurydpm,csv}", diptych("import", "--help").stdout)
+
     def test_new_lists_templates_and_prints_scenes_that_run(self):
         listed = diptych("new", check=True).stdout.splitlines()
         self.assertGreater(len(listed), 7)

@@ -57,9 +57,9 @@ class Parser(argparse.ArgumentParser):
     def format_help(self) -> str:
         named = [one for one in self._actions if one.option_strings]
         places = [one for one in self._actions if not one.option_strings]
-        usage = " ".join([self.prog, "[OPTIONS]", *(str(one.metavar) for one in places)])
+        usage = " ".join([self.prog, "[OPTIONS]", *(str(one.metavar).split()[0] for one in places)])
         blocks = [_block(title, rows) for title, rows in (("Positionals", places), ("Options", named)) if rows]
-        return "\n".join([f"{self.description}\nUsage: {usage}\n", *blocks])
+        return "\n".join([f"{self.description}\nUsage: {usage}\n", *blocks, _diptych.example_of(self.name) + "\n"])
 
 
 def _block(title: str, actions: Sequence[argparse.Action]) -> str:
