@@ -177,8 +177,11 @@ def scene_of(arrival: Arrival, results: Any, pressure: float | None) -> str:
     sections["discrete"] = {"method": "imported", "file": "discrete.h5",
                             "lateral": "rigid_walls" if has_sides else
                             "periodic" if results.snapshots[0].cell_width else "end_grains"}
-    if has_sides and is_axial:  # rough platens would hold the corners that the wall takes along
+    is_periodic = sections["discrete"]["lateral"] == "periodic"
+    if (has_sides or is_periodic) and is_axial:  # rough platens would hold the corners that wall or period take along
         sections["continuum"] = {"platens": "smooth"}
+    elif is_periodic:
+        sections["discrete"]["side_motion"] = "velocity"  # of a period that keeps its width
     # The continuum is compared at instants, too.
     sections["comparison"] = {"window_edges": edges, "averaging_strain": 1e-3 * np.diff(progress).min()}
     try:
