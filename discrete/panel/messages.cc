@@ -8,6 +8,14 @@
 
 namespace diptych::discrete
 {
+  namespace
+  {
+    const std::string rigid_words =
+      "rigid grains have no stress of their own if loading/path prescribes exx and eyy and the grains fill the cell. Use springs "
+      "(discrete/method = compliant or penalty, which auto chooses), prescribe a stress, or prepare a looser sample "
+      "(sample/preparation_friction)";
+  }
+
   std::string unrest_text(const PreparationReport &report)
   {
     std::ostringstream text;
@@ -62,11 +70,7 @@ namespace diptych::discrete
         (stress <= largest_stress && overlap <= largest_overlap))
       return {};
     std::ostringstream text;
-    text << "rigid grains have no stress of their own if loading/path prescribes exx and eyy and the grains fill the cell (mean "
-            "stress "
-         << stress << " P, overlap " << overlap
-         << " mean diameters). Use springs (discrete/method = compliant or penalty, which auto chooses), prescribe a stress, or "
-            "prepare a looser sample (sample/preparation_friction)";
+    text << rigid_words << "; mean stress " << stress << " P, overlap " << overlap << " mean diameters";
     return text.str();
   }
 
@@ -105,9 +109,11 @@ namespace diptych::discrete
     return text.str();
   }
 
-  std::string failure_text(const FailedStep &failed, const Options &options)
+  std::string failure_text(const FailedStep &failed, const Loading &loading, const Options &options)
   {
-    const std::string  obstacle = obstacle_to(failed.solve);
+    const std::string obstacle      = obstacle_to(failed.solve);
+    const bool        is_rigid_path = options.method.method == Method::nscd && loading.mode == LoadingMode::path &&
+                               has_no_pressure(loading.path);
     std::ostringstream text;
     text << "step " << failed.step << " at " << failed.where;
     if (options.method.method == Method::penalty)
@@ -116,7 +122,9 @@ namespace diptych::discrete
     else
       text << " did not converge: residual " << failed.solve.residual << " after " << failed.solve.sweeps << " sweeps, tolerance "
            << failed.tolerance << "; its halves did not converge either, down to a step of " << failed.length << "; "
-           << (obstacle.empty() ? "a larger step, tolerance or max_sweeps may help" : obstacle);
+           << (is_rigid_path      ? rigid_words
+               : obstacle.empty() ? "a larger step, tolerance or max_sweeps may help"
+                                  : obstacle);
     return text.str();
   }
 } // namespace diptych::discrete

@@ -32,5 +32,5 @@ namespace diptych::discrete
     SolveReport solve;
     double      tolerance, length;
   };
-  std::string failure_text(const FailedStep &failed, const Options &options);
+  std::string failure_text(const FailedStep &failed, const Loading &loading, const Options &options);
 } // namespace diptych::discrete

@@ -251,7 +251,7 @@ namespace diptych::discrete
       now.report.status  = Status::not_converged;
       now.report.message = failure_text({now.row.step + 1, text_of(loading_variable_of(loading_.mode), now.report.progress),
                                          solve, setting_.solver.tolerance, setting_.step},
-                                        options_);
+                                        loading_, options_);
       return false;
     }
 

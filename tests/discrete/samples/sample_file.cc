@@ -350,6 +350,7 @@ namespace
   {
     Hdf5Writer file(h5);
     file.write("stage_0000/grains/radius", std::vector<double>{1.});
+    file.attribute("stage_0000", "step", 1.);
     file.finish();
     expect_refused({h5, "stage_0000/grains/position"}, [] { read_grains_hdf5(h5); });
   }

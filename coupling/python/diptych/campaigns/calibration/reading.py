@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from ... import _diptych
 from ...compiled import continuum, demand_continuum
 from ...errors import SceneError
 from ..runs.coordinates import Coordinates
