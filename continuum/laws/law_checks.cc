@@ -216,7 +216,7 @@ namespace diptych::continuum
         const double         work = s1.stress[xx] * (b.xx - a.xx) + s1.stress[yy] * (b.yy - a.yy) + s1.stress_zz * (b.zz - a.zz) +
                             s1.stress[xy] * (b.xy - a.xy);
         const double given = s1.dissipation - s0.dissipation, least = dissipation.allowed * units.stress;
-        if (given > least && work < -least && dissipation.trouble.empty())
+        if (given > least && work < -0.5 * given && dissipation.trouble.empty())
           dissipation.trouble = "plastic_strain has a turned sign, its work on the stress is " + std::to_string(work) +
                                 "; tension is positive, in stress and in strain; " + place;
       }
