@@ -112,7 +112,7 @@ namespace diptych::continuum
     else if (name == NamedPath::simple_shear)
       path.controls = {Control::exy, Control::syy, Control::exx};
     const Eigen::Vector3d stress(path.stress(0, 0), path.stress(1, 1), 0);
-    const double          second = is_stress(path.controls[1]) ? form_of(path.controls[1]) * stress : 0;
+    const double          second = is_stress(path.controls[1]) ? form_of(path.controls[1]).dot(stress) : 0.;
 
     const unsigned int n_steps = std::max(1., std::ceil(size.strain / size.step - 1e-9));
     for (unsigned int k = 0; k <= n_steps; ++k)
