@@ -62,12 +62,25 @@ namespace diptych::discrete
       double omega_, reference_ = std::numeric_limits<double>::infinity();
       long   since_ = 0, turn_ = 0, patience_ = long_patience;
     };
+
+    // Makes the sweeps up to the next check, and counts them.
+    void sweep_until_check(const SolverOptions &options, const Iteration &iteration, const double omega, long &sweeps)
+    {
+      const long until = std::min<long>(sweeps + options.sweeps_per_check, options.max_sweeps);
+      while (sweeps < until)
+        {
+          const long at   = sweeps % cycle;
+          const bool fast = options.solver == ContactSolver::psor && at < cycle - plain_sweeps;
+          const long end  = sweeps + (fast ? cycle - plain_sweeps : cycle) - at;
+          const int  n    = int(std::min(end, until) - sweeps);
+          iteration.sweep(fast ? omega : 1., fast ? options.omega_slipping : 1., n);
+          sweeps += n;
+        }
+    }
   } // namespace
 
   SolveReport iterate(const SolverOptions &options, const Iteration &iteration)
   {
-    const bool over_relaxed = options.solver == ContactSolver::psor;
-
     constexpr long     sweeps_per_refresh = 1000; // keeps the round-off of the running velocities below 1e-13
     const std::clock_t begin              = std::clock();
     StagnationControl  control(options.omega_sticking);
@@ -94,16 +107,7 @@ namespace diptych::discrete
         stopped = options.stop_requested && options.stop_requested();
         if (stopped)
           break;
-        const long until = std::min<long>(report.sweeps + options.sweeps_per_check, options.max_sweeps);
-        while (report.sweeps < until)
-          {
-            const long at   = report.sweeps % cycle;
-            const bool fast = over_relaxed && at < cycle - plain_sweeps;
-            const long end  = report.sweeps + (fast ? cycle - plain_sweeps : cycle) - at;
-            const int  n    = int(std::min(end, until) - report.sweeps);
-            iteration.sweep(fast ? control.omega() : 1., fast ? options.omega_slipping : 1., n);
-            report.sweeps += n;
-          }
+        sweep_until_check(options, iteration, control.omega(), report.sweeps);
         measure(report.sweeps - refreshed >= sweeps_per_refresh);
         if (report.residual <= options.tolerance && refreshed != report.sweeps)
           measure(true);

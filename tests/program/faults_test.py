@@ -132,15 +132,14 @@ class Inputs(Folder):
                 ("a smaller discrete/step or", long, {"discrete_step": 0.1}),
                 ("a smaller discrete/step or", uncorrected, {"discrete_tolerance": 1e-4}),
                 ("a larger discrete/penalty_stiffness", springs, {"discrete_penalty_stiffness": 1e4}),
-                ("a smaller discrete/tolerance", {"discrete_tolerance": 0.5}, {"discrete_tolerance": 1e-4}),
                 ("a smaller discrete/penalty_step_fraction", explicit, {"discrete_penalty_step_fraction": 0.2})]:
             with self.subTest(warning=warning, doubtful=doubtful):
                 words = self.discrete(*setting(**doubtful), "--overwrite")
                 self.expect(0, words, warning)
                 self.assertNotIn(warning, finished(*words, *setting(**remedy)).stderr)
         still = self.discrete(*setting(loading_mode="time", loading_duration=5, loading_stage_time=5,
-                                       discrete_lateral="rigid_walls", discrete_side_motion="velocity",
-                                       comparison_window_edges="0,5"), "--overwrite")
+                                       discrete_method="penalty", discrete_lateral="rigid_walls",
+                                       discrete_side_motion="velocity", comparison_window_edges="0,5"), "--overwrite")
         self.assertNotIn("of energy", finished(*still).stderr)
 
     def test_solutions_replace_solutions_only(self):

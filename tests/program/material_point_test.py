@@ -57,9 +57,10 @@ class MaterialPoint(Folder):
     def test_a_wrong_table_is_refused_with_file_line_and_column(self):
         for text, place, words in (
                 ("eyy,sxx\n0,1\n1,1\n", "header", "2 of the columns prescribe strain or stress; give three of exx"),
-                ("eyy,sxx,exy,volume\n0,1,0,0\n", "header", "4 of the columns"),
+                ("eyy,sxx,exy,volume\n0,1,0,0\n1,1,0,0\n", "header", "4 of the columns"),
                 ("eyy,sxx,exz\n0,1,0\n", "line 1", "unknown column 'exz'; the nearest is 'exx'"),
-                ("volume,mean_stress,exy\n0,1,0\n", "header", "one follows from the others"),
+                ("eyy,sxx,exy\n0,1,0\n", "path.csv", "the path has one row"),
+                ("volume,mean_stress,exy\n0,1,0\n0,1,0\n", "header", "one follows from the others"),
                 ("eyy,sxx,exy\n0,100,0\n1,100,0\n", "line 2", "column 'sxx' = 100 is not the stress of the start"),
                 ("eyy,sxx,exy,progress\n0,1,0,0\n0.1,1,0,0\n", "line 3", "column 'progress'"),
                 ("eyy,sxx,exy\n0,1,0\n0.1,many,0\n", "line 3", "column 'sxx' = 'many'")):

@@ -249,7 +249,7 @@ def test_failed_runs_are_left_out_and_told():
     assert [p["number"] for p in record["parameters"]] == pytest.approx(TRUTHS, rel=1e-2)
     assert any("rests on the coarse mesh" in words for words in record["words"])
     n = record["coarse_runs"] + record["fine_runs"]
-    assert f"{record['failed_runs']} of {n} coarse and fine runs" in record["words"][-1]
+    assert any(f"{record['failed_runs']} of {n} coarse and fine runs" in words for words in record["words"])
 
 
 @pytest.mark.parametrize("peak, volume, verdicts", [(0.4, -0.003, ["equivalent", "equivalent"]),

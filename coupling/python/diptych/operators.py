@@ -49,6 +49,8 @@ def _contacts(contacts: Any, grains: Any) -> dict[str, Any]:
         if given[name] is None:
             raise ValueError(f"contacts: '{name}' is missing; diptych.contacts() computes points from grains, walls "
                              "and forces")
+    if given["couple"] is not None:
+        given["couple"] = np.nan_to_num(given["couple"])  # NaN: not in the files of another code
     return given
 
 

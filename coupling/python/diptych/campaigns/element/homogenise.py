@@ -13,6 +13,7 @@ from ...entries import describe
 from ...errors import SceneError
 from ...files import part_of
 from ...homogenisation import Homogenised, homogenise
+from ...importers.frames import Options as ImportOptions
 from ..exchange.imports import import_files, import_options
 from ..runs.engine import Options, say, tell
 from ..runs.folders import Folder, draw, write_json, write_text
@@ -136,7 +137,7 @@ def _source(line: argparse.Namespace) -> tuple[str, str]:
         raise SceneError(f"{line.target}: holds no discrete.h5. Give a folder of `diptych run`, `discrete` or "
                          "`import`; or a FORMAT of `diptych import` and FILES")
     for name, value in vars(import_options(line)).items():
-        if value:
+        if value != getattr(ImportOptions([]), name):
             raise SceneError(f"homogenise {line.target}: --{name.replace('_', '-')} has no effect on a folder; it is "
                              "for FORMAT FILES")
     return line.output or grains + "_homogenised", grains
