@@ -168,7 +168,8 @@ namespace diptych::continuum
             "isotropic: the pressure everywhere; mapped: the stress of the prepared grain sample, cell by cell, then brought to "
             "equilibrium");
     visitor("k0", o.k0, "-", {0.01, 100.},
-            "the law's point alone: lateral over axial stress at the start of its path; the lateral stress is the pressure");
+            "`material-point` and targets of `calibrate` alone: lateral over axial stress at the start of the path; the lateral "
+            "stress is the pressure");
     visitor("mesh", o.mesh, "-",
             "outline: outline of the prepared grain sample; rectangle: rectangle_width x rectangle_height; otherwise the path of "
             "a .msh file with the physical lines lower_platen, upper_platen, left_side, right_side (and free)");

@@ -293,9 +293,9 @@ namespace diptych::continuum
             text << (is_at_strength ? " so prescribe a strain to pass a peak; " : " ");
           }
         if (const double fall = softening(); status == MaterialPointStatus::law_failed && fall > law.moduli().shear)
-          text << "per plastic strain the strength falls by " << fall << ", more than elastic unloading (shear modulus "
-               << law.moduli().shear << "), so no state is next to the last one (snap-back): a larger softening_strain or "
-               << "youngs_modulus or a viscosity helps; ";
+          text << "after its peak the strength falls by " << fall << " per plastic strain, faster than the stress can unload "
+               << "elastically (shear modulus " << law.moduli().shear << "), so the path has no next state (snap-back): a larger "
+               << "softening_strain or youngs_modulus or a viscosity helps; ";
         else if (status == MaterialPointStatus::law_failed)
           text << "the law found no stress; ";
         return text.str();

@@ -147,9 +147,9 @@ namespace diptych::coupling
   {
     if (!is_result_folder(line.target) && !std::filesystem::exists(scene_prm(line.target)))
       throw SceneError(line.target + " is not a result folder; diptych run SCENE makes one");
-    if (std::filesystem::exists(import_json(line.target)) && !std::filesystem::exists(continuum_csv(line.target)))
-      throw SceneError(line.target + ": holds an imported sample and no continuum yet; diptych run " + line.target +
-                       "/scene.prm computes it beside the grains and compares");
+    if (!std::filesystem::exists(continuum_csv(line.target)))
+      throw SceneError(line.target + ": holds no continuum yet; diptych run " + scene_prm(line.target) +
+                       " computes it beside the grains and compares, diptych element the point of the law beside a cell");
     return writing(line.target, [&](FolderLock &) {
       finish_move(line.target);
       check_scene_file(line.target);

@@ -18,8 +18,7 @@ namespace diptych::coupling
     catch (const std::invalid_argument &error)
       {
         throw discrete::WrongKeys({"loading/axial_strain", "loading/path", "loading/pressure", "continuum/initial_step"},
-                                  std::string("loading/axial_strain, loading/pressure or continuum/initial_step: ") +
-                                    error.what());
+                                  error.what());
       }
   }
 

@@ -141,7 +141,10 @@ namespace diptych::discrete
       throw WrongKeys({"loading/path"}, "loading/path: the path of a cell needs at least two rows, each with its progress");
     for (std::size_t row = 1; row < path.values.size(); ++row)
       if (!(path.progress[row] > path.progress[row - 1]) || !(strain_between(path, row, 1) > 0))
-        throw WrongKeys({"loading/path"}, "loading/path: row " + std::to_string(row) + " (counted from 0) changes nothing");
+        throw WrongKeys({"loading/path"},
+                        "loading/path: row " + std::to_string(row + 1) +
+                          " of the numbers repeats the row before it. Grains take no holds, because they do not "
+                          "creep; leave it out (`diptych material-point` lets a law relax there)");
   }
 
   std::vector<double> times_of(const CellPath &path, const double pressure, const double strain_rate)

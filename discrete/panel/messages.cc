@@ -120,11 +120,12 @@ namespace diptych::discrete
       text << " blew up: a grain moved by more than its radius in one step; give a penalty_step_fraction below "
            << options.penalty.step_fraction;
     else
-      text << " did not converge: residual " << failed.solve.residual << " after " << failed.solve.sweeps << " sweeps, tolerance "
-           << failed.tolerance << "; its halves did not converge either, down to a step of " << failed.length << "; "
-           << (is_rigid_path      ? rigid_words
-               : obstacle.empty() ? "a larger step, tolerance or max_sweeps may help"
-                                  : obstacle);
+      text << " did not converge in " << failed.solve.sweeps << " sweeps: residual " << failed.solve.residual << ", tolerance "
+           << failed.tolerance << (obstacle.empty() ? "" : "; " + obstacle)
+           << "; its halves did not converge either, down to a step of " << failed.length
+           << (is_rigid_path      ? "; " + rigid_words
+               : obstacle.empty() ? "; a larger step, tolerance or max_sweeps may help"
+                                  : "");
     return text.str();
   }
 } // namespace diptych::discrete

@@ -258,7 +258,7 @@ namespace diptych::discrete
     // Between prescribed walls that cannot give way, rigid grains are forced into each other; springs may be too soft.
     bool interpenetrate(const double penetration)
     {
-      const double limit = springs() ? 1 : 0.3; // mean diameters
+      constexpr double limit = 0.3; // mean diameters
       return penetration > limit && !fail(interpenetration_text(now.row.step, penetration, options_));
     }
 

@@ -65,10 +65,12 @@ class Element(Folder):
 
     def test_what_a_cell_cannot_do_is_refused_by_key_and_place(self):
         table = write(os.path.join(self.work, "path.csv"), "eyy,sxx,exy\n0,1,0\n")
+        hold = write(os.path.join(self.work, "hold.csv"), "eyy,sxx,exy\n0,1,0\n0.01,1,0\n0.01,1,0\n")
         for keys, *texts in ((dict(discrete_gravity_y=-1), "discrete/gravity_y = -1", "no bottom"),
                              (dict(sample_grains=12), "sample/grains = 12", "give at least"),
                              (dict(loading_axial_strain=3, loading_stage_strain=1), "loading/axial_strain=3",
                               "axial_strain = 3 must lie in (0, 1)"),
+                             (dict(loading_path=hold), "hold.csv", "row 3", "take no holds"),
                              (dict(loading_path=table), "path.csv", "one row")):
             self.expect(2, ["discrete", SCENE, *SMALL, *setting(**keys), "--output", self.folder], *texts)
         # a shear strain may be large, and a short run has no running mean

@@ -188,6 +188,15 @@ def test_a_layer_in_another_plane_is_named():
         importers.check("lammps", sorted((FOREIGN / "lammps").glob("*.dump")), plane="xz")
 
 
+def test_tables_name_the_axes_of_an_upright_layer(tmp_path):
+    texts = {"particles_1.csv": "id,x,z,r\n0,0,0,0.5\n1,0,1,0.5\n", "contacts_1.csv": "i,j,fx,fz\n0,1,0.1,-1\n"}
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text)
+    [frame] = importers.read("csv", [tmp_path / name for name in texts], plane="xz")
+    assert np.array_equal(frame.grains["position"], [[0, 0], [0, 1]])
+    assert np.array_equal(frame.contacts["force"], [[0.1, -1]])
+
+
 def test_the_words_of_the_user_come_before_a_guess(tmp_path):
     """Tables of four numbers without names: the file's name tells which of the user's words counts."""
     for name in ("particles", "contacts"):

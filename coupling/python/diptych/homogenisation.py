@@ -168,6 +168,10 @@ def _between(start: Any, end: Any, maps: tuple[Array, Array], missing: list[dict
         mean = 0.5 * (kept + kept.T) - np.eye(2)
     row: dict[str, Any] = {"from": start.progress, "to": end.progress, "strain_xx": mean[0, 0], "strain_yy": mean[1, 1],
                            "strain_xy": mean[0, 1]}
+    if len(now) == 2:
+        reason = {"quantity": "bands", "reason": "a cell has no platens, whose travel a band would carry"}
+        missing += [] if reason in missing else [reason]
+        return row | {"band_verdict": "not computed", "bands": []}
     try:
         report = find_bands(**increment(start, end))
     except ValueError as error:

@@ -179,7 +179,8 @@ def arrive(format: str, frames: Sequence[Frame], options: Options) -> Arrival:
     for frame, its in zip(frames, grains):
         arrival.frames.append(_ordered(frame, its, arrival, options))
     if options.walls_touch and not any(frame.is_guessed for frame in arrival.frames):
-        raise SceneError(f"import {format}: --walls-touch would have no effect: the files give the place of every wall")
+        raise SceneError(f"import {format}: --walls-touch would have no effect: the files, or the points of their "
+                         "contacts, give the place of every wall")
     arrival.density = total(first["mass"]) / total(np.pi * first["radius"] * first["radius"])
     arrival.lacking = list(dict.fromkeys(text for frame in frames for text in frame.lacking))
     _note_what_is_lacking(arrival)

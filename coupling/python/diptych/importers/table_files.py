@@ -10,7 +10,7 @@ from typing import Callable, Iterable, Sequence
 import numpy as np
 
 from .frames import Options, refused
-from .tables import Table
+from .tables import names_in_plane, Table
 from .text import number_in_name, read_lines
 
 
@@ -106,7 +106,7 @@ def table_of_kind(path: str, options: Options, kinds: dict[str, Callable[[set[st
     if told:
         return told
     for kind, has_columns in kinds.items():
-        if has_columns({name.lower() for name in columns}):
+        if has_columns({name.lower() for name in names_in_plane(columns, options)}):
             return kind, read_table(path)
     told = _told_kind(path, options, kinds, width)
     if told:

@@ -85,16 +85,20 @@ class Table:
 
     def in_plane(self, options: Options) -> "Table":
         """The table as the user sees the layer: with --plane xz, columns of y and z change their names."""
-        def partner(name: str) -> str:
-            other = name[:-1] + {"y": "z", "z": "y", "Y": "Z", "Z": "Y"}.get(name[-1:], "")
-            return other if self.columns.count(other) else name
-        upright = options.axes() == [0, 1]
-        return self if upright else Table(self.path, list(map(partner, self.columns)), self.rows, self.lines)
+        return Table(self.path, names_in_plane(self.columns, options), self.rows, self.lines)
 
     def part(self, mask: Any) -> "Table":
         """The rows that a mask or a list of indices chooses."""
         index = np.arange(len(self.rows))[mask]
         return Table(self.path, self.columns, [self.rows[k] for k in index], self.lines[index])
+
+
+def names_in_plane(columns: Sequence[str], options: Options) -> list[str]:
+    """Names of columns as the user sees the layer: with --plane xz, z is y, and a y beside it is z."""
+    if options.axes() == [0, 1]:
+        return list(columns)
+    turned = {name: name[:-1] + {"z": "y", "Z": "Y"}[name[-1]] for name in columns if name[-1:] in ("z", "Z")}
+    return [{**turned, **{y: z for z, y in turned.items()}}.get(name, name) for name in columns]
 
 
 def rows_below(path: str, lines: Sequence[str], start: int, count: int, columns: Sequence[str]) -> Table:

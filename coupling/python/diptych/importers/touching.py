@@ -229,7 +229,7 @@ def _contacts(rows: _Rows, sides: list[int], now: Instant, bodies: tuple[np.ndar
 
     apart = ~again & (-overlap > diameter) & force.any(axis=1)
     why = ("periodic? Give its periods with --period-x and --period-y, or with a table of cell_width (or of cell_a1_x, "
-           "cell_a1_y, cell_a2_x, cell_a2_y)" if now.period is None and _may_be_periodic(now, apart, meeting["branch"])
+           "cell_a1_y, cell_a2_x, cell_a2_y)" if not np.all(now.period) and _may_be_periodic(now, apart, meeting["branch"])
            else "do the files belong to one frame, and the columns have this meaning?")
     differs = length(force[original] - force) > SAME_FORCE * (length(force[original]) + length(force))
     rows.refuse(
@@ -291,7 +291,7 @@ def _complete_couples(now: Instant, note: Callable[[str], None]) -> None:
     unknown = np.isnan(couple)
     if unknown.any() and not unknown.all():
         now.contacts["couple"] = np.where(unknown, 0, couple)
-        note("some contacts have no couple in the files; it counts as 0")
+        note(f"{unknown.sum()} of {len(unknown)} contacts have no couple in the files; it counts as 0")
 
 
 def take_contacts(frame: Frame, now: Instant, arrival: Any, options: Options) -> None:
