@@ -145,10 +145,12 @@ namespace diptych::continuum
         if (tangent.n_judged < tangent.n_not_judged)
           tangent.trouble = "most answers are not smooth enough for differences";
         if (dissipated > 0 && of_plastic_strain < -0.5 * dissipated)
-          dissipation.deviation = -of_plastic_strain / units.stress,
-          dissipation.trouble   = "plastic_strain has a turned sign: its work on the stress is " +
-                                std::to_string(of_plastic_strain) + " in all paths, the dissipation " +
-                                std::to_string(dissipated) + "; tension is positive, in stress and in strain";
+          {
+            dissipation.deviation = -of_plastic_strain / units.stress;
+            dissipation.trouble   = "plastic_strain has a turned sign: its work on the stress is " +
+                                  std::to_string(of_plastic_strain) + " in all paths, the dissipation " +
+                                  std::to_string(dissipated) + "; tension is positive, in stress and in strain";
+          }
         return {answers, repeatability, tangent, objectivity, dissipation};
       }
 

@@ -11,7 +11,6 @@
 
 #include "coupling/program/built_with.h"
 #include "coupling/program/command_examples.h"
-#include "coupling/program/commands.h"
 #include "coupling/program/option_values.h"
 #include "coupling/program/python_commands.h"
 #include "coupling/program/refused_line.h"
@@ -181,7 +180,7 @@ namespace diptych::coupling
       {
         add(Command::new_scene, "print a commented scene to begin with: diptych new biaxial > my.prm")
           ->add_option("TEMPLATE", line.target, "name of the template (default: list them)")
-          ->type_name("{" + discrete::joined(template_names(), ",") + "}");
+          ->type_name("");
         CLI::App *explain = add(Command::explain, "print every key of a scene (default, unit, range, meaning) or the content of "
                                                   "result files");
         explain

@@ -16,9 +16,8 @@ namespace diptych::coupling
 
   int compare_again(const CommandLine &line); // compare DIR: a result folder or an ensemble
 
-  std::vector<std::string> template_names();
-  int                      print_template(const CommandLine &line); // new [TEMPLATE]
-  int                      print_completion();                      // completion bash
+  int print_template(const CommandLine &line); // new [TEMPLATE]
+  int print_completion();                      // completion bash
 
   int check_law_of(const CommandLine &line); // check-law SCENE or LIBRARY.so; wrong_input if a check fails
 

@@ -17,20 +17,15 @@ namespace diptych::coupling
 {
   namespace fs = std::filesystem;
 
-  std::vector<std::string> template_names()
+  int print_template(const CommandLine &line)
   {
+    const std::string        folder = shared_file("templates");
     std::vector<std::string> names;
-    for (const fs::directory_entry &file : fs::directory_iterator(shared_file("templates")))
+    for (const fs::directory_entry &file : fs::directory_iterator(folder))
       if (file.path().extension() == ".prm")
         names.push_back(file.path().stem().string());
     std::sort(names.begin(), names.end());
-    return names;
-  }
-
-  int print_template(const CommandLine &line)
-  {
-    const std::vector<std::string> names = template_names();
-    const auto stream = [&](const std::string &name) { return std::ifstream(shared_file("templates") + "/" + name + ".prm"); };
+    const auto stream = [&](const std::string &name) { return std::ifstream(folder + "/" + name + ".prm"); };
     if (line.target.empty())
       for (const std::string &name : names)
         {

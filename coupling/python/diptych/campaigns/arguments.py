@@ -95,7 +95,8 @@ def add_homogenise(parser: Parser) -> None:
     parser.add_argument("target", metavar="SOURCE",
                         help="folder with grains; or, with FILES behind it, a format or reader as for import: "
                              + ", ".join(readers.FORMATS) + ", READER.py")
-    parser.add_argument("files", metavar="FILES", nargs="*", default=[], help="files of grains, contacts and walls of another code")
+    parser.add_argument("files", metavar="FILES", nargs="*", default=[],
+                        help="files of grains, contacts and walls of another code")
     parser.add_argument("--grid", metavar="D", type=number(0.5, 1000), default=3.0,
                         help="size of the cells in mean diameters (default: 3)")
     add_output(parser, "folder of the results (default: FOLDER_homogenised; required with FILES)")

@@ -228,9 +228,10 @@ def _contacts(rows: _Rows, sides: list[int], now: Instant, bodies: tuple[np.ndar
         return frame.walls[rows.wall[k]].name if rows.wall[k] >= 0 else f"grain {rows.second[k]}"
 
     apart = ~again & (-overlap > diameter) & force.any(axis=1)
+    periodic = not np.all(now.period) and _may_be_periodic(now, apart, meeting["branch"])
     why = ("periodic? Give its periods with --period-x and --period-y, or with a table of cell_width (or of cell_a1_x, "
-           "cell_a1_y, cell_a2_x, cell_a2_y)" if not np.all(now.period) and _may_be_periodic(now, apart, meeting["branch"])
-           else "do the files belong to one frame, and the columns have this meaning?")
+           "cell_a1_y, cell_a2_x, cell_a2_y)" if periodic else
+           "do the files belong to one frame, and the columns have this meaning?")
     differs = length(force[original] - force) > SAME_FORCE * (length(force[original]) + length(force))
     rows.refuse(
         (again & differs, lambda k: f"the pair {rows.first[k]}, {rows.second[k]} occurs twice with different forces"),
