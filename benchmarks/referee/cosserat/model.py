@@ -81,7 +81,7 @@ class Model:
         load = -ufl.FacetNormal(self.domain)[0] * v[0] * ufl.ds
         self.residual = fem.form(ufl.inner(self.stress, self.strain(test)) * dx - load)
         self.jacobian = fem.form(ufl.inner(ufl.dot(self.tangent, self.strain(trial)), self.strain(test)) * dx)
-        self.volume = fem.form(ufl.det(ufl.Identity(2) + ufl.grad(u)) * dx)
+        self.dilation = fem.form(ufl.div(u) * dx)
         self.strains = fem.Expression(self.strain(self.solution), self.points)
 
     def set_platens(self):
@@ -158,8 +158,9 @@ class Model:
         self.strain_before = numpy.zeros((self.n_cells * len(self.weights), self.law.n_strains))
         return self.force(self.evaluate())
 
-    def area(self):
-        return fem.assemble_scalar(self.volume)
+    def volumetric_strain(self):
+        """Mean trace of the small strain, positive in compression."""
+        return -fem.assemble_scalar(self.dilation) / (self.width * self.height)
 
     def means(self):
         """Cell means {name: [row, column]} of the hardening variable; Cosserat: also of rotation, skew and couple

@@ -23,7 +23,7 @@ def run(case):
     curve, fields = [(0.0, *model.initialise(), 0.0, 0)], []
     for target in step * (1 + numpy.arange(round(end / step))):
         force, iterations = model.step(target)
-        curve.append((target, *force, 1 - model.area() / (model.width * model.height), iterations))
+        curve.append((target, *force, model.volumetric_strain(), iterations))
         if any(abs(target - stage) < step / 2 for stage in stages(case)):
             fields.append(model.means())
     before, after = fields
