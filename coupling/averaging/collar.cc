@@ -128,6 +128,7 @@ namespace diptych::coupling
       add(one.n_inner, one.mesh.triangle.size());
       return result;
     }
+
     CollaredMesh without_collar(const QuadMesh &mesh, const double period)
     {
       CollaredMesh result{mesh, {}, {}, mesh.triangle.size()};

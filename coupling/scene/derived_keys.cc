@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <tuple>
 #include <vector>
 
 #include "discrete/files/csv_file.h"
@@ -280,40 +281,36 @@ namespace diptych::coupling
       return {};
     }
 
+    // The method that `auto` chooses, and why.
+    std::pair<discrete::Method, std::string> best_method(const Scene &scene)
+    {
+      using discrete::Method;
+      const double accuracy = scene.discrete.accuracy.accuracy;
+      if (has_no_pressure(discrete_loading(scene.loading)))
+        return {Method::compliant, "loading/path prescribes exx and eyy, and rigid grains have no stress of their own then"};
+      if (accuracy < accuracy_of_springs)
+        return {Method::nscd, "springs are right to " + discrete::exact_text(accuracy_of_springs) + " only"};
+      if (const auto obstacle = obstacle_to_springs(scene))
+        return {Method::nscd, *obstacle};
+      if (accuracy >= accuracy_of_compliant && discrete::expected_grains(scene.sample) >= grains_for_compliant)
+        return {Method::compliant, "from 4000 grains on it is the cheapest method that is right to 0.02"};
+      const double cost = cost_over_springs(scene, accuracy);
+      return {cost > 1 ? Method::penalty : Method::nscd, "contact dynamics is expected to take " +
+                                                           discrete::exact_text(std::round(100 * cost) / 100) +
+                                                           " of the CPU time of explicit springs"};
+    }
+
     void choose_method(Scene &scene, const Given &given)
     {
       using discrete::Method;
-      discrete::Options &o = scene.discrete;
-      if (o.method.method == Method::compliant && given.count("discrete/penalty_stiffness") == 0)
+      discrete::Options &o       = scene.discrete;
+      const bool         is_auto = o.method.method == Method::automatic;
+      if (is_auto)
+        std::tie(o.method.method, scene.method_reason) = best_method(scene);
+      const bool chose_penalty = is_auto && o.method.method == Method::penalty;
+      if ((chose_penalty || o.method.method == Method::compliant) && given.count("discrete/penalty_stiffness") == 0)
         o.penalty.stiffness = 1e4;
-      if (o.method.method != Method::automatic)
-        return;
-      const double accuracy = o.accuracy.accuracy, cost = cost_over_springs(scene, accuracy);
-      if (o.lateral.lateral == discrete::Lateral::cell && has_no_pressure(discrete_loading(scene.loading).path))
-        {
-          o.method.method     = Method::compliant;
-          scene.method_reason = "loading/path prescribes exx and eyy, and rigid grains have no stress of their own then";
-          if (given.count("discrete/penalty_stiffness") == 0)
-            o.penalty.stiffness = 1e4;
-          return;
-        }
-      o.method.method     = Method::nscd;
-      scene.method_reason = accuracy < accuracy_of_springs
-                              ? "springs are right to " + discrete::exact_text(accuracy_of_springs) + " only"
-                              : obstacle_to_springs(scene).value_or("");
-      if (!scene.method_reason.empty())
-        return;
-      if (accuracy >= accuracy_of_compliant && discrete::expected_grains(scene.sample) >= grains_for_compliant)
-        o.method.method = Method::compliant;
-      else if (cost > 1)
-        o.method.method = Method::penalty;
-      scene.method_reason = o.method.method == Method::compliant
-                              ? "from 4000 grains on it is the cheapest method that is right to 0.02"
-                              : "contact dynamics is expected to take " + discrete::exact_text(std::round(100 * cost) / 100) +
-                                  " of the CPU time of explicit springs";
-      if (o.method.method != Method::nscd && given.count("discrete/penalty_stiffness") == 0)
-        o.penalty.stiffness = 1e4;
-      if (o.method.method == Method::penalty && given.count("discrete/penalty_step_fraction") == 0)
+      if (chose_penalty && given.count("discrete/penalty_step_fraction") == 0)
         o.penalty.step_fraction = 0.5;
     }
 

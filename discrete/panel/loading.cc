@@ -127,12 +127,13 @@ namespace diptych::discrete
     }
   } // namespace
 
-  bool has_no_pressure(const CellPath &path)
+  bool has_no_pressure(const Loading &loading)
   {
+    const CellPath &path = loading.path;
     for (int k = 0; k < 3; ++k)
       if (path.is_stress[k] && !path.form.row(k).head<2>().isZero(0))
         return false;
-    return true;
+    return loading.mode == LoadingMode::path;
   }
 
   void validate(const CellPath &path)

@@ -49,9 +49,6 @@ namespace diptych::discrete
     std::vector<double>          progress; // of each row, ascending: the loading variable
   };
 
-  // True if no normal stress is prescribed, so that the stress follows from the stiffness of the grains alone.
-  bool has_no_pressure(const CellPath &path);
-
   // Throws WrongKeys if there are too few rows, or one does not lead on.
   void validate(const CellPath &path);
 
@@ -71,6 +68,9 @@ namespace diptych::discrete
     double              normal_pressure = 1;  // plane_shear, on the upper platen
     CellPath            path            = {}; // mode path
   };
+
+  // True if the mode is a path that prescribes no normal stress: the stress then follows from the stiffness of the grains.
+  bool has_no_pressure(const Loading &loading);
 
   // Motion of one component of a wall, as written in a scene. "auto" follows from the loading and the lateral condition.
   // "velocity V" and "force F" take a number or a CSV file with the columns time and velocity (or force), piecewise linear. Times

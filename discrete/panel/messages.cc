@@ -66,8 +66,7 @@ namespace diptych::discrete
     constexpr double largest_stress = 30, largest_overlap = 0.01; // P, mean diameters
     const double     stress = 0.5 * (last.lattice.contacts[0] + last.lattice.contacts[1]) / loading.pressure,
                  overlap    = last.largest_penetration / mean_diameter;
-    if (loading.mode != LoadingMode::path || !has_no_pressure(loading.path) ||
-        (stress <= largest_stress && overlap <= largest_overlap))
+    if (!has_no_pressure(loading) || (stress <= largest_stress && overlap <= largest_overlap))
       return {};
     std::ostringstream text;
     text << rigid_words << "; mean stress " << stress << " P, overlap " << overlap << " mean diameters";
@@ -111,9 +110,8 @@ namespace diptych::discrete
 
   std::string failure_text(const FailedStep &failed, const Loading &loading, const Options &options)
   {
-    const std::string obstacle      = obstacle_to(failed.solve);
-    const bool        is_rigid_path = options.method.method == Method::nscd && loading.mode == LoadingMode::path &&
-                               has_no_pressure(loading.path);
+    const std::string  obstacle      = obstacle_to(failed.solve);
+    const bool         is_rigid_path = options.method.method == Method::nscd && has_no_pressure(loading);
     std::ostringstream text;
     text << "step " << failed.step << " at " << failed.where;
     if (options.method.method == Method::penalty)
