@@ -66,6 +66,10 @@ namespace diptych::coupling
 
     void check_stages(const Scene &scene, const bool compares)
     {
+      if (const double strain = scene.loading.axial_strain; scene.loading.mode == LoadingMode::descent && strain >= 1)
+        throw WrongKeys({"loading/axial_strain"},
+                        "loading/axial_strain = " + text_of(strain) +
+                          " moves the upper platen to the lower one: give a number below 1; 3 % is 0.03");
       const LoadingOptions &loading  = scene.loading;
       const bool            time     = loading.mode == LoadingMode::time;
       const double          last     = time ? loading.duration : loading.axial_strain;
@@ -140,6 +144,14 @@ namespace diptych::coupling
         return std::nullopt;
       return "the inertial number " + text_of(I) + " is above " + text_of(largest_quasi_static) +
              ": the loading is not quasi-static, and strength and dilation of the grains grow with the speed";
+    }
+
+    std::optional<std::string> doubtful_strain(const Scene &scene)
+    {
+      const double strain = scene.loading.axial_strain;
+      if (scene.loading.mode != LoadingMode::descent || strain <= 0.3)
+        return std::nullopt;
+      return "loading/axial_strain = " + text_of(strain) + " is " + text_of(100 * strain) + " % of the height; 3 % is 0.03";
     }
 
     // The last assignment of each key, in the order of the keys.
@@ -335,6 +347,8 @@ namespace diptych::coupling
       }
     if (const auto text = doubtful_speed(scene))
       warnings.push_back(*text + places_of(assignments_of({"loading/inertial_number", "loading/strain_rate"}, entries)));
+    if (const auto text = doubtful_strain(scene))
+      warnings.push_back(*text + places_of(assignments_of({"loading/axial_strain"}, entries)));
     if (!compares)
       return warnings;
     if (const auto text = doubtful_platens(scene))

@@ -76,6 +76,19 @@ namespace
     EXPECT_NO_THROW(read_scene(file.path, {}, false));
   }
 
+  // In a descent 1 is the whole height.
+  TEST(Scene, AStrainInPerCentIsRefusedOrDoubtful)
+  {
+    const SceneFile file("# mine\n");
+    const auto      with = [&](const std::string &strain) {
+      return read_scene(file.path, {"loading/axial_strain=" + strain, "loading/stages=" + strain}, false).warnings;
+    };
+    expect_words(refusal([&] { with("1"); }), {"loading/axial_strain=1", "below 1", "3 % is 0.03"});
+    ASSERT_EQ(with("0.4").size(), 1u);
+    expect_words(with("0.4")[0], {"loading/axial_strain=0.4", "40 %", "3 % is 0.03"});
+    EXPECT_TRUE(with("0.3").empty());
+  }
+
   // The table's progress is the end of the loading, and its controls must be independent.
   TEST(Scene, ACellFollowsATable)
   {
