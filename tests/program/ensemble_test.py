@@ -245,6 +245,8 @@ class WrongInput(Ensemble):
     def test_lists_that_are_none(self):
         for seeds in ["", "3-1", "1-3,3", "0-10000"]:
             self.expect_wrong(["run", QUICK, *PLAIN, "--seeds", seeds], "--seeds")
+        for words in (["run"], ["calibrate"], ["study", "--vary", "discrete/friction=0.3,0.4"]):
+            self.expect_wrong([*words, QUICK, "--seeds", "4"], "one seed or a number", "1-4", "4-4")
 
     def test_words_that_do_not_fit_together(self):
         self.expect_wrong(["discrete", QUICK, "--seeds", "1-2"], "--seeds 1-2", "diptych run")

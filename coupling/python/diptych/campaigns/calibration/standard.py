@@ -10,7 +10,7 @@ import numpy as np
 
 from ... import _diptych
 from ...errors import SceneError
-from ..runs.input_file import Setting, read_seeds
+from ..runs.input_file import Setting, read_seeds, seeds_of_line
 
 # Fixed keys and parameters are those of benchmarks/calibration/reference.
 SET = {"hardening": "mobilisation", "softening_strain": 0.3, "cohesion": 0.01}
@@ -58,10 +58,10 @@ def standard_calibration(scene: str, seeds: str, settings: Sequence[Setting]) ->
     fixed = [Setting("continuum", key, str(value), file="the standard calibration") for key, value in SET.items()]
     read = _diptych.read_changed_scene(scene, [*settings, *fixed], True)
     keys, unused = read.dict(), read.unused_keys()
-    file, n = keys["discrete"]["file"], len(read_seeds(seeds))
+    file, n = keys["discrete"]["file"], len(seeds_of_line(seeds))
     is_one = keys["discrete"]["method"] == "imported" and "{seed}" not in file
     if is_one and n > 1:
-        raise SceneError(f"--seeds {seeds}: discrete/file = '{file}' is one sample; give --seeds 1")
+        raise SceneError(f"--seeds {seeds}: discrete/file = '{file}' is one sample; give --seeds 1-1")
     if not is_one and n < 2:
         raise SceneError(f"--seeds {seeds}: the scatter of samples needs at least two seeds, for example --seeds 1-4")
     has_length = "internal_length" not in unused

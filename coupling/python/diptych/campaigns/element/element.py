@@ -20,7 +20,7 @@ from .curves import BINS, key_numbers, observed, rms_differences, table_of
 from ..runs.engine import WRONG_INPUT, Options, columns_text, say
 from ..runs.folders import Folder, Runs, SceneRun, draw, write_json, write_text
 from ..runs.histories import panel_table
-from ..runs.input_file import Setting, read_seeds, settings_of
+from ..runs.input_file import Setting, seeds_of_line, settings_of
 from ..studies.points import on_sample, scene_run
 
 describe("element.json", """\
@@ -105,7 +105,7 @@ def run_element(line: argparse.Namespace, options: Options) -> None:
     if scene.dict()["continuum"]["k0"] != 1:
         raise SceneError(f"{line.target}: continuum/k0 = {scene.dict()['continuum']['k0']}: the grains start at the "
                          "isotropic pressure; `diptych material-point` runs the law alone")
-    seeds = read_seeds(line.seeds) if line.seeds else [scene.dict()["sample"]["seed"]]
+    seeds = seeds_of_line(line.seeds) if line.seeds else [scene.dict()["sample"]["seed"]]
     grains = [_run(line.target, "discrete", on_sample(settings, seed, line.target)) for seed in seeds]
     _run(line.target, "material-point", settings)  # a wrong law is refused before the grains run
     directory = line.output or f"results/{scene.name}_element"

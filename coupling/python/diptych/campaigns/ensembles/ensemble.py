@@ -25,7 +25,7 @@ from ..runs.engine import Options, Outcome, say
 from .profiles import profile_arrays
 from ..runs.folders import Folder, Runs, SceneRun, draw, run_on, write_arrays, write_json, write_text
 from ..runs.histories import curve_of, panel_table
-from ..runs.input_file import read_seeds, settings_of
+from ..runs.input_file import seeds_of_line, settings_of
 from ..studies.level_runs import add_summary, demand_rule, ensemble_levels, fine_runs, read_levels
 from ..runs.key_numbers import QUANTITIES, summary_of
 from ..runs.members import Member, member_of
@@ -197,7 +197,8 @@ def _ends(runs: Runs, members: dict[int, SceneRun], outcomes: dict[str, Outcome]
 def run_ensemble(line: argparse.Namespace, options: Options) -> None:
     """diptych run SCENE --seeds LIST. line: target, seeds, levels, check, output, set, set_file. Raises NotConverged if
     a seed failed, or Stopped."""
-    compiled, seeds, settings = continuum("run --seeds"), read_seeds(line.seeds), settings_of(line.set, line.set_file)
+    compiled, seeds = continuum("run --seeds"), seeds_of_line(line.seeds)
+    settings = settings_of(line.set, line.set_file)
     for one in settings:
         if (one.section, one.key) == ("sample", "seed"):
             raise SceneError(f"--set sample/seed={one.value}: --seeds {line.seeds} sets the seed of each member")

@@ -54,6 +54,14 @@ def _refuse_seeds(why: str) -> NoReturn:
     raise SceneError("--seeds" + why)
 
 
+def seeds_of_line(text: str) -> list[int]:
+    """The seeds of --seeds. Refuses a number, which could be one seed or a number of samples."""
+    if text.isdigit():
+        _refuse_seeds(f" {text} could be one seed or a number of samples; write 1-{text} for {text} samples, "
+                      f"{text}-{text} for the sample with seed {text}")
+    return read_seeds(text)
+
+
 def read_seeds(text: str, refuse: Callable[[str], NoReturn] = _refuse_seeds) -> list[int]:
     """Seeds of a list like 1-8 or 1,3,5-7, ascending. refuse: raises SceneError with " LIST is not allowed; ..."."""
     if not re.fullmatch(r"\d{1,10}(-\d{1,10})?(,\d{1,10}(-\d{1,10})?)*", text):

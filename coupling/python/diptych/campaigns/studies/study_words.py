@@ -9,7 +9,7 @@ from typing import Any
 
 from ... import _diptych
 from ...errors import SceneError
-from ..runs.input_file import Part, name_of, read_seeds, settings_of
+from ..runs.input_file import Part, name_of, seeds_of_line, settings_of
 from .level_runs import Levels, read_levels
 from .study_file import Study, read_study, study_of
 
@@ -71,7 +71,7 @@ def study_of_words(line: argparse.Namespace) -> tuple[Study, str]:
     if not line.vary:
         raise SceneError(f"{file} is a scene; give --vary, such as --vary discrete/friction=0.2,0.3,0.5, or a study "
                          "file (.json)")
-    read_seeds(line.seeds or "1")
+    seeds_of_line(line.seeds or "1-1")
     axes = [_axis(text) for text in line.vary]
     _check_panels(line, overrides, [axis["key"] for axis in axes])
     record = {"scene": os.path.abspath(file), "command": _COMMANDS[line.panels],
