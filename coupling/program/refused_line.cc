@@ -51,11 +51,13 @@ namespace diptych::coupling
       return owners.empty() ? "" : "; it is an option of " + discrete::listed(owners);
     }
 
-    // "; the nearest option is '--output'" for an option, as --outptu=FOLDER, that no command has.
-    std::string nearest_of(CLI::App &asked, const std::string &option)
+    // "; the nearest option is '--output'" for an option, as --outptu=FOLDER, that no command has. "; write --set B=2" for B=2.
+    std::string way_out_of(CLI::App &asked, const std::string &option)
     {
       if (option.rfind("--", 0) != 0)
-        return "";
+        return option.find('=') != std::string::npos && asked.get_option_no_throw("--set") != nullptr
+                 ? "; write --set before every key: --set " + option
+                 : "";
       return "; the nearest option is '" + discrete::nearest_name(option.substr(0, option.find('=')), option_names(asked)) + "'" +
              (asked.get_name() == "run" ? "; with --seeds there are more: diptych run --seeds 1-2 --help" : "");
     }
@@ -71,7 +73,8 @@ namespace diptych::coupling
     if (const std::vector<std::string> extra = asked.remaining(true); !extra.empty())
       {
         const std::string owners = owners_of(app, extra.front());
-        text = "'" + discrete::joined(extra) + "' is not used" + (owners.empty() ? nearest_of(asked, extra.front()) : owners);
+        text                     = "unexpected argument '" + discrete::joined(extra) + "'" +
+               (owners.empty() ? way_out_of(asked, extra.front()) : owners);
       }
     else if (error.get_name() == "ValidationError")
       return "diptych " + asked.get_name() + ": " + text;

@@ -197,9 +197,13 @@ class WideSample(unittest.TestCase):
 class CommandLine(Folder):
     def test_wrong_words_are_named(self):
         for words, *texts in ((["run"], "SCENE is required"), (["rnu", QUICK], "'rnu' is not a command", "'run'"),
-                              (["run", QUICK, "--outptu", "x"], "'--outptu x' is not used",
+                              (["run", QUICK, "--outptu", "x"], "unexpected argument '--outptu x'",
                                "nearest option is '--output'"),
-                              (["run", QUICK, "--outptu=x"], "'--outptu=x' is not used"),
+                              (["run", QUICK, "--outptu=x"], "unexpected argument '--outptu=x'"),
+                              (["run", QUICK, "--set", "discrete/friction=0.3", "sample/seed=2"],
+                               "unexpected argument 'sample/seed=2'", "--set sample/seed=2"),
+                              (["study", QUICK, "--set", "discrete/friction=0.3", "sample/seed=2"],
+                               "unexpected argument 'sample/seed=2'", "--set sample/seed=2"),
                               (["run", QUICK, "--seed", "3"], "nearest option is '--seeds'"),
                               (["run", QUICK, "--jobs", "2"], "with --seeds there are more"),
                               (["compare", QUICK], "is not a result folder"),

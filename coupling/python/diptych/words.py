@@ -40,8 +40,10 @@ class Parser(argparse.ArgumentParser):
         if unused:
             options = [name for action in self._actions for name in action.option_strings]
             near = _diptych.nearest_name(unused[0].partition("=")[0], options)
-            told = f"the nearest option is '{near}'; " if unused[0].startswith("--") else ""
-            raise SceneError(f"{self.name}: '{' '.join(unused)}' is not used; {told}options: {' '.join(options)}")
+            told = f"the nearest option is '{near}'; " if unused[0].startswith("--") else \
+                f"write --set before every key: --set {unused[0]}; " if "=" in unused[0] and "--set" in options else ""
+            raise SceneError(f"{self.name}: unexpected argument '{' '.join(unused)}'; {told}options: "
+                             f"{' '.join(options)}")
         return line
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
