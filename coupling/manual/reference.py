@@ -96,7 +96,7 @@ def options(text):
     """[(head, meaning)] of the arguments and options that CLI11 prints. The meaning of a long head is on the next
     line."""
     found = []
-    for block in re.findall(r"^(?:Positionals|Options|Subcommands):\n(.*?)(?=^\S|\Z)", text, re.DOTALL | re.MULTILINE):
+    for block in re.findall(r"^(?:Positionals|Options):\n(.*?)(?=^\S|\Z)", text, re.DOTALL | re.MULTILINE):
         for line in block.split("\n"):
             head = re.match(r"  (\S.*?)(?: {2,}(\S.*))?$", line)
             if head:
@@ -111,8 +111,7 @@ class Commands:
 
     def __init__(self, program):
         self.overview = output_of(program, "--help")
-        block = self.overview.split("Subcommands:\n")[1].split("\n\n")[0]
-        self.names = re.findall(r"^  (\S+)", block, re.MULTILINE)
+        self.names = re.findall(r"^  ([a-z][a-z-]*) ", self.overview, re.MULTILINE)
         self.helps = {name: output_of(program, name, "--help") for name in self.names}
 
     def page(self):

@@ -37,7 +37,6 @@ namespace diptych::coupling
             app("Computes one granular sample twice, as grains and as a continuum, and compares both", "diptych")
       {
         app.require_subcommand(1);
-        app.footer(footer);
         app.set_version_flag("--version", built_with());
         add_run();
         for (const auto &[name, description] : python_commands)
@@ -48,6 +47,14 @@ namespace diptych::coupling
         add_others();
         for (CLI::App *command : app.get_subcommands({}))
           command->footer(example_of(command->get_name()) + "\n\n" + command->get_footer());
+        std::string examples = "Examples:\n";
+        for (const auto &[name, group, example] : command_examples)
+          {
+            app.get_subcommand(name)->group(group);
+            if (const std::string command = name; command == "new" || command == "run" || command == "calibrate")
+              examples += "    " + std::string(example) + "\n";
+          }
+        app.footer(examples + "\n" + footer);
       }
 
       CLI::App &parser() { return app; }

@@ -14,7 +14,9 @@ _diptych()
     key=$before word=""
   fi
   if [ "$COMP_CWORD" -eq 1 ]; then
-    words="--help --version $("$program" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z-]*\) .*/\1/p')"
+    words="--help --version $("$program" --help | sed -n 's/^  \([a-z][a-z-]*\) .*/\1/p')"
+  elif [ "$command" = new ]; then
+    words=$("$program" new | sed 's/:.*//')
   elif [ -n "$key" ]; then
     words=$("$program" explain "$key" 2>/dev/null | sed -n 's/^  .*\]  \(one of \)\{0,1\}//p' | grep -v ' [0-9F]' | sed 's/,\| or / /g')
   elif [ "$before" = --set ]; then

@@ -103,8 +103,7 @@ class Manual(Built):
                 self.assertIn(text, page)
 
     def test_every_command_and_option_is_listed(self):
-        names = re.findall(r"^  ([a-z-]+) ", diptych("--help", check=True).stdout.split("Subcommands:")[1],
-                           re.MULTILINE)
+        names = re.findall(r"^  ([a-z][a-z-]*) ", diptych("--help", check=True).stdout, re.MULTILINE)
         shown = self.shown("reference/commands.html")
         self.assertGreater(len(names), 10)
         for name in names:

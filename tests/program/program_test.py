@@ -218,8 +218,11 @@ class CommandLine(Folder):
                 self.expect(2, words, *texts)
 
     def test_help_names_choices_and_ends_with_an_example(self):
-        names = re.findall(r"^  ([a-z-]+) ", diptych("--help").stdout.split("Subcommands:")[1], re.MULTILINE)
+        overview = diptych("--help").stdout
+        names = re.findall(r"^  ([a-z][a-z-]*) ", overview, re.MULTILINE)
         self.assertGreater(len(names), 15)
+        self.assertEqual(re.findall(r"^(Run|Fit|Data|Help):$", overview, re.MULTILINE), ["Run", "Fit", "Data", "Help"])
+        self.assertEqual(len(re.findall(r"^    diptych (new|run|calibrate) .", overview, re.MULTILINE)), 3)
         for name in names:
             told = diptych(name, "--help").stdout
             self.assertRegex(told, rf"\nExample: .*diptych {name} .", name)
@@ -247,7 +250,7 @@ class CommandLine(Folder):
                                (["solve", "--solver", ""], "psor"),
                                (["solve", "--form", "lo"], "local"), (["explain", "samp"], "sample"),
                                (["explain", "res"], "results"),
-                               (["completion", ""], "bash"),
+                               (["completion", ""], "bash"), (["new", "bia"], "biaxial"),
                                (["study", os.path.join(self.work, "scene.prm"), "--va"], "--vary"),
                                (["study", "--panels", "d"], "discrete"),
                                (["run", "--set", "discrete/fric"], "discrete/friction="),
