@@ -1,4 +1,4 @@
-// diptych: run SCENE --check: whether a scene can run
+// diptych: run SCENE --check, and the check before an ensemble: whether a scene can run
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/program/commands.h"
 
@@ -62,7 +62,9 @@ namespace diptych::coupling
     check_comparable(scene);
     require_platen_travel(scene);
     announce_resources(line, scene, {true, true, std::max(1, int(seeds.size()))});
-    if (!line.resume && scene.discrete.method.method != discrete::Method::imported)
+    if (line.checks_only)
+      say(line, scene.name + ": fine; the run also checks the prepared sample");
+    else if (!line.resume && scene.discrete.method.method != discrete::Method::imported)
       check_first_sample(line, scene, seeds.empty() ? scene.sample.seed : seeds.front());
     return done;
   }

@@ -120,7 +120,7 @@ namespace diptych::coupling
         run->add_option_function<std::string>("--seeds", never, "compute many samples: a list like 1-8 or 1,3,5-7")
           ->type_name("LIST");
         run->footer("Other options of many samples, such as --jobs and --levels: diptych run --seeds 1-8 --help");
-        run->add_flag("--check", line.checks_only, "check the scene and its first sample, print the resources, compute nothing");
+        run->add_flag("--check", line.checks_only, "check the scene and print the resources; computes nothing");
         add_quiet(run);
       }
 

@@ -21,8 +21,8 @@ namespace diptych::coupling
 
   int check_law_of(const CommandLine &line); // check-law SCENE or LIBRARY.so; wrong_input if a check fails
 
-  // run SCENE --check: checks the scene and its first sample and prints the resources of all samples. seeds: those of an
-  // ensemble. With --resume the sample is not prepared.
+  // Checks a scene and prints the resources of all samples. seeds: those of an ensemble, whose first sample is prepared and
+  // checked, too. With --check or --resume no sample is prepared.
   int check_run(const CommandLine &line, const Scene &scene, const std::vector<int> &seeds = {});
 
   // solve PROBLEM.h5: solves a problem in the layout of FCLIB from r = 0 to line.solve.tolerance (natural map relative to |r|).

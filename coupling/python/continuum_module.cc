@@ -129,10 +129,11 @@ namespace diptych::python
     void check(const coupling::Scene &scene, const std::vector<int> &seeds, const py::dict &options)
     {
       coupling::CommandLine line;
-      line.command = coupling::Command::run;
-      line.threads = options["threads"].cast<int>();
-      line.quiet   = options["quiet"].cast<bool>();
-      line.resume  = options["resume"].cast<bool>();
+      line.command     = coupling::Command::run;
+      line.threads     = options["threads"].cast<int>();
+      line.quiet       = options["quiet"].cast<bool>();
+      line.resume      = options["resume"].cast<bool>();
+      line.checks_only = options["check"].cast<bool>();
       const coupling::TakenSignals taken;
       coupling::check_run(line, coupling::with_options(line, scene), seeds);
       coupling::leave_if_stopped("checking the scene");

@@ -244,6 +244,14 @@ class CommandLine(Folder):
                 sample_grains=100, loading_axial_strain=1e-5, loading_stage_strain=1e-5)]
             self.expect(0, [command, scene, *short])
 
+    def test_a_check_prepares_no_sample_and_says_fine(self):
+        for words in ([], ["--seeds", "1-3"]):
+            result = self.expect(0, ["run", QUICK, *setting(sample_grains=100000), "--check", *words])
+            self.assertIn("100000 grains", result.stdout)
+            self.assertIn("moreau_quick: fine", result.stdout.splitlines()[-1])
+            self.assertEqual(result.stderr, "")
+        self.expect(2, ["run", QUICK, "--check", *setting(loading_axial_strain=3)], "loading/axial_strain=3", "0.03")
+
     def test_completion_offers_commands_options_keys_and_values(self):
         script = write(os.path.join(self.work, "completion"), diptych("completion", "bash").stdout)
         for words, offered in ((["ru"], "run"), (["run", "scene.prm", "--see"], "--seeds"),

@@ -46,7 +46,7 @@ def add_run(parser: Parser) -> None:
                True)
     parser.add_argument("--levels", metavar="LEVELS", default="", help=_LEVELS)
     parser.add_argument("--check", action="store_true",
-                        help="check the scene and its first sample, print the resources, compute nothing")
+                        help="check the scene and print the resources; computes nothing")
     _add_runs(parser, "folder of the ensemble (default: results/<scene name>_ensemble)")
 
 

@@ -211,7 +211,7 @@ def run_ensemble(line: argparse.Namespace, options: Options) -> None:
     scene = read.in_folder(directory, read.name)
     if os.path.isdir(directory):
         _diptych.require_usable(directory, options.resume, options.overwrite)
-    compiled.check(scene, seeds, vars(options))  # whether scene, first sample and resources suffice
+    compiled.check(scene, seeds, vars(options) | {"check": line.check})  # whether it can run
     if line.check:
         return
     variations = validation.variations(line.target, settings, validation.draws_of(line.set_file, settings_of(line.set)))
