@@ -86,13 +86,15 @@ namespace diptych::coupling
   {
     discrete::Hooks hooks;
     hooks.stop_requested = stop_requested;
-    hooks.on_progress    = [this](const std::string &phase, const double fraction) { progress.update(phase, fraction); };
-    hooks.before_step    = [this] { before_step(); };
-    hooks.on_row         = [this](const discrete::HistoryRow &row) { add_row(row); };
-    hooks.on_problem = [this](const int stage, const discrete::ContactProblem &problem, const discrete::StoredGeometry &geometry,
+    hooks.on_progress    = [this](const std::string &phase, const double fraction) {
+      progress.update(phase, fraction, reached_text(results.rows));
+    };
+    hooks.before_step = [this] { before_step(); };
+    hooks.on_row      = [this](const discrete::HistoryRow &row) { add_row(row); };
+    hooks.on_problem  = [this](const int stage, const discrete::ContactProblem &problem, const discrete::StoredGeometry &geometry,
                               const std::vector<discrete::Impulse> &impulses) {
       discrete::write_fclib(contact_problem(scene.output.directory, stage), problem,
-                            {scene.name + ", stage " + std::to_string(stage), options.text}, geometry, impulses);
+                             {scene.name + ", stage " + std::to_string(stage), options.text}, geometry, impulses);
     };
     return hooks;
   }

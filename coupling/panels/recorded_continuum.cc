@@ -122,7 +122,7 @@ namespace diptych::coupling
         save();
     };
     hooks.on_progress = [this, name = phase.str()](const std::string &, const double fraction) {
-      progress.update(name, fraction);
+      progress.update(name, fraction, reached_text(results.rows));
     };
     hooks.on_row = [this](const continuum::HistoryRow &row) { add_row(row); };
     return hooks;

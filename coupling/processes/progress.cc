@@ -16,11 +16,11 @@ namespace diptych::coupling
   {
     Progress *open_progress = nullptr; // the one with a phase under way
 
-    // "40 %, 12 s elapsed, 18 s remaining"; without the last part at the first per cent and at the end.
-    std::string state_text(const int percent, const double fraction, const double elapsed)
+    // "12 s elapsed, 18 s remaining"; without the last part at the first per cent and at the end.
+    std::string times_text(const double fraction, const double elapsed)
     {
-      std::string text = std::to_string(percent) + " %, " + duration_text(elapsed) + " elapsed";
-      if (fraction > 0.01 && percent < 100)
+      std::string text = duration_text(elapsed) + " elapsed";
+      if (fraction > 0.01 && fraction < 1)
         text += ", " + duration_text(elapsed * (1 - fraction) / fraction) + " remaining";
       return text;
     }
@@ -39,9 +39,10 @@ namespace diptych::coupling
     return text;
   }
 
-  Progress::Progress(const bool quiet)
+  Progress::Progress(const bool quiet, const Clock::duration log_interval)
       : quiet(quiet),
-        terminal(isatty(STDERR_FILENO) != 0)
+        terminal(isatty(STDERR_FILENO) != 0),
+        interval(terminal ? Clock::duration(std::chrono::milliseconds(200)) : log_interval)
   {}
 
   Progress::~Progress()
@@ -54,7 +55,7 @@ namespace diptych::coupling
     return std::chrono::duration<double>(Clock::now() - begin).count();
   }
 
-  void Progress::update(const std::string &name, const double fraction)
+  void Progress::update(const std::string &name, const double fraction, const std::string &state)
   {
     if (quiet)
       return;
@@ -64,23 +65,21 @@ namespace diptych::coupling
         finish();
         phase         = name;
         begin         = now;
-        shown         = now - std::chrono::hours(1);
-        tenths        = -1;
+        shown         = terminal ? now - std::chrono::hours(1) : now;
         open_progress = this;
       }
+    reached = state;
+    if (now - shown < interval)
+      return;
+    shown                     = now;
     const int         percent = std::clamp(int(100 * fraction), 0, 100);
-    const std::string state   = state_text(percent, fraction, elapsed());
-    if (terminal && now - shown > std::chrono::milliseconds(200))
-      {
-        shown                 = now;
-        const std::string bar = std::string(percent / 4, '#') + std::string(25 - percent / 4, '.');
-        std::fprintf(stderr, "\r\033[K%s [%s] %s", phase.c_str(), bar.c_str(), state.c_str());
-      }
-    else if (!terminal && percent / 10 > tenths)
-      {
-        tenths = percent / 10;
-        std::fprintf(stderr, "%s: %s\n", phase.c_str(), state.c_str());
-      }
+    const std::string share   = std::to_string(percent) + " %",
+                      bar     = std::string(percent / 4, '#') + std::string(25 - percent / 4, '.');
+    const std::string times   = times_text(fraction, elapsed());
+    if (terminal)
+      std::fprintf(stderr, "\r\033[K%s [%s] %s, %s", phase.c_str(), bar.c_str(), share.c_str(), times.c_str());
+    else
+      std::fprintf(stderr, "%s: %s, %s\n", phase.c_str(), (state.empty() ? share : state).c_str(), times.c_str());
   }
 
   void Progress::finish(const bool is_complete)
@@ -89,13 +88,12 @@ namespace diptych::coupling
       open_progress = nullptr;
     if (phase.empty())
       return;
-    const bool is_done = is_complete && !stop_requested();
-    if (terminal && is_done)
-      std::fprintf(stderr, "\r\033[K%s: done in %s\n", phase.c_str(), duration_text(elapsed()).c_str());
+    const std::string state = reached.empty() ? "" : reached + ", ";
+    if (is_complete && !stop_requested())
+      std::fprintf(stderr, "%s%s: %sdone in %s\n", terminal ? "\r\033[K" : "", phase.c_str(), state.c_str(),
+                   duration_text(elapsed()).c_str());
     else if (terminal)
       std::fprintf(stderr, "\n"); // the last state stays visible
-    else if (is_done && tenths < 10)
-      std::fprintf(stderr, "%s: %s\n", phase.c_str(), state_text(100, 1, elapsed()).c_str());
     phase.clear();
   }
 

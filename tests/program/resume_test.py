@@ -93,8 +93,8 @@ class Resume(Folder):
 
     def test_a_preparation_under_a_signal(self):
         process = start("discrete", QUICK, *SMALL, *setting(sample_preparation_steps=20000), "--output", self.folder)
-        for line in process.stderr:
-            if "preparing" in line:
+        for line in process.stdout:
+            if "300 grains" in line:
                 break
         time.sleep(0.1)
         process.send_signal(signal.SIGINT)
