@@ -43,6 +43,8 @@ namespace diptych::coupling
 
     std::string line_of(const continuum::LawCheck &check)
     {
+      if (check.holds() && check.trouble.empty() && check.n_not_judged == 0)
+        return check.name + ": holds";
       std::ostringstream text;
       text.precision(3);
       text << check.name << (check.holds() ? ": holds" : ": FAILS") << ", largest deviation " << check.deviation << ' '

@@ -63,7 +63,7 @@ class Libraries(Folder):
     def test_the_examples_pass_the_checks(self):
         for library in ("mohr_coulomb", "von_mises"):
             told = finished("check-law", os.path.join(self.libraries, library + ".so")).stdout
-            self.assertEqual(told.count(": holds, largest deviation"), 5, told)
+            self.assertEqual(told.count(": holds\n"), 5, told)
             self.assertNotIn("strain increment", told)  # no place without a fault
         self.assertIn("law.hardening_modulus = 10 [loading/pressure]", told)
 
