@@ -36,6 +36,23 @@ def test_a_column_of_discs_carries_force_over_width(method):
         np.testing.assert_allclose(stress.solid_fraction.mean(), np.pi / 4)
 
 
+def test_tables_of_an_import_need_no_other_names():
+    """The column again, with ids from 7 on in another order and walls below zero, as in contacts_0.csv."""
+    grains, pairs = column(10, 3.0)
+    ids, order = 7 + np.arange(10), np.random.default_rng(1).permutation(10)
+    table = {"id": ids[order], "x": grains["position"][order, 0], "y": grains["position"][order, 1], "r": np.ones(10)}
+    bodies = {name: np.where(pairs[name] < 10, pairs[name] + 7, 9 - pairs[name]) for name in ("i", "j")}
+    rows = {**bodies, **{p + axis: pairs[of][:, k] for p, of in (("p", "point"), ("f", "force"))
+                         for k, axis in enumerate("xy")}}
+    mesh = diptych.grid((-1, 0), (1, 20), 1.0)
+    expected = diptych.map_stress(grains, pairs, mesh).stress
+    np.testing.assert_allclose(diptych.map_stress(table, rows, mesh).stress, expected, atol=1e-12)
+    with pytest.raises(ValueError, match="body 6 of 'i' is not a grain"):
+        diptych.map_stress(table, {**rows, "i": np.full(len(rows["i"]), 6)}, mesh)
+    with pytest.raises(ValueError, match="'point' is missing; points may be px, py"):
+        diptych.map_stress(table, {name: rows[name] for name in ("i", "j", "fx", "fy")}, mesh)
+
+
 def test_a_map_of_a_snapshot_sums_to_its_moments(panels):
     snapshot = panels[0].snapshots[-1]
     expected = (snapshot.mean_internal_moment + snapshot.mean_spin_term[:, None, None] * np.eye(2)).sum(0)  # symmetric

@@ -37,6 +37,21 @@ def _grains(grains: Any) -> dict[str, Array]:
     return {"position": position, "radius": radius}
 
 
+def _from_import(contacts: Any, grains: Any) -> dict[str, Any]:
+    """Contacts with the columns of the CSV files of an import, whose bodies are ids or, if negative, walls."""
+    vectors = {name: np.column_stack([_column(contacts, axis) for axis in axes])
+               for name, axes in (("force", ("fx", "fy")), ("point", ("px", "py")))
+               if _column(contacts, axes[0]) is not None}
+    ids, n = _column(grains, "id"), len(_grains(grains)["radius"])
+    number = {int(name): k for k, name in enumerate(range(n) if ids is None else ids)}
+    for name in ("i", "j"):
+        bodies = [int(body) for body in _column(contacts, name)]
+        if lost := [body for body in bodies if body >= 0 and body not in number]:
+            raise ValueError(f"contacts: body {lost[0]} of '{name}' is not a grain")
+        vectors[name] = np.array([number[body] if body >= 0 else n - 1 - body for body in bodies])
+    return vectors
+
+
 def _contacts(contacts: Any, grains: Any) -> dict[str, Any]:
     if contacts is None:
         contacts = getattr(grains, "window", None)
@@ -45,10 +60,12 @@ def _contacts(contacts: Any, grains: Any) -> dict[str, Any]:
         if len(contacts) == 0:
             contacts = grains.contacts
     given = {name: _column(contacts, name) for name in _CONTACT}
+    if given["force"] is None and _column(contacts, "fx") is not None:
+        given |= _from_import(contacts, grains)
     for name in _CONTACT[:4]:
         if given[name] is None:
-            raise ValueError(f"contacts: '{name}' is missing; diptych.contacts() computes points from grains, walls "
-                             "and forces")
+            raise ValueError(f"contacts: '{name}' is missing; points may be px, py and forces fx, fy, and "
+                             "diptych.contacts() computes points from grains, walls and forces")
     if given["couple"] is not None:
         given["couple"] = np.nan_to_num(given["couple"])  # NaN: not in the files of another code
     return given
@@ -119,6 +136,7 @@ def map_stress(grains: Any, contacts: Any = None, mesh: Any = None, method: str 
               DataFrame
     contacts  i, j (c), point (c, 2) [length], force (c, 2) ON i from j [pressure length]; i is a grain, j a grain or
               (from n on) a wall; shift, shift_y (c) of a periodic image of j; couple (c) ON i [pressure length^2].
+              Or the columns of the CSV files of an import: i, j (ids; a negative j is a wall), px, py, fx, fy.
               Default for a snapshot: the mean forces over the stage, or before the first stage those of the instant.
     mesh      (nodes (m, 2), cells (k, 4) anticlockwise), grid(...), a continuum snapshot; default: grid of 3 d over the
               grains' box, or over the cell of a snapshot that is periodic in both directions
