@@ -55,6 +55,21 @@ class Import(Case):
         self.done("compare", self.path("both"), "--quiet")
         self.done("report", self.path("both"), "--quiet")
 
+    def test_friction_of_the_walls_is_measured_and_guesses_are_told(self):
+        """The walls of in.biaxial have friction 0.3; without their forces their friction is unknown."""
+        told = self.done("import", "lammps", *LAMMPS, "--output", self.path("mine"))
+        for text in ("T/N up to 0.3; the scene takes continuum/platens = frictional", "not fitted to these grains",
+                     "loading/pressure = 999.998, from the force on the right wall / height in frame step 120000"):
+            self.assertIn(text, told)
+        scene = content(self.path("mine", "scene.prm")).decode()
+        for text in ("platens = frictional", "platen_friction = 0.3", "platen_slip_length = 0"):
+            self.assertIn(text, scene)
+        told = self.done("import", "lammps", *files("lammps/[cg]*.dump"), "--walls-touch", "--output", self.path("guess"))
+        for text in ("no side walls are in the files: the scene takes discrete/lateral = end_grains",
+                     "no forces on walls are in the files: the scene takes continuum/platens = rough",
+                     "from the mean horizontal stress of the contacts in frame step 120000"):
+            self.assertIn(text, told)
+
     def test_the_continuum_is_loaded_as_the_walls_moved(self):
         self.done("import", "lammps", *LAMMPS, "--output", self.path("mine"), "--quiet")
         scene = self.path("mine", "scene.prm")

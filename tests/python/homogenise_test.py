@@ -144,6 +144,27 @@ def test_frames_without_contacts_say_that_their_stress_is_missing(copy, tmp_path
     assert np.isnan(rows.t_over_s[0]) and rows.t_over_s[1] > 0.4 and rows.solid_fraction[0] > 0.8
 
 
+def test_positions_alone_give_strain_and_bands_but_no_stress(tmp_path):
+    """As measured on photographs: neither contacts nor radii."""
+    files = [file for file in write_band(tmp_path) if file.name.startswith("particles")]
+    for file in files:
+        pd.read_csv(file).drop(columns="r").to_csv(file, index=False)
+    words = [PROGRAM, "homogenise", "csv", *files, "--walls-touch", "--grid", "2", "--output", tmp_path / "out"]
+    refused = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert refused.returncode == 2 and "need --mean-diameter D, their distance" in refused.stderr
+    said = program(*words[1:], "--mean-diameter", "1")
+    for text in ("no radii are in the files", "positions alone give strain and bands, but no stress", "missing: stress",
+                 "no stress and no scene"):
+        assert text in said
+    with open(tmp_path / "out" / "homogenised.json") as file:
+        record = json.load(file)
+    [band] = record["increments"][0]["bands"]
+    assert band["angle_deg"]["value"] == pytest.approx(ANGLE, abs=0.5)
+    assert band["width_10_90_d"]["value"] == pytest.approx(WIDTH, rel=0.03)
+    assert "sxx" not in record["frames"][1] and "rattlers" not in record["frames"][1]
+    assert "stress" not in meshio.vtu.read(tmp_path / "out" / "fields_0001.vtu").cell_data
+
+
 def test_a_folder_without_grains_is_refused(tmp_path):
     (tmp_path / "empty").mkdir()
     for words, message in (([tmp_path / "empty"], "holds no discrete.h5"), (["csv", "nowhere.csv"], "add --output DIR"),

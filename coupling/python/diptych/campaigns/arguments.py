@@ -120,7 +120,8 @@ def _add_import_options(parser: Parser) -> None:
             ("timestep", "time step, for codes that count steps"),
             ("density", "mass per area, if no file contains masses"),
             ("pressure", "lateral pressure (default: that of the right wall in the first frame with forces)"),
-            ("mean-diameter", "unit d of the results (default: mean of the grains)"),
+            ("mean-diameter", "unit d of the results (default: mean of the grains), and diameter of points without "
+             "radii"),
             ("period-x", "period along x of a periodic sample, if the files do not contain it"),
             ("period-y", "period along y, for a cell that is periodic in both directions")):
         parser.add_argument("--" + name, metavar="NUMBER", type=number(1e-30, 1e30), help=meaning)

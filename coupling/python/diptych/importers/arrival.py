@@ -127,9 +127,6 @@ def _ordered(frame: Frame, grains: dict[str, np.ndarray], arrival: Arrival, opti
     if len(here) != len(ids):
         raise refused(frame.grain_file, f"frame {frame.name} has {len(here)} grains, but the first frame "
                       f"has {len(ids)}")
-    if arrival.frames and (frame.contacts is None or not len(frame.contacts["first"])):
-        raise refused(frame.grain_file, f"frame {frame.name} has no contacts; every frame after the first needs them "
-                      "for its stresses")
     grains["resultant"] = grains["resultant"] / arrival.thickness
     by_area = np.pi * grains["radius"] * grains["radius"] * (math.nan if options.density is None else options.density)
     grains["mass"] = np.where(np.isfinite(grains["mass"]), grains["mass"] / arrival.thickness, by_area)
@@ -156,7 +153,10 @@ def _note_what_is_lacking(arrival: Arrival) -> None:
     told["contacts with walls"] = is_cell(last.period) or "contacts with walls" in arrival.lacking or any(
         np.any(frame.contacts["j"] >= len(arrival.id)) for frame in arrival.frames)
     told["dissipation, energies and means over stages (a frame is one instant)"] = False
-    told.update({f"contacts of frame {frame.name}": frame.has_contacts for frame in arrival.frames})
+    if any(len(frame.contacts["i"]) for frame in arrival.frames):
+        told.update({f"contacts of frame {frame.name}": frame.has_contacts for frame in arrival.frames})
+    else:
+        told["contacts: positions alone give strain and bands, but no stress and no fabric"] = False
     arrival.lacking += [what for what, is_told in told.items() if not is_told]
 
 
@@ -176,6 +176,10 @@ def arrive(format: str, frames: Sequence[Frame], options: Options) -> Arrival:
     if gaps > 0:
         options.note(f"ids run from {ids[0]} to {ids[-1]} with {gaps} missing; grains are counted from 0 in the order "
                      "of their ids")
+    without = [frame for frame in frames[1:] if frame.contacts is None or not len(frame.contacts["first"])]
+    if without and (len(without) < len(frames) - 1 or frames[0].contacts is not None):
+        raise refused(without[0].grain_file, f"frame {without[0].name} has no contacts; every frame after the first "
+                      "needs them for its stresses, or no frame has any")
     for frame, its in zip(frames, grains):
         arrival.frames.append(_ordered(frame, its, arrival, options))
     if options.walls_touch and not any(frame.is_guessed for frame in arrival.frames):

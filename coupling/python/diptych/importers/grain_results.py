@@ -13,9 +13,11 @@ from .arrival import Arrival
 from .checks import axial_strain, sum_of_forces
 from .frames import refused
 from .periods import is_cell
-from .touching import SIDES, Instant, dot, length, total
+from .touching import NORMALS, SIDES, Instant, dot, length, total
 
 GROWTH = 1e-9  # least growth of the loading variable between two frames
+LEAST_FRICTION = 0.05  # of the walls; frames at rest show less between smooth walls
+LEAST_FORCE = 0.1  # mean normal forces of the contacts with walls; the ratio of smaller ones is round-off
 MOST_DIAMETERS = 1e5  # between the lower and the upper wall
 
 
@@ -58,8 +60,8 @@ def _snapshot(now: Instant, first: Instant, setting: dict[str, Any]) -> Any:
     grains |= {name: g[of] - first.grains[of] for name, of in (("displacement", "position"), ("rotation", "rotation"))}
     touched = np.bincount(np.concatenate([now.contacts["i"], now.contacts["j"]]).astype(int), minlength=n)[:n]
     spin_term = 0.25 * g["mass"] * g["radius"] * g["radius"] * g["spin"] * g["spin"]  # (1/2) omega^2 I of discs
-    grains |= {"mean_spin_term": np.where(np.isfinite(spin_term), spin_term, 0), "rattler": touched == 0,
-               "fixed": np.zeros(n), "applied_force": g["weight"]}
+    grains |= {"mean_spin_term": np.where(np.isfinite(spin_term), spin_term, 0),
+               "rattler": now.has_contacts & (touched == 0), "fixed": np.zeros(n), "applied_force": g["weight"]}
     setting |= {"time": now.time - (first.time if math.isfinite(first.time) else 0), "step": math.nan,
                 "residual": math.nan}
     if is_cell(now.period):
@@ -153,12 +155,47 @@ def facts_of(arrival: Arrival, results: Any) -> dict[str, Any]:
 
 def _side_pressure(arrival: Arrival, results: Any) -> float:
     """Mean horizontal stress on the side walls in the first frame with forces."""
-    pushes = [-now.force[3, 0] / (now.place[1] - now.place[0]) for now in arrival.frames]
-    for pressure in (*pushes, *results.history()["sxx"]):
-        if pressure > 0:
-            return pressure
+    for what, stresses in (("force on the right wall / height", [-now.force[3, 0] / (now.place[1] - now.place[0])
+                                                                 for now in arrival.frames]),
+                           ("mean horizontal stress of the contacts", results.history()["sxx"])):
+        for now, pressure in zip(arrival.frames, stresses):
+            if pressure > 0:
+                arrival.remarks.append(f"loading/pressure = {pressure:.6g}, from the {what} in frame {now.name}; "
+                                       "--pressure sets another")
+                return pressure
     raise arrival.frames[0].refused("no lateral pressure was found, because no frame has a force on the right wall or "
                                     "a horizontal stress above 0; give --pressure P", "wall_file")
+
+
+def _wall_friction(arrival: Arrival) -> float:
+    """The largest ratio T/N of the tangential and normal force of a contact with a wall; without such contacts that of
+    the sums on a wall. It is the friction of the walls if one contact slides, else less. nan: no forces of walls."""
+    n, found = len(arrival.id), []
+    for now in arrival.frames:
+        c = now.contacts
+        on_wall = c["j"] >= n
+        force, normal = (c["force"][on_wall], c["normal"][on_wall]) if on_wall.any() else (now.told_force, NORMALS)
+        push = dot(force, normal)
+        pressed = push > 0  # false for nan
+        if pressed.any():
+            pressed &= push > LEAST_FORCE * push[pressed].mean()
+            found += list((length(force - push[:, None] * normal) / push)[pressed])
+    return max(found, default=math.nan)
+
+
+def _platens(arrival: Arrival, lateral: str) -> dict[str, Any]:
+    """Keys of the continuum's walls in a compression, from the forces of the walls where they are known."""
+    if lateral == "periodic":  # rough platens would hold the corners that the period takes along
+        return {"platens": "smooth"}
+    friction = _wall_friction(arrival)
+    if friction > LEAST_FRICTION:
+        arrival.remarks.append(f"the forces on the walls show friction: T/N up to {friction:.3g}; the scene takes "
+                               "continuum/platens = frictional with this platen_friction on all walls")
+        return {"platens": "frictional", "platen_friction": float(f"{friction:.3g}"), "platen_slip_length": 0}
+    platens = "smooth" if math.isfinite(friction) or lateral == "rigid_walls" else "rough"
+    if math.isnan(friction):
+        arrival.remarks.append(f"no forces on walls are in the files: the scene takes continuum/platens = {platens}")
+    return {"platens": platens}
 
 
 def scene_of(arrival: Arrival, results: Any, pressure: float | None) -> str:
@@ -177,10 +214,13 @@ def scene_of(arrival: Arrival, results: Any, pressure: float | None) -> str:
     sections["discrete"] = {"method": "imported", "file": "discrete.h5",
                             "lateral": "rigid_walls" if has_sides else
                             "periodic" if results.snapshots[0].cell_width else "end_grains"}
-    is_periodic = sections["discrete"]["lateral"] == "periodic"
-    if (has_sides or is_periodic) and is_axial:  # rough platens would hold the corners that wall or period take along
-        sections["continuum"] = {"platens": "smooth"}
-    elif is_periodic:
+    lateral = sections["discrete"]["lateral"]
+    if lateral == "end_grains":
+        arrival.remarks.append("no side walls are in the files: the scene takes discrete/lateral = end_grains, free "
+                               "sides that carry loading/pressure")
+    if is_axial:
+        sections["continuum"] = _platens(arrival, lateral)
+    elif lateral == "periodic":
         sections["discrete"]["side_motion"] = "velocity"  # of a period that keeps its width
     # The continuum is compared at instants, too.
     sections["comparison"] = {"window_edges": edges, "averaging_strain": 1e-3 * np.diff(progress).min()}

@@ -87,9 +87,11 @@ def import_files(word: str, given: ImportOptions, folder: str, options: Options)
     _diptych.require_usable(folder, False, options.overwrite, False)
     arrival = _read(word, given)
     results = results_of(arrival)
+    has_stress = any(len(frame.contacts["i"]) for frame in arrival.frames)
     why_no_scene = ("one frame is no loading, so there is no scene" if len(results.snapshots) == 1 else
                     f"a cell has no counterpart on a mesh, so there is no scene; diptych homogenise {folder}"
-                    if results.snapshots[0].cell_a2_y else "")
+                    if results.snapshots[0].cell_a2_y else "" if has_stress else
+                    f"contacts are missing, so there is no stress and no scene; diptych homogenise {folder}")
     scene = "" if why_no_scene else scene_of(arrival, results, given.pressure)
     with Folder(folder) as locked:
         if options.overwrite and not _diptych.is_empty_folder(folder):
@@ -107,6 +109,9 @@ def import_files(word: str, given: ImportOptions, folder: str, options: Options)
     _say_checks(arrival, options)
     say(options, f"written to {folder}; both panels: diptych run {os.path.join(folder, 'scene.prm')}" if scene else
         f"written to {folder}; {why_no_scene}")
+    if scene:
+        origin = _diptych.read_scene(os.path.join(folder, "scene.prm"), [], False).dict()["comparison"]
+        say(options, _diptych.origin_of_law(origin["parameters_from"]))
 
 
 def run_import(line: argparse.Namespace, options: Options) -> None:
