@@ -161,6 +161,9 @@ def test_positions_alone_give_strain_and_bands_but_no_stress(tmp_path):
     [band] = record["increments"][0]["bands"]
     assert band["angle_deg"]["value"] == pytest.approx(ANGLE, abs=0.5)
     assert band["width_10_90_d"]["value"] == pytest.approx(WIDTH, rel=0.03)
+    across = [y for y in band["profile"]["displacement"] if y is not None]
+    assert abs(across[-1] - across[0]) == pytest.approx(abs(band["jump"]["value"]), rel=0.02)
+    assert "10–90 % width" in (tmp_path / "out" / "report.html").read_text()
     assert "sxx" not in record["frames"][1] and "rattlers" not in record["frames"][1]
     assert "stress" not in meshio.vtu.read(tmp_path / "out" / "fields_0001.vtu").cell_data
 

@@ -13,7 +13,7 @@ import pandas as pd
 from .arrays import Array, Band, Interval, Mesh, periods_of
 from .averaging_width import width_scan
 from .laws import principal
-from .operators import displacement_gradient, find_bands, increment, map_stress, probe
+from .operators import displacement_gradient, find_bands, increment, map_stress, probe, strips
 from .results import load
 from .sheets import cell_of, outline_of, Sheet
 
@@ -44,7 +44,8 @@ class Homogenised:
             since = self.increments[k - 1] if k else {}
             known = {name: value for name, value in since.items() if name not in ("from", "to", "bands")}
             bands = since.get("bands", [])
-            strongest = {"band_" + name: value for name, value in (bands or [{}])[0].items() if name != "middle"}
+            strongest = {"band_" + name: value for name, value in (bands or [{}])[0].items()
+                         if name not in ("middle", "profile")}
             rows.append(_flat({**frame, **known, **({"bands": len(bands)} if k else {}), **strongest}))
         table = pd.DataFrame(rows)
         # some may be missing
@@ -151,11 +152,16 @@ def _stress_maps(snapshot: Any, sheet: Sheet) -> dict[str, Array]:
     return maps
 
 
-def _band(band: Band, d: float) -> dict[str, Any]:
+def _band(band: Band, field: Any) -> dict[str, Any]:
+    d = field.mean_diameter
+    cut = strips(field.points, field.displacement, d, band, weight=field.weight,
+                 platen_increment=field.platen_increment)
+    middles = 0.5 * (cut.edges[1:] + cut.edges[:-1]) - band.offset
     angles = {name: band.interval[name] for name in ("angle_deg", "jump", "dilation_deg")}
     lengths = {name + "_d": Interval(*(end / d for end in band.interval[name])) for name in ("width_10_90", "offset")}
     return {**angles, **lengths, "r_squared": band.r_squared, "no_packs_because": band.no_packs_because,
-            "middle": band.line(0.0)[0].tolist()}
+            "middle": band.line(0.0)[0].tolist(),
+            "profile": {"distance_d": (middles / d).tolist(), "displacement": cut.mean.tolist()}}
 
 
 def _between(start: Any, end: Any, maps: tuple[Array, Array], missing: list[dict[str, str]]) -> dict[str, Any]:
@@ -172,12 +178,13 @@ def _between(start: Any, end: Any, maps: tuple[Array, Array], missing: list[dict
         reason = {"quantity": "bands", "reason": "a cell has no platens, whose travel a band would carry"}
         missing += [] if reason in missing else [reason]
         return row | {"band_verdict": "not computed", "bands": []}
+    field = increment(start, end)
     try:
-        report = find_bands(**increment(start, end))
+        report = find_bands(**field)
     except ValueError as error:
         missing.append({"quantity": f"band from {start.progress:g} to {end.progress:g}", "reason": str(error)})
         return row | {"band_verdict": "not computed", "bands": []}
-    return row | {"band_verdict": report.verdict, "bands": [_band(band, end.mean_diameter) for band in report.bands]}
+    return row | {"band_verdict": report.verdict, "bands": [_band(band, field) for band in report.bands]}
 
 
 def _sheets(frames: list[Any], size: float) -> list[Sheet]:
@@ -211,7 +218,8 @@ def homogenise(grains: Any, grid: float = 3.0) -> Homogenised:
     first, last, scanned = frames[0], frames[-1], [k for k, frame in enumerate(frames) if has_forces(frame)]
     missing = [{"quantity": f"stress, fabric and contacts at {frame.progress:g}",
                 "reason": "no contact of this frame carries force, or the files hold none"}
-               for k, frame in enumerate(frames) if k not in scanned]
+               for k, frame in enumerate(frames) if k not in scanned] if scanned or len(frames) == 1 else [
+        {"quantity": "stress, fabric and contacts", "reason": "no frame has contacts: displacements alone"}]
     if len(frames) == 1:
         missing.append({"quantity": "strain and bands", "reason": "there is only one frame"})
     sheets = _sheets(frames, grid * first.mean_diameter)

@@ -43,7 +43,7 @@ def draw(folder):
     write(folder, "homogenised.html", record=result.record, name=os.path.basename(os.path.abspath(folder)),
           command=read_provenance(os.path.join(folder, "provenance.json"))["command"], walk=result.loading_variable,
           frames=_frames(result), increments=_increments(result), maps=_maps(result), curves=_curves(result),
-          scan=resolution.figures(_relative(result), "s / mean of the sample"))
+          profiles=_profiles(result), scan=resolution.figures(_relative(result), "s / mean of the sample"))
 
 
 def _load(folder):
@@ -90,6 +90,22 @@ def _maps(result):
             shown.append(_map(result, 100 * result.maps[name], "viridis", "shear strain ε₁ − ε₂ (%)",
                               f"Shear strain {when}: {_bands_text(one)}.", increment=one))
     return shown
+
+
+def _profiles(result):
+    """Displacement along the strongest band of the last increment and of the whole loading."""
+    found, across = [], result.loading_variable
+    for one in [*result.increments[-1:], result.whole]:
+        for band in [band for band in (one["bands"][:1] if one else ()) if "profile" in band]:
+            profile, half = band["profile"], 0.5 * band["width_10_90_d"]["value"]
+            figure, axes = chart(result, "displacement along the band / travel")
+            axes.axvspan(-half, half, color=GRAINS, alpha=0.15, linewidth=0)
+            axes.plot(profile["distance_d"], [np.nan if y is None else y for y in profile["displacement"]], "o-",
+                      color=GRAINS, markersize=3.5)
+            axes.set_xlabel("distance from the middle of the band / d")
+            caption = f"Profile from {across.number(one['from'])} to {across.text(one['to'])}; shaded: 10–90 % width."
+            found.append((svg(figure, caption), caption))
+    return found
 
 
 def _bands_text(increment):

@@ -84,6 +84,9 @@ describe("homogenised.json", BAND, below="increments/bands/")
 describe("homogenised.json", """\
 increments/bands/middle (list) [length]: x and y of the point of the middle line that is nearest to the middle of the \
     sample
+increments/bands/profile/: displacement along the band in strips parallel to it
+    distance_d (list) [mean diameters]: of the middle of each strip from the middle of the band
+    displacement (list): its mean / travel of the platens; null: no grain
 resolution_study/: local stress of one frame over the width of a Gauss kernel, up to a quarter of the smaller side of \
     the sample; empty without forces
     frame: number of the frame, from 0: the last one with forces
