@@ -45,6 +45,11 @@ namespace diptych::coupling
     return peak_of_running_mean(h, "stress_ratio", basis.averaging_width).value;
   }
 
+  double peak_friction_angle(const QuantityBasis &basis, const HistoryTable &h)
+  {
+    return std::asin(peak_stress_ratio(basis, h)) * 180 / M_PI;
+  }
+
   // Largest running mean of t/s from columns, with sxx as if the side forces acted on the outline.
   static double peak_at_outline(const QuantityBasis &basis, const HistoryTable &h, const std::array<const char *, 3> &names)
   {

@@ -49,6 +49,7 @@ namespace diptych::coupling
   constexpr double    early_strain = 0.003;
   std::vector<double> nominal_stress_ratio(const QuantityBasis &basis, const HistoryTable &history); // as laboratories plot it
   double              peak_stress_ratio(const QuantityBasis &basis, const HistoryTable &history);
+  double              peak_friction_angle(const QuantityBasis &basis, const HistoryTable &history); // [degrees]
   double              peak_outline_stress_ratio(const QuantityBasis &basis, const HistoryTable &history);
   double              peak_core_stress_ratio(const QuantityBasis &basis, const HistoryTable &history);
   double              peak_nominal_stress_ratio(const QuantityBasis &basis, const HistoryTable &history);
@@ -75,6 +76,8 @@ namespace diptych::coupling
   constexpr Margin      of_width         = {"margin_thickness", Difference::relative};
   constexpr KeyQuantity key_quantities[] = {
     {"peak_stress_ratio", "peak t/s", "-", "largest running mean of the stress ratio t/s", of_ratio, peak_stress_ratio, nullptr},
+    {"peak_friction_angle_deg", "friction angle of the peak", "degrees", "arcsine of the peak t/s", of_ratio, peak_friction_angle,
+     nullptr},
     {"peak_outline_stress_ratio", "peak t/s with sides at the outline", "-",
      "largest running mean of t/s, as if the forces on the sides acted on the outline and not on grains inside it", of_ratio,
      peak_outline_stress_ratio, nullptr},

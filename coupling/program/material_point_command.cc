@@ -7,6 +7,7 @@
 #include "coupling/program/commands.h"
 #include "continuum/laws/material_point.h"
 #include "coupling/scene/keys.h"
+#include "coupling/scene/path_shape.h"
 #include "coupling/scene/scene_error.h"
 #include "coupling/store/file_names.h"
 #include "coupling/store/provenance.h"
@@ -71,7 +72,8 @@ namespace diptych::coupling
                                                   [&](const auto &a, const auto &b) { return ratio(a) < ratio(b); });
       std::ostringstream text;
       text.precision(6);
-      text << "peak stress ratio " << peak->stress_ratio << " at " << at(*peak) << ", ";
+      text << "peak stress ratio " << peak->stress_ratio << " (friction angle "
+           << std::asin(std::min(1., peak->stress_ratio)) * 180 / M_PI << " degrees) at " << at(*peak) << ", ";
       if (ratio(rows.back()) < 0)
         text << "mean stress " << 0.5 * (rows.back().sxx + rows.back().syy) << " (tension)";
       else
@@ -108,7 +110,12 @@ namespace diptych::coupling
     CommandLine line = given;
     if (line.path.empty())
       line.path = scene.loading.mode == discrete::LoadingMode::path ? scene.loading.path.text : "drained";
-    const continuum::PointPath path = path_of(line, scene);
+    const continuum::PointPath path    = path_of(line, scene);
+    Scene                      on_path = scene;
+    on_path.loading.mode               = discrete::LoadingMode::path;
+    on_path.loading.path.text          = line.path;
+    if (const std::string warning = reversal_warning(on_path); !warning.empty())
+      warn(warning);
     return writing(scene.output.directory, [&](FolderLock &lock) {
       Opening opening = opening_of(line, true);
       if (!continuum::value_of<continuum::NamedPath>(line.path))

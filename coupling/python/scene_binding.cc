@@ -13,6 +13,7 @@
 #include "coupling/python/bindings.h"
 #include "coupling/scene/derived_keys.h"
 #include "coupling/scene/identity.h"
+#include "coupling/scene/path_shape.h"
 #include "coupling/scene/scene_file.h"
 #include "coupling/version.h"
 
@@ -120,8 +121,17 @@ namespace diptych::python
       .def("cost_over_springs", &coupling::cost_over_springs)
       .def("loading_variable",
            [](const coupling::Scene &scene) {
+             const bool is_path = scene.loading.mode == discrete::LoadingMode::path && !scene.loading.path.names_a_file();
+             if (is_path) // its progress is a strain
+               return std::string(scene.loading.path.text == "simple_shear" ? "shear_strain" : "axial_strain");
              return std::string(discrete::name_of(discrete::loading_variable_of(scene.loading.mode)));
            })
+      .def("path_shape",
+           [](const coupling::Scene &scene) {
+             const coupling::PathShape path = coupling::path_shape(scene.loading);
+             return py::make_tuple(path.progress, path.strain);
+           })
+      .def("reversal_warning", &coupling::reversal_warning)
       .def("in_folder", in_folder, py::arg("directory"), py::arg("name"), py::arg("seed") = py::none())
       .def_property_readonly("directory", [](const coupling::Scene &scene) { return scene.output.directory; })
       .def("unused_keys",

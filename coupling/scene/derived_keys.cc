@@ -170,7 +170,9 @@ namespace diptych::coupling
                            scene.discrete.law.rolling_friction <= calibrated.back()[0].rolling_friction &&
                            scene.discrete.method.method == discrete::Method::nscd &&
                            scene.discrete.lateral.lateral != discrete::Lateral::none &&
-                           scene.loading.mode == discrete::LoadingMode::descent && inertial_number(scene) <= largest_quasi_static;
+                           (scene.loading.mode == discrete::LoadingMode::descent ||
+                            scene.loading.mode == discrete::LoadingMode::path) &&
+                           inertial_number(scene) <= largest_quasi_static;
       return is_dense && is_like && c.mesh.kind == continuum::MeshOption::Kind::outline &&
              c.element_size <= 2 * c.material.internal_length;
     }

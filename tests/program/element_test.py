@@ -34,9 +34,15 @@ class Element(Folder):
         rms = {one["quantity"]: one["value"] for one in record["rms"]}
         difference = curves["law_stress_ratio"] - curves["grains_stress_ratio"]
         self.assertAlmostEqual(rms["stress_ratio"], numpy.sqrt((difference**2).mean()), places=8)
-        last = next(one for one in record["quantities"] if one["quantity"] == "last stress_ratio")
-        self.assertAlmostEqual(last["grains"]["value"], curves["grains_stress_ratio"][-10:].mean(), places=8)
-        self.assertIn(f"{last['law']:.4g}", printed)
+        numbers = {one["quantity"]: one for one in record["quantities"]}
+        for name in ("volumetric_strain", "syy"):
+            self.assertEqual(numbers[f"last {name}"]["law"], law[name][-1])
+            self.assertAlmostEqual(numbers[f"last {name}"]["grains"]["value"], numpy.mean([s[name][-1] for s in samples]))
+        angle = numpy.degrees(numpy.arcsin(numbers["peak stress_ratio"]["law"]))
+        self.assertAlmostEqual(numbers["friction angle of the peak"]["law"], angle)
+        self.assertIn(f"{angle:.4g}", printed)
+        self.assertIn("not fitted to these grains", printed)
+        self.assertEqual(record["walk"], "axial_strain")
         self.assertTrue(os.path.exists(self.path("report.html")))
         os.remove(self.path("report.html"))
         finished("report", self.folder)
@@ -55,6 +61,31 @@ class Element(Folder):
         self.assertGreater(curves["law_stress_ratio"][numpy.isfinite(curves["law_stress_ratio"])].max(), 0.2)
         self.assertIn("sxx = 1, syy", record["law"]["failure"])
         self.assertTrue(os.path.exists(self.path("report.html")))
+
+    def test_parts_end_at_a_reversal_the_peak_counts_strain_and_a_law_that_cannot_reverse_is_warned_of(self):
+        """eyy grows to 0.01 and falls to 0.004: progress counts rows, so that 0.2 is 0.002 and then 0.0012 of strain."""
+        table = write(os.path.join(self.work, "path.csv"), "eyy,sxx,exy\n0,1,0\n0.01,1,0\n0.004,1,0\n")
+        words = setting(loading_path=table, loading_axial_strain=2, loading_stage_strain=1, continuum_max_step=1e-3,
+                        comparison_averaging_strain=2e-3, continuum_hardening="mobilisation")
+        found = finished("element", SCENE, *SMALL, *words, "--output", self.folder)
+        for text in ("path.csv turns back, which continuum/hardening = mobilisation cannot follow", "= kinematic"):
+            self.assertIn(text, found.stderr)
+        middle = history(self.folder, "element.csv")["progress"]
+        self.assertEqual((sum(middle < 1), sum(middle > 1)), (125, 75))
+        numpy.testing.assert_allclose(middle[[124, 125]], [1 - 0.5 / 125, 1 + 0.5 / 75])
+        numbers = {one["quantity"]: one["law"] for one in read_json(self.folder, "element.json")["quantities"]}
+        self.assertAlmostEqual(numbers["last eyy"], 0.004, places=12)
+        [law] = self.histories("material_point.csv")
+        strain = numpy.interp(law["progress"], [0, 1, 2], [0, 0.01, 0.016])
+        spans = [numpy.linspace(end - 2e-3, end, 2001) for end in strain if end >= 2e-3]
+        means = [trapezoid(numpy.interp(x, strain, law["stress_ratio"]), x) / 2e-3 for x in spans]
+        self.assertAlmostEqual(numbers["peak stress_ratio"], max(means), places=6)
+        page = content(self.path("report.html")).decode()
+        self.assertIn("over axial strain ε yy", page)
+        self.assertIn("cannot follow", page)
+        follows = finished("element", SCENE, *SMALL, *words, *setting(continuum_hardening="kinematic"), "--output",
+                           self.path("kinematic"))
+        self.assertNotIn("turns back", follows.stderr)
 
     def test_strains_of_a_table_count_from_its_first_row(self):
         table = write(os.path.join(self.work, "path.csv"), "eyy,sxx,exy\n0.2,1,0\n0.21,1,0\n")

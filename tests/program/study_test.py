@@ -252,7 +252,7 @@ class Effects(Folder):
 
     def test_means_follow_from_the_summaries_of_the_runs(self):
         table, record = pandas.read_csv(os.path.join(self.done, "effects.csv")), read_json(self.done, "study.json")
-        self.assertEqual(len(table), 2 * 10 * 3)  # points, key numbers, panels
+        self.assertEqual(len(table), 2 * 11 * 3)  # points, key numbers, panels
         peaks = table[(table["discrete/friction"] == 0.6) & (table.quantity == "peak t/s")].set_index("panel")["mean"]
         summaries = [pandas.read_csv(os.path.join(self.done, folder, "summary.csv"))
                      for folder in record["points"][1]["folders"]]
@@ -265,6 +265,7 @@ class Effects(Folder):
             for word in ("unjudged", "heapest", "reference"):
                 self.assertNotIn(word, text)
             self.assertIn("peak t/s", text)
+            self.assertIn("not fitted to these grains", text)  # 150 of them
         self.assertIn("<h1>tiny: effect of discrete/friction</h1>", page)
         self.assertRegex(self.process.stdout, "discrete/friction, changes (beyond|within) the scatter: ")
 

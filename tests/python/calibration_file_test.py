@@ -4,8 +4,9 @@
 
 import os
 
+import numpy as np
 import pytest
-from conftest import QUICK
+from conftest import QUICK, SOURCE
 
 import diptych
 from diptych.campaigns.calibration.calibration_file import read_calibration, read_curve
@@ -63,3 +64,15 @@ def test_a_scene_with_seeds_has_standard_parameters():
     assert "internal_length" not in [p["key"] for p in plain["parameters"]]
     with pytest.raises(diptych.SceneError, match="two seeds"):
         standard_calibration(QUICK, "1", [])
+
+
+def test_a_point_has_neither_band_nor_length_and_its_bins_end_where_the_path_turns(tmp_path):
+    """The path takes 0.01, 0.02 and 0.02 of strain, so that 15 parts are 3, 6 and 6; the first does not count."""
+    table = tmp_path / "path.csv"
+    table.write_text("eyy,sxx,exy\n0,1,0\n0.01,1,0\n-0.01,1,0\n0.01,1,0\n")
+    words = {"path": str(table), "axial_strain": "3", "stage_strain": "1"}
+    contents = standard_calibration(os.path.join(SOURCE, "benchmarks", "element", "scene.prm"), "1-2",
+                                    [Setting("loading", key, value, "") for key, value in words.items()])
+    assert contents["bins"] == pytest.approx([1 / 3, 2 / 3, *np.arange(1, 3.01, 1 / 6)], rel=1e-5)
+    assert "internal_length" not in [p["key"] for p in contents["parameters"]]
+    assert contents["quantities"] == ["stress_ratio", "volumetric_strain"] and contents["load_step"] == 0.00125

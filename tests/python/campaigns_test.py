@@ -193,8 +193,9 @@ def test_only_members_with_a_band_count_for_it():
     width = named(record["quantities"])["window 0-0.04 discrete band width_10_90_d"]
     assert (width["n"], width["mean"]) == (2, 20) and math.isnan(width["values"][1])  # the strongest band is the first
     pairs = {name: one["n"] for name, one in named(record["verdicts"], "quantity").items()}
-    assert pairs == {"peak_stress_ratio": 3, "peak_outline_stress_ratio": 0, "peak_core_stress_ratio": 0,
-                     "peak_nominal_stress_ratio": 0, "friction_angle_deg": 0, "strength": 0, "platen_force_pd": 0,
+    assert pairs == {"peak_stress_ratio": 3, "peak_friction_angle_deg": 0, "peak_outline_stress_ratio": 0,
+                     "peak_core_stress_ratio": 0, "peak_nominal_stress_ratio": 0, "friction_angle_deg": 0,
+                     "strength": 0, "platen_force_pd": 0,
                      "final_volumetric_strain": 0,
                      "window 0-0.04 band angle_deg": 2, "window 0-0.04 band width_10_90_d": 2}
     assert {key: one["text"] for key, one in named(record["bands"]).items() if key.startswith("window")} == {

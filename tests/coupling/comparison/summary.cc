@@ -162,6 +162,7 @@ namespace
     EXPECT_EQ(at("peak_stress_ratio").verdict, "one sample");
     EXPECT_EQ(at("strength").verdict, "not in both panels") << "no strength";
     EXPECT_EQ(at("platen_force_pd").difference.value, 6);
+    EXPECT_EQ(at("peak_friction_angle_deg").unit, "degrees");
     EXPECT_EQ(at("band_angle_deg").difference.value, -4);
     EXPECT_EQ(at("band_angle_deg").verdict, "different");
     EXPECT_EQ(at("band_width_10_90_d").grains.value, 2);

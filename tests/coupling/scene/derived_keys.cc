@@ -144,6 +144,7 @@ namespace
     EXPECT_NE(origin({"sample/grains=1500"}).find("calibrated"), std::string::npos);
     EXPECT_NE(origin({"sample/grains=1500", "discrete/friction=0.3", "loading/horizontal_over_vertical=0"}), "");
     EXPECT_NE(origin({"sample/grains=1500", "discrete/rolling_friction=0.1"}), "");
+    EXPECT_NE(origin({"sample/grains=1500", "discrete/lateral=cell", "loading/mode=path"}), "") << "as in the calibrations";
     EXPECT_NE(origin({"sample/grains=1500", "continuum/max_step=0.001"}), "") << "not a key of the law";
     for (const char *change : {"discrete/friction=0.1", "discrete/rolling_friction=0.4", "sample/preparation_friction=0.3",
                                "sample/radius_distribution=uniform_by_mass", "sample/grains=600", "loading/inertial_number=0.01",

@@ -14,6 +14,7 @@ from ..arrays import ends_text, rms
 from ..errors import InputError
 from ..files import read_json
 from .charts.style import CONTINUUM, FAINT, GRAINS, INK, ruled, signed, svg
+from .data.numbers import loading_variable_of
 from .page.writing import write
 
 CURVES = {"stress_ratio": ("stress_ratio", "stress ratio t/s", 1),
@@ -44,6 +45,10 @@ def load(folder):
     record = read_json(path, 1)
     if record["status"] != "finished":
         raise InputError(f"{path}: the calibration is not finished ({record['status']})")
+    for one in record["paths"]:
+        across = one["across"] = loading_variable_of(one.get("walk", "axial_strain"))
+        for observable in one["observables"]:
+            observable["x"] = 0.5 * across.factor * (observable["from"] + observable["to"])  # middle of its bin
     return SimpleNamespace(record=record, cost=read_json(os.path.join(folder, "calibration_cost.json")),
                            model=record["model"], paths=record["paths"], parameters=record["parameters"],
                            data="measured" if all(path["curve"] for path in record["paths"]) else "grains")
@@ -68,11 +73,6 @@ def _column(entries, key):
     return numbers([one[key] for one in entries])
 
 
-def _middle(one):
-    """The middle of the bin of an observable [%]."""
-    return 50 * (one["from"] + one["to"])
-
-
 def curve(path, kind, model):
     """Data, as mean of the grains or measured, and the model before and after, each with two deviations of one
     sample."""
@@ -86,14 +86,14 @@ def curve(path, kind, model):
 def draw_curve(axes, path, kind, model):
     """Draws a curve without a legend. Returns the label of its axis."""
     name, label, scale = CURVES[kind]
-    x = 100 * numbers(path["progress"])
+    x = path["across"].factor * numbers(path["progress"])
     low, high = scale * numbers(path[name + "_low"]), scale * numbers(path[name + "_high"])
     if np.isfinite(low).any():
         axes.fill_between(x, low, high, color=GRAINS, alpha=0.18, linewidth=0,
                           label="grains, ± 2 deviations of a sample")
     measured = _known(path, kind, "mean") if path["curve"] else []
     if measured:
-        axes.errorbar([*map(_middle, measured)], scale * _column(measured, "mean"),
+        axes.errorbar(_column(measured, "x"), scale * _column(measured, "mean"),
                       2 * scale * _column(measured, "deviation"), fmt="none", ecolor=GRAINS,
                       label="measured, ± 2 deviations")
     axes.plot(x, scale * numbers(path[name]), color=GRAINS,
@@ -106,7 +106,7 @@ def draw_curve(axes, path, kind, model):
         y = scale * numbers(path[f"{name}_{when}"])
         if len(y) == len(x):
             axes.plot(x, y, label=f"{model}, before" if when == "before" else f"{model}, calibrated", **look)
-    axes.set(xlabel="axial strain, %", ylabel=label, xlim=(0, x[-1]))
+    axes.set(xlabel=path["across"].label, ylabel=label, xlim=(0, x[-1]))
     if kind == "stress_ratio":
         axes.set_ylim(0, 1.3 * np.nanmax(scale * numbers(path[name])))
     return label
@@ -124,12 +124,12 @@ def residuals(path):
     axes.axhline(0, color=FAINT, linewidth=0.8)
     for kind, mark in MARKS.items():
         for counts in (True, False):
-            points = [(_middle(o), (o["after"] - o["mean"]) / o["deviation_of_mean"]) for o in entries
+            points = [(o["x"], (o["after"] - o["mean"]) / o["deviation_of_mean"]) for o in entries
                       if o["kind"] == kind and o["counts"] == counts]
             if points:
                 axes.plot(*zip(*points), mark, color=INK, markersize=5, markerfacecolor=INK if counts else "white",
                           label=KINDS[kind] + ("" if counts else ", not fitted"))
-    axes.set(xlabel="axial strain, %", ylabel="difference / deviation")
+    axes.set(xlabel=path["across"].label, ylabel="difference / deviation")
     axes.legend(loc="best")
     return svg(figure, f"Residuals of {path['name']} for each bin, over the standard deviation of the means.")
 
@@ -143,7 +143,7 @@ def discrepancy(path):
     for axes, kind in zip(np.atleast_1d(figure.subplots(len(kinds), 1, sharex=True)), kinds):
         scale = CURVES[kind][2]
         entries = _known(path, kind, "discrepancy")
-        x = np.array([*map(_middle, entries)])
+        x = _column(entries, "x")
         after, mean, deviation, middle, spread = (scale * _column(entries, key) for key in (
             "after", "mean", "deviation_of_mean", "discrepancy", "discrepancy_deviation"))
         ruled(axes).axhline(0, color=FAINT, linewidth=0.8)
@@ -153,7 +153,7 @@ def discrepancy(path):
         axes.errorbar(x, after - mean, 2 * deviation, fmt="o", color=INK, markersize=3.5, linewidth=0.8,
                       label="model − data, ± 2 deviations")
         axes.set_ylabel(KINDS[kind] + (", %" if scale == 100 else ""))
-    axes.set_xlabel("axial strain, %")
+    axes.set_xlabel(path["across"].label)
     figure.axes[0].legend(loc="lower center", bbox_to_anchor=(0.5, 1), ncol=3, fontsize=7, columnspacing=1)
     return svg(figure, f"Discrepancy of the law over strain on {path['name']}: estimate with its band, and the "
                "residuals.")

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from ..files import read_json
-from .charts.style import CONTINUUM, GRAINS, PANEL_LINES, THIRD, chart, limit_below, svg
+from .charts.style import CONTINUUM, GRAINS, INK, PANEL_LINES, THIRD, chart, limit_below, svg
 from .data.files import read_csv
 from .data.numbers import loading_variable_of
 from .page.writing import write
@@ -32,15 +32,18 @@ NAMES = {"stress_ratio": "t/s", "mean_stress": "mean stress s", "volumetric_stra
          "coordination": "contacts per grain", "solid_fraction": "solid fraction",
          **{"s" + c: "σ " + c for c in ("xx", "yy", "xy")}, **{"e" + c: "ε " + c for c in ("xx", "yy", "xy")}}
 
-NAMES |= {f"{when} {name}": f"{when} {words}" for when in ("largest", "last") for name, words in NAMES.items()}
+NAMES |= {f"{when} {name}": f"{when} {words}" for when in ("peak", "last") for name, words in NAMES.items()}
+# strain of a loop -> its label and factor, and 2 t with the sign of the stress that drives it
+LOOPS = {"eyy": ("axial strain ε yy (%)", 100, lambda of: of("syy") - of("sxx")),
+         "exy": ("shear strain 2 ε xy (%)", 200, lambda of: 2 * of("sxy"))}
 PER_CENT = ("volumetric_strain", "last volumetric_strain")
 
 
 def draw(folder):
-    record = read_json(os.path.join(folder, "element.json"), 1)
+    record = read_json(os.path.join(folder, "element.json"), 2)
     element = SimpleNamespace(record=record, curves=read_csv(os.path.join(folder, "element.csv")),
                               loading_variable=loading_variable_of(record["walk"]))
-    charts = [*(_chart(element, name, *look) for name, look in CHARTS.items()), _directions(element)]
+    charts = [*(_chart(element, name, *look) for name, look in CHARTS.items()), _directions(element), *_loops(element)]
     write(folder, "element.html", record=record, charts=charts, numbers=_numbers(record), rms=_rms(record))
 
 
@@ -61,6 +64,28 @@ def _chart(element, name, factor, label, caption):
     return svg(figure, f"{label} along the path, grains and law."), caption
 
 
+def _loops(element):
+    """t/s with its sign, and volume, over the larger strain. None if the progress is that strain."""
+    if element.record["walk"] != "path":
+        return []
+    grains, law = (lambda name, of=of: element.curves.get(f"{of}_{name}") for of in ("grains", "law"))
+    name = max(LOOPS, key=lambda name: LOOPS[name][1] * np.nanmax(np.abs(grains(name))))
+    (words, factor, driven), found = LOOPS[name], []
+    for label, value in (("signed stress ratio t/s", lambda of: driven(of) / (of("sxx") + of("syy"))),
+                         ("volumetric strain (%)", lambda of: 100 * of("volumetric_strain"))):
+        figure, axes = chart(element, label)
+        for of, look in ((grains, {"color": GRAINS, "label": "grains"}),
+                         (law, {"color": CONTINUUM, "linestyle": PANEL_LINES["continuum"], "label": "law"})):
+            if of(name) is not None:
+                axes.plot(factor * of(name), value(of), **look)
+        axes.axhline(0, color=INK, linewidth=0.6)
+        axes.set_xlabel(words)
+        axes.legend(loc="best")
+        found.append((svg(figure, f"{label} over {words}, grains and law."),
+                      f"{label[0].upper()}{label[1:].removesuffix(' (%)')} over {words.removesuffix(' (%)')}."))
+    return found
+
+
 def _directions(element):
     """Directions as points, from -30 to 150 degrees, so that vertical, horizontal and both diagonals lie inside."""
     figure, axes = chart(element, "direction (degrees)")
@@ -79,7 +104,8 @@ def _directions(element):
 def _rows(entries, keys):
     """One row per quantity. A dash stands for a number that the law does not have."""
     units = ["%" if one["quantity"] in PER_CENT else suffix(one["unit"]) for one in entries]
-    return [[NAMES[one["quantity"]], *(rounded(one[key], unit).replace(ABSENT, "–") for key in keys)]
+    words = {**NAMES, "friction angle of the peak": "friction angle of the peak"}
+    return [[words[one["quantity"]], *(rounded(one[key], unit).replace(ABSENT, "–") for key in keys)]
             for one, unit in zip(entries, units)]
 
 

@@ -99,6 +99,7 @@ minima/: one per start
 paths/: fitted and predicted paths
     name (text): name of the path
     use (text): fit or predict
+    walk (text): loading variable of progress, from and to: axial_strain, shear_strain, path or time
     seeds (list): seeds of its samples of grains; empty if a continuum is fitted to a measured curve
     curve (text): file of the measured curve; empty: the data are grains
     failed (text): reason why the calibrated continuum did not finish here; empty if it did
@@ -122,9 +123,9 @@ paths/: fitted and predicted paths
             not use it
         discrepancy_deviation: its standard deviation
     predictions/: single numbers with verdicts
-        quantity (text): peak_stress_ratio, peak_outline_stress_ratio, peak_core_stress_ratio, \
-            peak_nominal_stress_ratio, friction_angle_deg, platen_force_pd, volumetric_strain (last bin), \
-            width_10_90 (last window, mean diameters) or angle_deg
+        quantity (text): peak_stress_ratio, peak_friction_angle_deg, peak_outline_stress_ratio, \
+            peak_core_stress_ratio, peak_nominal_stress_ratio, friction_angle_deg, platen_force_pd, \
+            volumetric_strain (last bin), width_10_90 (last window, mean diameters) or angle_deg
         use (text): fitted, not fitted (the fit used only other kinds of observables of this path) or predicted
         data [as the quantity says]: mean of the grains
         before [as the quantity says]: value of the continuum before the calibration

@@ -15,7 +15,7 @@ from ...arrays import Array, Interval, ends_text
 from ..runs.coordinates import Coordinates
 from .noise import Noise, covariance, covariance_of_mean
 from .posterior import Draws
-from .observations import PEAK, Observation, Path
+from .observations import ANGLE, PEAK, Observation, Path
 from .search import NORMAL, PRIOR, Fit, difference_jacobian
 from .trials import Trials
 from ..runs.folders import write_json, write_text
@@ -26,7 +26,7 @@ from ..runs.statistics import Difference, line_statistics, paired, statistics
 NORMAL_95 = 1.6448536269514722  # 95 % quantile
 CUT = 0.04  # to a bound, in the unit cube: an interval ends there
 LARGEST_SHARE = 2 / 3  # of the prior deviation that an identified parameter keeps
-STRENGTHS = (PEAK, "peak_outline_stress_ratio", "peak_core_stress_ratio", "peak_nominal_stress_ratio",
+STRENGTHS = (PEAK, ANGLE, "peak_outline_stress_ratio", "peak_core_stress_ratio", "peak_nominal_stress_ratio",
              "friction_angle_deg", "platen_force_pd")
 COLUMNS = ("kind", "from", "to", "count", "mean", "deviation", "deviation_of_mean", "before", "after",
            "parameter_deviation", "half_step", "counts", "discrepancy", "discrepancy_deviation")
@@ -171,6 +171,7 @@ def path_record(path: Path, noise: Noise, runs: Sequence[Observation], deviation
                     "counts": False, "discrepancy": np.nan, "discrepancy_deviation": np.nan,
                     "left_out": path.left_out[k]} for k, one in enumerate(data.observables)]
     record = {"name": path.target.name, "use": "fit" if path.target.is_fitted else "predict",
+              "walk": path.scene.loading_variable(),
               "seeds": path.target.seeds, "curve": os.path.basename(path.target.curve),
               "failed": after.failure, "observables": observables, "progress": path.samples[0].progress,
               "predictions": predictions(path, (before, after), own)}

@@ -11,7 +11,7 @@ import pandas as pd
 from .calibration_file import Target
 from .noise import Data
 from .calibration_runs import CalibrationRuns
-from .observations import PEAK, Observation, Path, half_step, observe_curve, observe_history, read_target
+from .observations import Observation, Path, half_step, observe_curve, observe_history, of_peak, read_target
 from ..runs.folders import SceneRun
 from ..runs.histories import panel_table, peak_of_running_mean
 from ..runs.input_file import Setting
@@ -27,7 +27,7 @@ def mean_of(samples: Sequence[Observation], averaging_width: float) -> Observati
                               for name in ("values", "stress_ratio", "volumetric_strain"))
     table = pd.DataFrame({"progress": samples[0].progress, "stress_ratio": stress})
     peak = peak_of_running_mean(table, "stress_ratio", averaging_width)
-    return Observation(values=values, numbers={PEAK: peak}, progress=samples[0].progress, stress_ratio=stress,
+    return Observation(values=values, numbers=of_peak(peak), progress=samples[0].progress, stress_ratio=stress,
                        volumetric_strain=volume, samples=list(samples))
 
 

@@ -12,7 +12,7 @@ import pandas as pd
 from ... import _diptych, operators
 from ...arrays import Array, Band
 from ...errors import SceneError
-from ..runs.histories import is_beyond, mean_over, nominal_stress_ratio, peak_of_running_mean
+from ..runs.histories import is_beyond, mean_over, nominal_stress_ratio, peak_of_running_mean, peak_on_path
 from ..runs.input_file import Setting
 from ..runs.key_numbers import bands_between, panel_values, snapshots_at
 from .calibration_file import CURVE_COLUMNS, OF_BANDS, Target, is_element, read_curve
@@ -21,6 +21,7 @@ from .profiles import PROFILE, profile
 
 CURVE_POINTS = 120
 PEAK = "peak_stress_ratio"
+ANGLE = "peak_friction_angle_deg"
 NO_CURVE = np.full(CURVE_POINTS, np.nan)
 
 
@@ -69,6 +70,11 @@ class Path:
         return self.scatter or self.data
 
 
+def of_peak(peak: float) -> dict[str, float]:
+    """Peak t/s and its friction angle."""
+    return {PEAK: peak, ANGLE: float(np.degrees(np.arcsin(peak)))}
+
+
 def observe_history(scene: _diptych.Scene, observables: Sequence[Observable], table: pd.DataFrame | None, *,
                     nominal: bool = False) -> Observation:
     """Everything but the bands. nominal: t/s as laboratories plot it, for a comparison with their curves."""
@@ -85,7 +91,9 @@ def observe_history(scene: _diptych.Scene, observables: Sequence[Observable], ta
     if "lower_fy" in table and not is_element(scene):
         o.numbers = panel_values(scene, table)
     elif "stress_ratio" in columns:
-        o.numbers = {PEAK: peak_of_running_mean(table, "stress_ratio", scene.averaging_width())}
+        peak = (peak_on_path(scene, table) if is_element(scene) else
+                peak_of_running_mean(table, "stress_ratio", scene.averaging_width()))
+        o.numbers = of_peak(peak)
     edges = np.linspace(0, min(end, scene.dict()["loading"]["axial_strain"]), CURVE_POINTS + 1)
     o.progress = 0.5 * (edges[1:] + edges[:-1])
     for name, column in columns.items():

@@ -10,7 +10,8 @@ import numpy as np
 
 from ... import _diptych
 from ...errors import SceneError
-from ..runs.input_file import Setting, read_seeds, seeds_of_line
+from ..runs.histories import path_bins
+from ..runs.input_file import Setting, seeds_of_line
 
 # Fixed keys and parameters are those of benchmarks/calibration/reference.
 SET = {"hardening": "mobilisation", "softening_strain": 0.3, "cohesion": 0.01}
@@ -64,18 +65,23 @@ def standard_calibration(scene: str, seeds: str, settings: Sequence[Setting]) ->
         raise SceneError(f"--seeds {seeds}: discrete/file = '{file}' is one sample; give --seeds 1-1")
     if not is_one and n < 2:
         raise SceneError(f"--seeds {seeds}: the scatter of samples needs at least two seeds, for example --seeds 1-4")
-    has_length = "internal_length" not in unused
+    is_point = keys["loading"]["mode"] == "path"
+    has_length = "internal_length" not in unused and not is_point
     own = {"name": read.name, "scene": os.path.basename(scene), "seeds": seeds,
            "set": {f"{one.section}/{one.key}": one.value for one in settings}}
-    end, law = keys["loading"]["axial_strain"], {key: keys["continuum"][key] for key in ("law", "geometry")}
+    end = keys["loading"]["axial_strain"]
+    rows, strain = read.path_shape() if is_point else ([0, end], [0, end])
+    edges = path_bins(read, len(EDGES))[1:] if len(rows) > 2 else end * np.array(EDGES)
+    law = {key: keys["continuum"][key] for key in ("law", "geometry")}
     return {
         "title": f"{read.name}, seeds {seeds}",
         "targets": _targets(own, keys, has_length),
         "quantities": ["stress_ratio", "volumetric_strain", *(["ln_width"] if has_length else [])],
-        "bins": [float(f"{end * share:.4g}") for share in EDGES],
+        "bins": [float(f"{edge:.6g}") for edge in edges],
         "set": {f"continuum/{key}": value for key, value in {**law, **SET}.items() if key not in unused},
-        "parameters": [p for p in PARAMETERS if p["key"] not in unused],
-        "load_step": float(f"{end / LOAD_STEPS:.4g}"),
+        "parameters": [p for p in PARAMETERS if p["key"] not in unused
+                       and (has_length or p["key"] != "internal_length")],
+        "load_step": float(f"{strain[-1] / LOAD_STEPS:.4g}"),
         "coarse_element_size": float(np.round(max(SMALLEST_COARSE, COARSE * keys["continuum"]["element_size"]), 2))}
 
 

@@ -1,10 +1,10 @@
 # diptych: curves of grains and of the law's point along one path, and their numbers
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The path is divided into BINS equal parts of its progress. Every curve has the mean of each part; t/s, anisotropy and
+"""The path is divided into parts that end at its rows. Every curve has the mean of each part; t/s, anisotropy and
 directions are those of the mean stress and fabric. Grains: (sample, part); NaN: beyond the end of a run.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,10 +13,10 @@ import pandas as pd
 from scipy.integrate import cumulative_trapezoid
 
 from ...arrays import rms
-from ..runs.statistics import Statistics, line_statistics, paired, statistics
+from ..runs.histories import path_bins, peak_on_path
+from ..runs.statistics import line_statistics, paired, statistics
 
 BINS = 200
-SPAN = 10  # parts of the path over which peaks and end values are averaged
 # Quantity -> unit; directions are lines. The law has neither contacts nor their fabric.
 QUANTITIES = {"stress_ratio": "-", "mean_stress": "P", "volumetric_strain": "-", "stress_direction": "degrees",
               "fabric_anisotropy": "-", "fabric_direction": "degrees", "coordination": "-", "solid_fraction": "-",
@@ -25,11 +25,13 @@ QUANTITIES = {"stress_ratio": "-", "mean_stress": "P", "volumetric_strain": "-",
 
 @dataclass
 class Curves:
-    """progress (BINS): the middle of each part. grains: name -> (sample, BINS). law: name -> (BINS)."""
+    """progress (parts): the middle of each. grains: name -> (sample, parts). law: name -> (parts). ends: name ->
+    (samples and law) in the last row, NaN if a run ended before the path, and "peak" of t/s."""
 
     progress: np.ndarray
     grains: dict[str, np.ndarray]
     law: dict[str, np.ndarray]
+    ends: dict[str, np.ndarray]
 
 
 def _means(x: np.ndarray, y: np.ndarray, edges: np.ndarray) -> np.ndarray:
@@ -40,14 +42,17 @@ def _means(x: np.ndarray, y: np.ndarray, edges: np.ndarray) -> np.ndarray:
     return np.where(edges[1:] <= x[-1] * (1 + 1e-9), means, np.nan)
 
 
-def _curves_of(table: pd.DataFrame, edges: np.ndarray, pressure: float) -> dict[str, np.ndarray]:
+def _columns_of(table: pd.DataFrame) -> dict[str, np.ndarray]:
+    """The columns whose means count; directions become the components of a tensor."""
     if "syx" in table:  # of grains
         a, double = table["fabric_anisotropy"], np.radians(2 * table["fabric_angle"])
         table = table.assign(sxy=0.5 * (table["sxy"] + table["syx"]), cosine=a * np.cos(double),
                              sine=a * np.sin(double))
-    x = table["progress"].to_numpy()
-    found = {name: _means(x, table[name].to_numpy(), edges) for name in (*QUANTITIES, "cosine", "sine")
-             if name in table}
+    return {name: table[name].to_numpy() for name in (*QUANTITIES, "cosine", "sine") if name in table}
+
+
+def _derived(found: dict[str, Any], pressure: float) -> dict[str, Any]:
+    """With the quantities that follow from mean stress and fabric."""
     half, shear, s = 0.5 * (found["sxx"] - found["syy"]), found["sxy"], 0.5 * (found["sxx"] + found["syy"])
     found |= {"stress_ratio": np.hypot(half, shear) / np.where(s > 0, s, np.nan), "mean_stress": s / pressure,
               "stress_direction": 0.5 * np.degrees(np.arctan2(shear, half))}
@@ -57,13 +62,21 @@ def _curves_of(table: pd.DataFrame, edges: np.ndarray, pressure: float) -> dict[
     return found
 
 
-def observed(tables: Sequence[pd.DataFrame], law: pd.DataFrame | None, end: float, pressure: float) -> Curves:
-    """Curves from progress 0 to `end`: of the samples' histories, and of the law's (none if it took no step)."""
-    edges = np.linspace(0, end, BINS + 1)
-    samples = [_curves_of(table, edges, pressure) for table in tables]
+def observed(scene: Any, tables: Sequence[pd.DataFrame], law: pd.DataFrame | None) -> Curves:
+    """Curves along the path of the scene: of the samples' histories, and of the law's (none if it took no step)."""
+    edges, pressure = path_bins(scene, BINS), scene.dict()["loading"]["pressure"]
+    curves, ends = [], []
+    for table in (*tables, *([] if law is None else [law])):
+        columns, x = _columns_of(table), table["progress"].to_numpy()
+        curves.append(_derived({name: _means(x, values, edges) for name, values in columns.items()}, pressure))
+        last = _derived({name: values[-1] for name, values in columns.items()}, pressure)
+        ends.append({"peak": peak_on_path(scene, table), **(last if x[-1] >= edges[-1] * (1 - 1e-9) else {})})
+    samples = curves[:len(tables)]
     return Curves(0.5 * (edges[1:] + edges[:-1]),
                   {name: np.array([one[name] for one in samples]) for name in QUANTITIES},
-                  {} if law is None else _curves_of(law, edges, pressure))
+                  {} if law is None else curves[-1],
+                  {name: np.array([one.get(name, np.nan) for one in (*ends, *([{}] if law is None else []))])
+                   for name in ("peak", *QUANTITIES)})
 
 
 def _mean_and_error(values: np.ndarray, name: str) -> tuple[np.ndarray, np.ndarray]:
@@ -85,30 +98,17 @@ def table_of(curves: Curves) -> pd.DataFrame:
     return pd.DataFrame(columns)
 
 
-def _largest(values: np.ndarray) -> np.ndarray:
-    """The largest mean over SPAN parts of curves (..., BINS)."""
-    spans = np.apply_along_axis(np.convolve, -1, values, np.ones(SPAN) / SPAN, "valid")
-    return np.fmax.reduce(spans, axis=-1)
-
-
-def _last(values: np.ndarray, average: Callable[[Sequence[float]], Statistics]) -> np.ndarray:
-    """The mean over the last SPAN parts of curves (..., BINS); NaN without all of them."""
-    ends = values[..., -SPAN:]
-    means = np.apply_along_axis(lambda end: average(end).mean, -1, ends)
-    return np.where(np.isfinite(ends).all(axis=-1), means, np.nan)
-
-
 def key_numbers(curves: Curves) -> list[dict[str, Any]]:
-    """Quantities of element.json: largest t/s, and values in the last parts, with 95 % intervals over the samples."""
-    rows = []
-    for when, name in (("largest", "stress_ratio"), *(("last", name) for name in QUANTITIES)):
-        is_line = QUANTITIES[name] == "degrees"
-        average = line_statistics if is_line else statistics
-        grains, law = (_largest(values) if when == "largest" else _last(values, average)
-                       for values in (curves.grains[name], curves.law.get(name, np.full(BINS, np.nan))))
+    """Quantities of element.json with 95 % intervals over the samples: peak t/s, its friction angle, last values."""
+    peaks, rows = curves.ends["peak"], []
+    found = {"peak stress_ratio": ("-", peaks), "friction angle of the peak": ("degrees", np.degrees(np.arcsin(peaks))),
+             **{f"last {name}": (unit, curves.ends[name]) for name, unit in QUANTITIES.items()}}
+    for quantity, (unit, values) in found.items():
+        is_line = quantity.endswith("_direction")
+        grains, law = values[:-1], values[-1]
         difference = paired(grains, np.full(len(grains), law), "line" if is_line else "absolute").difference
-        rows.append({"quantity": f"{when} {name}", "unit": QUANTITIES[name], "law": float(law),
-                     "difference": difference, "grains": average(grains).interval()})
+        rows.append({"quantity": quantity, "unit": unit, "law": float(law), "difference": difference,
+                     "grains": (line_statistics if is_line else statistics)(grains).interval()})
     return rows
 
 

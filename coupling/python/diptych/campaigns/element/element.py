@@ -16,8 +16,8 @@ from ...arrays import Interval
 from ...compiled import continuum
 from ...entries import describe
 from ...errors import NotConverged, SceneError
-from .curves import BINS, key_numbers, observed, rms_differences, table_of
-from ..runs.engine import WRONG_INPUT, Options, columns_text, say
+from .curves import key_numbers, observed, rms_differences, table_of
+from ..runs.engine import WRONG_INPUT, Options, columns_text, complain, say
 from ..runs.folders import Folder, Runs, SceneRun, draw, write_json, write_text
 from ..runs.histories import panel_table
 from ..runs.input_file import Setting, seeds_of_line, settings_of
@@ -28,7 +28,9 @@ format: version of this file's format
 scene (text): name of the scene
 revision (text): revision of the program
 command (text): command line
-bins: equal parts of the path's progress over which the curves are averaged
+bins: parts of the path over which the curves are averaged
+parameters_from (text): origin of the law's parameters; empty: they were not fitted to such grains
+warning (text): reason why the law cannot follow the path; empty: none is known
 seeds (list): requested samples
 done (list): samples with results
 walk (text): loading variable: path, axial_strain, shear_strain or time
@@ -38,8 +40,8 @@ failed/: samples that ended before the end of the path
 law/: the law's point
     failure (text): reason why it ended before the end of the path; empty: it did not
 quantities/: key numbers, each with its unit
-    quantity (text): largest: of the mean over a twentieth of the path; last: mean over the last twentieth; then a \
-        NAME of element.csv
+    quantity (text): peak stress_ratio: largest mean over comparison/averaging_strain; friction angle of the peak: its \
+        arcsine; last NAME: in the last row of the histories, NAME as in element.csv
     unit (text): unit of the numbers; P: pressure of the start
     grains (interval) [as unit says]: mean over the samples (Student)
     law [as unit says]: of the law; null where it has none
@@ -53,7 +55,7 @@ rms/: differences over the whole path
 """)
 
 describe("element.csv", """\
-progress [strain or time]: middle of the part of the path to which the row belongs
+progress [strain or time]: middle of the part of the path to which the row belongs; parts end at the rows of the path
 grains_NAME [as in both panels' tables]: mean over the samples. NAME: stress_ratio, mean_stress [P], \
     volumetric_strain, stress_direction, fabric_anisotropy, fabric_direction, coordination, solid_fraction, sxx, syy, \
     sxy, exx, eyy, exy
@@ -108,6 +110,8 @@ def run_element(line: argparse.Namespace, options: Options) -> None:
     seeds = seeds_of_line(line.seeds) if line.seeds else [scene.dict()["sample"]["seed"]]
     grains = [_run(line.target, "discrete", on_sample(settings, seed, line.target)) for seed in seeds]
     _run(line.target, "material-point", settings)  # a wrong law is refused before the grains run
+    if warning := scene.reversal_warning():
+        complain(f"diptych: warning: {warning}")
     directory = line.output or f"results/{scene.name}_element"
     with Folder(directory) as folder:
         folder.open_runs("element", line.target, options, lambda: [("the scene", line.target), *scene.input_files()])
@@ -120,10 +124,10 @@ def run_element(line: argparse.Namespace, options: Options) -> None:
         law = _run(line.target, "material-point", _law_settings(settings, scene, list(tables.values())))
         [failure] = _done(runs, [law], options)
         point = panel_table(runs.path(law), "material_point")
-        end = max(float(table["progress"].iloc[-1]) for table in (*tables.values(), point) if table is not None)
-        curves = observed(list(tables.values()), point, end, scene.dict()["loading"]["pressure"])
-        record = {"format": 1, "scene": scene.name, "revision": _diptych.git_revision, "bins": BINS, "seeds": seeds,
-                  "done": list(tables), "walk": scene.loading_variable(), "law": {"failure": failure},
+        curves, origin = observed(scene, list(tables.values()), point), scene.dict()["comparison"]["parameters_from"]
+        record = {"format": 2, "scene": scene.name, "revision": _diptych.git_revision, "bins": len(curves.progress),
+                  "seeds": seeds, "done": list(tables), "walk": scene.loading_variable(), "law": {"failure": failure},
+                  "parameters_from": origin, "warning": warning,
                   "failed": [{"seed": seed, "message": text} for seed, text in zip(seeds, failures) if text],
                   "quantities": key_numbers(curves), "rms": rms_differences(curves),
                   "command": shlex.join(["diptych", *options.words])}
@@ -131,6 +135,7 @@ def run_element(line: argparse.Namespace, options: Options) -> None:
         write_json(os.path.join(directory, "element.json"), record)
         draw(options, directory, "element")
         say(options, _text(record["quantities"]))
+        say(options, _diptych.origin_of_law(origin))
     ends = [f"{name} ended before the end of the path: {text}" for name, text in
             [*((f"seed {one['seed']}", one["message"]) for one in record["failed"]), ("the law", failure)] if text]
     if ends:

@@ -62,6 +62,22 @@ def peak_of_running_mean(table: pd.DataFrame, name: str, width: float) -> float:
     return _diptych.peak_of_running_mean(table["progress"], table[name], width)
 
 
+def peak_on_path(scene: Any, table: pd.DataFrame) -> float:
+    """The largest mean of t/s over comparison/averaging_strain of strain along the prescribed path of an element test,
+    whose progress may count rows; NaN before the first full width."""
+    strain = np.interp(table["progress"], *scene.path_shape())
+    return peak_of_running_mean(table.assign(progress=strain), "stress_ratio", scene.averaging_width())
+
+
+def path_bins(scene: Any, count: int) -> np.ndarray:
+    """Edges of about `count` parts of a prescribed path, in its progress. Parts end at the rows of the path, where it
+    may turn back. Between two rows they have equal lengths; longer ways have more parts."""
+    progress, strain = map(np.asarray, scene.path_shape())
+    parts = np.maximum(1, np.round(count * np.diff(strain) / strain[-1]).astype(int))
+    return np.append(np.concatenate([np.linspace(a, b, n, endpoint=False)
+                                     for a, b, n in zip(progress, progress[1:], parts)]), progress[-1])
+
+
 def curve_of(table: pd.DataFrame, name: str, width: float, grid: np.ndarray) -> np.ndarray:
     """The running mean of a column at the progress of a grid, linear between rows; NaN beyond the ends of the
     history."""

@@ -31,6 +31,7 @@ from ..runs.statistics import line_turn, student_quantile
 from .study_file import COMMANDS, Study
 from .study_words import levels_of_words, study_of_words
 
+MOST_LABELS = 6  # in the text that says where a law was fitted
 _CURVES = (("stress_ratio", "stress ratio t/s", "running mean, averaged over the samples, one row per point; nan if a "
             "sample has no value"),
            ("volumetric_strain", "volumetric strain", "running mean, averaged over the samples, one row per point; "
@@ -78,6 +79,9 @@ borders/: borders beyond which a method fails by theory
     y (text): axis y: y = coefficient x^exponent
     coefficient: coefficient of the border
     exponent: exponent of the border
+origins/: origins of the law's parameters; empty if only grains ran
+    parameters_from (text): origin; empty: they were not fitted to such grains
+    where (text): points that have it; empty: all
 points/: all points, references first
     family (text): family of the point; references have none
     reference: index in this list of its reference point; missing if the study has no reference, like class, certain, \
@@ -180,6 +184,19 @@ for _name, _title, _meaning in _CURVES:
     describe(_H5, f"{_name} (rows of numbers): {_title}; {_meaning}")
 
 
+def _origins(study: Study, points: Sequence[Point]) -> list[dict[str, str]]:
+    """Where the parameters of the law come from, and at which points."""
+    found: dict[str, list[str]] = {}
+    for point in points if study.command != "discrete" else ():
+        if point.family >= 0 and point.runs[0].scene is not None:
+            names = (f"{axis.name} {label}" for axis, label in zip(study.families[point.family].axes, point.labels))
+            origin = point.runs[0].scene.dict()["comparison"]["parameters_from"]
+            found.setdefault(origin, []).append(", ".join(names))
+    return [{"parameters_from": origin, "where": "" if len(found) == 1 else
+             "; ".join(labels) if len(labels) <= MOST_LABELS else f"{len(labels)} of {len(points)} points"}
+            for origin, labels in found.items()]
+
+
 def study_record(study: Study, points: Sequence[Point], records: Sequence[dict[str, Any]]) -> dict[str, Any]:
     """study.json. It does not depend on when, where or in which order the points ran."""
     n = len(study.seeds)
@@ -194,7 +211,8 @@ def study_record(study: Study, points: Sequence[Point], records: Sequence[dict[s
              "points": [{"label": point.label, "value": point.value} for point in axis.points]}
             for axis in family.axes]}
                      for family in study.families],
-        "borders": study.borders, "points": records, "orders": orders_of(study, points, records),
+        "borders": study.borders, "origins": _origins(study, points), "points": records,
+        "orders": orders_of(study, points, records),
         "changes": changes_of(study, points, records) if study.reference is None and not study.ranges else []}
 
 
@@ -333,7 +351,10 @@ def run_study(line: argparse.Namespace, options: Options) -> None:
         write_json(os.path.join(directory, "study_cost.json"), cost_of(study, points, results, record["points"], pairs))
         if not left:
             draw(options, directory, "study")
-        say(options, f"{_conclude(study, points, record, options)}; tables: {directory}/study.json, study.csv"
+        conclusion = _conclude(study, points, record, options)
+        for one in record["origins"]:
+            say(options, (f"{one['where']}: " if one["where"] else "") + _diptych.origin_of_law(one["parameters_from"]))
+        say(options, f"{conclusion}; tables: {directory}/study.json, study.csv"
             + (", sensitivity.csv" if study.ranges else ", effects.csv" if study.reference is None else ""))
         lost = sum(not all(run.known for run in of_point) for of_point in results)
     if all(run.exit_code for run in read.values()):
