@@ -32,6 +32,8 @@ namespace diptych::coupling
     double lost_share = NAN; // share of the resamples in which the fit failed or found no band; NaN: no resamples were drawn
   };
 
+  constexpr double widest_band = 1 / 3.; // 10-90 % width / narrower side of the sample; a wider zone is diffuse
+
   // A band along s = (cos, sin)(angle) with normal n = (-sin, cos)(angle), n_y >= 0. Across it the displacement increment is
   // u = c + G (x - centre) + (J/2) tanh((n.(x - centre) - offset) / half_width).
   // J is the displacement of the side to which n points, relative to the other side.
@@ -45,6 +47,8 @@ namespace diptych::coupling
     double dilation_deg     = 0; // atan2(J.n, |J.s|): positive if the band opens
     double r_squared        = 0; // weighted 1 - SS_res/SS_tot of the longitudinal component u.s at the raw points
     double r_squared_strips = 0; // r_squared of the means over 16 strips parallel to the band
+
+    bool is_diffuse = false; // wider than widest_band of the sample's narrower side: no comparison uses its angle
 
     std::string no_packs_because = "not judged"; // why it is not a band between two packs (packs.h); empty: it is one
 

@@ -158,15 +158,26 @@ namespace diptych::coupling
       return fit;
     }
 
-    Band reported_band(const BandIntervals &numbers, const double mean_diameter)
+    Interval ended(const Interval &i, const double low, const double high) // NaN stays
     {
-      Band band;
+      return {i.value, i.low < low ? low : i.low, i.high > high ? high : i.high};
+    }
+
+    // Intervals end at the sample's narrower side, or at the value if this is larger, and 90 degrees from an angle.
+    Band reported_band(const BandIntervals &numbers, const SampleFrame &frame)
+    {
+      const double mean_diameter = frame.mean_diameter, side = std::min(frame.width, frame.height);
+      Band         band;
       band.interval             = numbers;
-      band.interval.half_width  = times(mean_diameter, numbers.half_width);
-      band.interval.width_10_90 = times(mean_diameter, numbers.width_10_90);
+      const double longest      = std::max(side / mean_diameter, numbers.width_10_90.value);
+      band.interval.width_10_90 = times(mean_diameter, ended(numbers.width_10_90, 0, longest));
+      band.interval.half_width  = times(mean_diameter, ended(numbers.half_width, 0, longest / (2 * std::atanh(0.8))));
       band.interval.offset      = times(mean_diameter, numbers.offset);
 
-      band.angle_deg    = band.interval.angle_deg.value;
+      band.angle_deg  = band.interval.angle_deg.value;
+      band.is_diffuse = band.interval.width_10_90.value > widest_band * side;
+      for (Interval *angle : {&band.interval.angle_deg, &band.interval.dilation_deg})
+        *angle = ended(*angle, angle->value - 90, angle->value + 90);
       band.half_width   = band.interval.half_width.value;
       band.width_10_90  = band.interval.width_10_90.value;
       band.offset       = band.interval.offset.value;
@@ -251,6 +262,9 @@ namespace diptych::coupling
       if (choice.best == 1)
         text += report.bands[0].between_packs() ? " between two packs"
                                                 : ", no zone between two packs: " + report.bands[0].no_packs_because;
+      if (const auto n = std::count_if(report.bands.begin(), report.bands.end(), [](const Band &b) { return b.is_diffuse; }))
+        text += std::string(n < std::ptrdiff_t(report.bands.size()) ? "; one of them" : "") +
+                "; diffuse: wider than a third of the sample";
       if (choice.best + 1 < n_fits)
         {
           const std::string &objection = choice.objections[choice.best + 1];
@@ -280,7 +294,7 @@ namespace diptych::coupling
     report.converged                  = fit.converged;
     for (const BandIntervals &numbers : intervals_of(data, fit, sample, options, seed))
       {
-        Band band = reported_band(numbers, frame.mean_diameter);
+        Band band = reported_band(numbers, frame);
         add_r_squared(data, fit, frame, band);
         band.no_packs_because = objection_to_packs(band, frame, fit.converged);
         report.bands.push_back(band);

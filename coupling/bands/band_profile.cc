@@ -163,7 +163,7 @@ namespace diptych::coupling
     profile.rotation_amplitude = interval_of(rotation, profile.blocks, amplitude(strain, 1));
     profile.couple_stress_peak = interval_of(couple, profile.blocks, amplitude(gradient, 1));
     profile.loosening          = interval_of(solid, profile.blocks, amplitude(strain, -1));
-    if (!(profile.rotation_amplitude.low * profile.rotation_amplitude.high > 0))
+    if (bootstrap.resamples > 0 && !(profile.rotation_amplitude.low * profile.rotation_amplitude.high > 0))
       return profile;
     std::vector<Eigen::VectorXd> candidates;
     for (int k = 0; k < n_widths; ++k)

@@ -16,7 +16,7 @@ namespace diptych::coupling
   // [length]. NaN if a panel has no band.
   struct ComparedBands
   {
-    BandIntervals grains, continuum; // NaN without a band
+    BandIntervals grains, continuum; // NaN without a band; a diffuse zone has no angle
   };
   ComparedBands compared_bands(const Increment &increment);
 

@@ -93,16 +93,17 @@ namespace diptych::coupling
       return probe == nullptr ? NAN : probe->stress.direction_deg + 90;
     }
 
-    // Sets the angle of the theory lines: between a band and the minor principal stress, in [0, 90].
+    // Sets the angle of the theory lines: between a band and the minor principal stress, in [0, 90]. A diffuse zone gets none.
     void take_angles_to_stress(std::vector<Band> &bands, const PanelRecord &at_the_end)
     {
       for (Band &band : bands)
-        {
-          const double    turn  = line_turn(band.angle_deg, minor_direction(at_the_end));
-          const Interval &angle = band.interval.angle_deg;
-          const double    low = std::abs(turn + angle.low - angle.value), high = std::abs(turn + angle.high - angle.value);
-          band.to_minor_stress_deg = {std::abs(turn), std::min(low, high), std::max(low, high)};
-        }
+        if (!band.is_diffuse)
+          {
+            const double    turn  = line_turn(band.angle_deg, minor_direction(at_the_end));
+            const Interval &angle = band.interval.angle_deg;
+            const double    low = std::abs(turn + angle.low - angle.value), high = std::abs(turn + angle.high - angle.value);
+            band.to_minor_stress_deg = {std::abs(turn), std::min(low, high), std::max(low, high)};
+          }
     }
 
     void take_angles_to_stress(Increment &increment, const StageRecord &at_the_end)

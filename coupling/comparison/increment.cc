@@ -45,6 +45,13 @@ namespace diptych::coupling
       return strip_means(field, increment.frame, angle, strip_edges(increment.frame, angle, offset));
     }
 
+    // Nothing is random in the continuum: its misfit is no noise, and resampling it gives no interval.
+    BandOptions without_resampling(BandOptions options)
+    {
+      options.resamples = 0;
+      return options;
+    }
+
     // A mesh of a few elements has too few points.
     BandReport bands_of(const DisplacementField &field, const SampleFrame &frame, const BandOptions &options, std::uint64_t seed)
     {
@@ -91,11 +98,10 @@ namespace diptych::coupling
     result.displacement_unit = displacement_unit(result.frame, result.discrete.field);
 
     const std::vector<Eigen::Vector2d> centres = cell_centres(result.mesh);
+    result.discrete.band                       = bands_of(result.discrete.field, result.frame, options, seed);
+    result.continuum.band = bands_of(result.continuum.field, result.frame, without_resampling(options), seed);
     for (PanelIncrement *panel : {&result.discrete, &result.continuum})
-      {
-        panel->band       = bands_of(panel->field, result.frame, options, seed);
-        panel->cell_shear = shear_strain_increment(panel->field, centres, radius);
-      }
+      panel->cell_shear = shear_strain_increment(panel->field, centres, radius);
     for (PanelIncrement *panel : {&result.discrete, &result.continuum})
       {
         panel->strips = cut_strips(panel->field, result);
@@ -120,7 +126,7 @@ namespace diptych::coupling
   {
     PanelIncrement panel;
     panel.field = displacement_field(from, to);
-    panel.band  = bands_of(panel.field, frame, options, seed);
+    panel.band  = bands_of(panel.field, frame, without_resampling(options), seed);
     return panel;
   }
 } // namespace diptych::coupling

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <algorithm>
+
 #include "coupling/comparison/band_difference.h"
 #include "coupling/comparison/increment.h"
 #include "coupling/numbers/number_entry.h"
@@ -25,6 +27,9 @@ namespace diptych::coupling
     v({"to_minor_stress_deg", "degrees", "angle to the minor principal stress in the band"}, b.to_minor_stress_deg);
     v({"resamples", "-", "number of resamples behind the intervals", Kind::setting}, i.resamples);
     v({"lost_share", "-", "share of the resamples in which the band was lost"}, i.lost_share);
+    v({"diffuse", "-", "true for a zone wider than a third of the sample's narrower side, whose inclination enters no comparison",
+       Kind::setting},
+      b.is_diffuse);
     v({"r_squared", "-", "R² of the fit at the points"}, b.r_squared);
     v({"r_squared_strips", "-", "R² of the fit for means over strips"}, b.r_squared_strips);
   }
@@ -67,6 +72,8 @@ namespace diptych::coupling
   {
     v.list("bands", "shear bands, the strongest first", p.band.bands);
     v({"band_verdict", "-", "verdict of the band detection"}, p.band.verdict);
+    v({"band_misfit", "platen increments", "robust root mean square of the displacements that the fit of the bands leaves"},
+      p.band.residual[std::min(p.band.bands.size(), p.band.residual.size() - 1)]);
     v({"bic_of_0_1_2_bands", "-", "Bayesian information criterion for no, one and two bands"}, p.band.bic);
     v({"independent_samples", "-", "number of independent samples assumed"}, p.band.n_effective);
     v.group("strips", "means over strips parallel to the band", p.strips);

@@ -153,8 +153,9 @@ namespace diptych::coupling
     const double           d       = increment.frame.mean_diameter;
     const auto             outline = outline_polygon(pair.grains_to.outline);
     const BootstrapOptions bootstrap{options.probes.probe_block * d, options.probes.probe_resamples, seed};
-    const auto             finished = [&](const ProfileBlocks &blocks, const Band &band) {
-      BandProfile profile = band_profile(blocks, band.half_width / d, bootstrap);
+    const BootstrapOptions none{bootstrap.block, 0, seed}; // nothing is random in the continuum
+    const auto             finished = [&](const ProfileBlocks &blocks, const Band &band, const BootstrapOptions &resampling) {
+      BandProfile profile = band_profile(blocks, band.half_width / d, resampling);
       profile.angle_deg   = band.angle_deg;
       profile.offset      = band.offset;
       return profile;
@@ -164,13 +165,13 @@ namespace diptych::coupling
     const StripMesh strips     = strip_mesh(outline, increment.frame, first, bootstrap.block);
     const auto      grains     = grain_fields(strips.mesh, pair.grains_from, unrolled(pair.grains_to), options.averaging);
     const double    speed      = increment.duration > 0 ? increment.displacement_unit / increment.duration : NAN;
-    increment.discrete.profile = finished(blocks_of(strips, first, grains, speed), first);
+    increment.discrete.profile = finished(blocks_of(strips, first, grains, speed), first, bootstrap);
 
     const Band           &second   = of_nodes.empty() ? first : of_nodes[0];
     const StripMesh       across   = strip_mesh(outline, increment.frame, second, bootstrap.block);
     const ContinuumFields own      = continuum_fields(pair.nodes_from, pair.nodes_to);
     const ContinuumFields averaged = averaged_continuum({increment.mesh, own}, across.mesh, {d, 0}, options.averaging);
     const LocalMotion     moved    = local_motion(increment.continuum.field, cell_centres(across.mesh), strain_radius(d));
-    increment.continuum.profile    = finished(blocks_of(across, second, moved, averaged, start_solid_fraction), second);
+    increment.continuum.profile    = finished(blocks_of(across, second, moved, averaged, start_solid_fraction), second, none);
   }
 } // namespace diptych::coupling

@@ -47,6 +47,7 @@ namespace diptych::python
       dict["r_squared"]         = band.r_squared;
       dict["r_squared_strips"]  = band.r_squared_strips;
       dict["no_packs_because"]  = band.no_packs_because;
+      dict["diffuse"]           = band.is_diffuse;
       intervals["angle_deg"]    = interval(band.interval.angle_deg);
       intervals["width_10_90"]  = interval(band.interval.width_10_90);
       intervals["half_width"]   = interval(band.interval.half_width);

@@ -45,6 +45,8 @@ def test_lines_across_the_vertical_have_a_vertical_mean():
     assert (abs(s.mean), s.deviation) == pytest.approx((90, 5)) and s.low < s.mean < s.high
     assert statistics.line_statistics([-43, -45, -47]) == pytest.approx(statistics.statistics([-43, -45, -47]))
     assert math.isnan(statistics.line_statistics([10, -80]).mean)
+    s = statistics.line_statistics([40, 70])  # 55 +- 12.7 x 15
+    assert (s.low, s.high) == pytest.approx((-35, 145))  # every line
     assert statistics.line_turn(80, -80) == -20 and statistics.line_turn(45, -45) == 90
 
 

@@ -204,6 +204,7 @@ class Band:
     no_packs_because: str  # why this is no band between two packs; empty: it is one
     interval: dict[str, Interval]  # of angle_deg, width_10_90, half_width, offset, jump, dilation_deg
     centre: Array  # (2) of the sample [length]
+    diffuse: bool = False  # wider than a third of the sample's narrower side: its angle means little
 
     @property
     def normal(self) -> Array:

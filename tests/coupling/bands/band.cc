@@ -27,6 +27,8 @@ namespace
     EXPECT_NEAR(report.bands[0].width_10_90, 2.197225 * report.bands[0].half_width, 1e-5 * report.bands[0].half_width);
     EXPECT_NEAR(report.bands[0].r_squared, 1, 1e-6);
     EXPECT_NEAR(report.bands[0].r_squared_strips, 1, 1e-6);
+    EXPECT_EQ(report.bands[0].is_diffuse, 2.197 * GetParam().half_width > 52 / 3.);
+    EXPECT_EQ(report.verdict.find("; diffuse: ") != std::string::npos, report.bands[0].is_diffuse) << report.verdict;
   }
 
   // Nodes on a regular grid with area weights must give the same result.

@@ -73,6 +73,7 @@ def _band_of_nodes(folder: str, scene: Any) -> dict[tuple[str, str], float]:
     found = bands_between(scene, pair, {}) if pair else []
     if not found:
         return {}
-    angle = abs(found[0].angle_deg) if scene.is_mirror_symmetric() else found[0].angle_deg
+    angle = math.nan if found[0].diffuse else found[0].angle_deg
+    angle = abs(angle) if scene.is_mirror_symmetric() else angle
     return {("continuum", "band_angle_deg"): angle,
             ("continuum", "band_width_10_90_d"): found[0].width_10_90 / scene.dict()["sample"]["mean_diameter"]}

@@ -73,6 +73,8 @@ class Member:
                 self.collect(band, place, f"{name} band")
                 if self.folded:
                     self._fold(f"{name} band")
+                if band.get("diffuse"):  # its angle enters no mean and no verdict
+                    self.numbers.pop(f"{name} band angle_deg", None)
             return
         for entry in entries if entries and isinstance(entries[0], dict) else ():
             own = entry.get("name") or entry.get("label") or (f"{entry['of']}-{entry['and']}" if "of" in entry else "")

@@ -40,8 +40,18 @@ class Statistics(NamedTuple):
         return Interval(self.mean, self.mean - half, self.mean + half)
 
 
-def _with_interval(n: int, mean: float, square: float) -> Statistics:
-    s = Statistics(n=n, mean=mean, deviation=math.sqrt(square / (n - 1)) if n > 1 else math.nan)
+class LineStatistics(Statistics):
+    """Those of angles [degrees]; an interval ends 90 degrees from the mean, where it holds every line."""
+
+    __slots__ = ()
+
+    def interval(self, confidence: float = 0.95) -> Interval:
+        mean, low, high = super().interval(confidence)
+        return Interval(mean, max(low, mean - 90), min(high, mean + 90)) if self.n > 1 else Interval(mean, low, high)
+
+
+def _with_interval(n: int, mean: float, square: float, kind: type[Statistics] = Statistics) -> Statistics:
+    s = kind(n=n, mean=mean, deviation=math.sqrt(square / (n - 1)) if n > 1 else math.nan)
     return s._replace(low=s.interval().low, high=s.interval().high)
 
 
@@ -62,7 +72,7 @@ def line_statistics(degrees: Sequence[float]) -> Statistics:
     if not abs(total) > 1e-9 * len(x):
         return Statistics(len(x))
     mean = float(line_turn(np.degrees(np.angle(total)) / 2, 0.0))
-    return _with_interval(len(x), mean, (line_turn(x, mean) ** 2).sum())
+    return _with_interval(len(x), mean, (line_turn(x, mean) ** 2).sum(), LineStatistics)
 
 
 def line_turn(a: float | np.ndarray, b: float | np.ndarray) -> float | np.ndarray:
