@@ -142,7 +142,8 @@ namespace diptych::coupling
     list_numbers(document, writer);
     root["numbers"] = descriptions();
     discrete::write_text(comparison_json(directory), root.dump(1) + "\n");
-    discrete::write_text(summary_csv(directory), csv_of(key_numbers(document.comparison)));
+    discrete::write_text(summary_csv(directory),
+                         csv_of(key_numbers(document.comparison), checks_of(document.scene, document.comparison)));
     discrete::write_text(comparison_csv(directory), table_of(stages(document.scene.loading), root));
   }
 } // namespace diptych::coupling

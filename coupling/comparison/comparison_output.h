@@ -25,7 +25,8 @@ namespace diptych::coupling
   }
 
   // comparison.json: every number that comparison_numbers.h lists, with their descriptions under "numbers". The same numbers,
-  // one per line, go to comparison.csv with the columns comparison_columns(). key_numbers() go to summary.csv.
+  // one per line, go to comparison.csv with the columns comparison_columns(). key_numbers() and the count of the checks go to
+  // summary.csv.
   void write_comparison(const std::string &directory, const ComparisonDocument &document);
 
   // comparison.h5: the arrays behind the report's figures, as listed in comparison_arrays.h.

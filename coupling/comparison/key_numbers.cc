@@ -44,6 +44,8 @@ namespace diptych::coupling
       KeyNumber           number = key_number(q, take(bands.grains), take(bands.continuum), take(band_difference(window)));
       char                where[64];
       std::snprintf(where, sizeof where, " (%.4g to %.4g)", window.from, window.to);
+      if (std::isnan(number.difference.value) && !std::isnan(bands.grains.jump.value + bands.continuum.jump.value))
+        number.verdict = "diffuse";
       number.quantity += where;
       return number;
     }
@@ -77,7 +79,7 @@ namespace diptych::coupling
     return numbers;
   }
 
-  std::string csv_of(const std::vector<KeyNumber> &numbers)
+  std::string csv_of(const std::vector<KeyNumber> &numbers, const std::vector<Check> &checks)
   {
     std::ostringstream out;
     out << header_of(summary_columns()) << '\n';
@@ -93,6 +95,7 @@ namespace diptych::coupling
             }
         out << ',' << k.verdict << '\n';
       }
+    out << "checks,-" << std::string(9, ',') << ',' << count_of(checks) << '\n';
     return out.str();
   }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/comparison/checks.h"
 #include "coupling/comparison/comparison.h"
 #include "coupling/comparison/key_quantities.h"
 #include "coupling/numbers/number_entry.h"
@@ -18,11 +19,15 @@ namespace diptych::coupling
   {
     std::string key, quantity, unit;
     Interval    grains, continuum, difference;
-    std::string verdict; // "different", "cannot tell", "one sample" (no interval) or "not in both panels"
+    std::string verdict; // "different", "cannot tell", "one sample" (no interval), "diffuse" or "not in both panels"
   };
 
   // In the order of key_quantities, with the band of the last window; without a window there is none.
   std::vector<KeyNumber> key_numbers(const Comparison &c);
+
+  constexpr const char *verdict_meaning =
+    "different: the interval of the difference excludes 0; cannot tell: it contains 0; one sample: no interval; diffuse: a zone "
+    "wider than a third of the sample has no inclination";
 
   template <class Visitor> void list_numbers(const KeyNumber &k, Visitor &v)
   {
@@ -32,9 +37,7 @@ namespace diptych::coupling
     v({"grains", "as in unit", "value of the grains"}, k.grains);
     v({"continuum", "as in unit", "value of the continuum"}, k.continuum);
     v({"difference", "as in unit", "continuum minus grains"}, k.difference);
-    v({"verdict", "-",
-       "different: the interval of the difference excludes 0; cannot tell: it contains 0; one sample: no interval"},
-      k.verdict);
+    v({"verdict", "-", verdict_meaning}, k.verdict);
   }
 
   inline std::array<NumberEntry, 12> summary_columns()
@@ -50,11 +53,11 @@ namespace diptych::coupling
              {"difference", "as in unit", "continuum minus grains"},
              {"difference_low", "as in unit", "lower end"},
              {"difference_high", "as in unit", "upper end"},
-             {"verdict", "-",
-              "different: the interval of the difference excludes 0; cannot tell: it contains 0; one sample: no interval"}}};
+             {"verdict", "-", verdict_meaning}}};
   }
 
-  std::string csv_of(const std::vector<KeyNumber> &numbers);  // with the columns summary_columns()
+  // With the columns summary_columns(). The last row counts the checks; its verdict is count_of().
+  std::string csv_of(const std::vector<KeyNumber> &numbers, const std::vector<Check> &checks);
   std::string text_of(const std::vector<KeyNumber> &numbers); // a table for a terminal, one line per quantity
 
   // A line with the mean sxx of both panels / pressure and what causes it; empty unless a pressure acts on the sides.

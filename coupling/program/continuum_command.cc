@@ -104,17 +104,8 @@ namespace diptych::coupling
         text << "\n  up to " << 100 * share << " % of the area weakens in a step while its plastic flow contracts (at "
              << at(largest(&continuum::HistoryRow::unstable_share)) << "): a material instability, which the mesh may decide. "
              << "continuum/internal_length (Cosserat and gradient laws) or continuum/viscosity limits it";
-      double outside = 0; // at rest all three stresses are equal, and nothing depends on their order
-      for (const continuum::HistoryRow &row : rows)
-        outside = row.step > 0 ? std::max(outside, row.share_zz_not_intermediate) : outside;
       if (part.is_coarse)
         text << "\n  this second run shows the effect of the mesh; comparison/coarse_element_size = 0 leaves it out";
-      if (continuum::traits(scene.continuum.law).stays_in_plane() && outside > 0)
-        text << "\n  sigma_zz is not the intermediate principal stress in up to " << 100 * outside
-             << " % of the area, where this law's in-plane form is not exact"
-             << (outside <= 0.05                                      ? ""
-                 : continuum::traits(scene.continuum.law).is_gradient ? ": check with continuum/law = gradient_drucker_prager"
-                                                                      : ": check with continuum/law = cosserat_drucker_prager");
       say(line, text.str());
     }
 

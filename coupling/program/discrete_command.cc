@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 
+#include "coupling/comparison/checks.h"
 #include "coupling/grains/imported_grains.h"
 #include "coupling/grains/interrupted_grains.h"
 #include "coupling/grains/recorded_grains.h"
@@ -84,23 +85,20 @@ namespace diptych::coupling
     // The reasons to doubt a finished run, a line each.
     std::string doubts(const Rows &rows, const discrete::Report &report, const Scene &scene)
     {
-      constexpr double         doubtful_penetration = 0.02;
-      const discrete::Options &options              = scene.discrete;
-      const double             doubtful_strength    = 1.5 * options.accuracy.accuracy; // auto keeps to the accuracy
-      const double             doubtful_dilation    = 2 * discrete::dilation_share * options.accuracy.accuracy;
+      const discrete::Options &options = scene.discrete;
       std::ostringstream       out;
       doubt_idle_grains(rows, scene, out);
       doubt_sample(report, options, out);
-      if (report.expected.strength > doubtful_strength)
+      if (report.expected.strength > most_strength_error(options.accuracy))
         out << "steps of " << report.step << " change the strength by about " << 100 * report.expected.strength
             << " %; discrete/step = auto keeps to discrete/accuracy\n";
-      if (report.expected.dilation_loss > doubtful_dilation)
+      if (report.expected.dilation_loss > most_dilation_error(options.accuracy))
         out << "a tolerance of " << report.tolerance << " at this step loses about " << 100 * report.expected.dilation_loss
             << " % of the dilation; discrete/tolerance = auto keeps to " << discrete::dilation_share << " discrete/accuracy\n";
       double penetration = 0;
       for (const discrete::HistoryRow &row : rows)
         penetration = std::max(penetration, row.max_penetration);
-      if (penetration > doubtful_penetration)
+      if (penetration > most_penetration)
         out << "grains interpenetrate by up to " << penetration << " mean diameters; "
             << (options.method.method == discrete::Method::nscd ? "a smaller discrete/step or discrete/tolerance"
                                                                 : "a larger discrete/penalty_stiffness")

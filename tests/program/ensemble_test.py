@@ -88,7 +88,18 @@ class Statistics(Ensemble):
         self.assertAlmostEqual(first[0]["difference"]["value"], first[0]["continuum"]["value"] - peak["mean"],
                                places=12)
         self.assertRegex(first[0]["verdict"], r"^(equivalent within|different by more than|cannot tell \(margin) 3 %")
-        self.assertRegex(self.process.stdout.splitlines()[-len(first) - 1], r"^peak t/s +0\.\d+ \[.*3 %")
+        self.assertRegex(self.process.stdout, r"(?m)^peak t/s +0\.\d+ \[.*3 %")
+
+    def test_the_first_numbers_and_the_count_of_the_checks_are_in_summary_csv(self):
+        record, table = read(self.three), pandas.read_csv(os.path.join(self.three, "summary.csv"), index_col="quantity")
+        self.assertEqual(list(table.index), [*(row["quantity"] for row in record["summary"]), "checks"])
+        self.assertAlmostEqual(table.grains["peak t/s"], record["summary"][0]["grains"]["value"], places=8)
+        members = [read(member_of(self.three, k), "comparison.json")["checks"] for k in (1, 2, 3)]
+        broken = {one["key"] for checks in members for one in checks if not one["kept"]}
+        self.assertEqual({one["key"] for one in record["checks"] if one["broken"]}, broken)
+        count = f"{len(broken)} of {len(members[0])} checks fail" if broken else f"all {len(members[0])} checks hold"
+        self.assertEqual(table.verdict["checks"], count)
+        self.assertIn(count, self.process.stdout)
 
     def test_the_number_at_once_does_not_change_a_bit(self):
         self.run_seeds("3,1-2", "--jobs", "2")

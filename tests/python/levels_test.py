@@ -113,17 +113,18 @@ def test_an_ensemble_gets_rows_in_the_limit():
     continuum = 0.36 + 0.001 * np.arange(8)
     verdict = {"key": "peak_stress_ratio", "discrete": x.tolist(), "continuum": continuum.tolist(), "n": 8,
                "relative": True, "margin": 0.0}
-    record = {"verdicts": [verdict], "summary": [{"key": "peak_stress_ratio", "continuum": (0.3635, 0.361, 0.366)}],
+    record = {"verdicts": [verdict], "summary": [{"key": "peak_stress_ratio", "quantity": "peak t/s", "continuum": (0.3635, 0.361, 0.366)}],
               "validation": [{"key": "peak_stress_ratio", "parts": {"mesh": np.nan, "load_step": 0.0},
                               "u_input": np.nan}],
               "continuum_runs": {"values": []}}
     limit = x - (x - y) / (1 - RATIO)
-    rows = {"quantities": [{"key": "peak_stress_ratio", "quantity": "peak t/s", "unit": "-", "ratio": RATIO,
-                            "fine": y.tolist()}]}
+    rows = {"cheap": 0.05, "quantities": [{"key": "peak_stress_ratio", "quantity": "peak t/s", "unit": "-",
+                                            "ratio": RATIO, "fine": y.tolist()}]}
     ends = paired(limit, continuum, "relative").difference_90
     verdict["margin"] = 1.1 * max(-ends.low, ends.high)  # the order widens the interval by less
     add_summary(record, rows)
     row = record["summary"][-1]
+    assert record["summary"][0]["quantity"] == "peak t/s (accuracy 0.05)"
     assert row["quantity"] == "peak t/s, limit of short steps" and row["verdict"].startswith("equivalent within")
     record["validation"][0]["parts"]["mesh"] = verdict["margin"] * TRUTH
     add_summary(record, rows)

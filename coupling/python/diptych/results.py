@@ -49,7 +49,8 @@ class Results:
 
     def summary(self) -> "pandas.DataFrame":
         """The numbers that a user asks for first, a row each: grains, continuum, difference (with ends of 95 %
-        intervals where one sample gives them) and verdict. Raises FileNotFoundError without a comparison."""
+        intervals where one sample gives them) and verdict. The verdict of the last row, "checks", counts the limits
+        that the run breaks; compare() lists them. Raises FileNotFoundError without a comparison."""
         import pandas
 
         return pandas.read_csv(os.path.join(self.folder, "summary.csv"), index_col="quantity")

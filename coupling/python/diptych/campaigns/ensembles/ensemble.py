@@ -1,6 +1,6 @@
 # diptych: the command run --seeds: the same scene on many samples
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Runs the members of an ensemble and writes ensemble.json, ensemble.csv, ensemble.h5 and report.html."""
+"""Runs the members of an ensemble and writes ensemble.json, ensemble.csv, ensemble.h5, summary.csv and report.html."""
 
 from __future__ import annotations
 
@@ -123,7 +123,7 @@ def _done(scene: Any, record: dict[str, Any]) -> dict[int, str]:
 def _complete(scene: Any, ends: dict[str, Any], runs: Mapping[str, Any]) -> dict[str, Any]:
     """ensemble.json, from the members that finished. ends: with its entries _ENDS; runs: those of
     validation.respond(). Raises ValueError with the file of a member that is broken."""
-    done, members, keys = _done(scene, ends), [], scene.dict()["comparison"]
+    done, members, checks, keys = _done(scene, ends), [], {}, scene.dict()["comparison"]
     folded, n = scene.is_mirror_symmetric(), len(done)
     for seed, folder in done.items():
         for part in ("", "comparison"):
@@ -132,14 +132,17 @@ def _complete(scene: Any, ends: dict[str, Any], runs: Mapping[str, Any]) -> dict
         if sample or comparison:
             raise SceneError(f"the results in '{folder}' are not of this ensemble: {sample or comparison}. Move them "
                              "elsewhere and run the ensemble with --resume, or with --overwrite.")
-        members.append(member_of(read_json(os.path.join(folder, "comparison.json")), folded))
+        record = read_json(os.path.join(folder, "comparison.json"))
+        checks[seed] = record.get("checks", [])  # an earlier version wrote none
+        members.append(member_of(record, folded))
     margins = {key: keys[key] for key in _MARGINS}
     found = evaluate(members, margins, validation.responses_of(scene, done, members, runs))
     first = summary_of(next(iter(done.values()))) if done else {}
     return {"format": 1, "scene": scene.name, **{key: ends[key] for key in _ENDS}, "margins": margins,
             "walk": scene.loading_variable(), "folded": folded,
             "student_t_95": student_quantile(0.975, n - 1) if n > 1 else math.nan,
-            "continuum_runs": runs, "summary": summaries.summary(first, found), **found}
+            "continuum_runs": runs, "summary": summaries.summary(first, found),
+            "checks": summaries.checks_of(checks), **found}
 
 
 def _write(scene: Any, record: dict[str, Any], options: Options, phase: tuple[str, os.times_result]) -> None:
@@ -155,6 +158,8 @@ def _write(scene: Any, record: dict[str, Any], options: Options, phase: tuple[st
                          columns=["quantity", *columns, *(f"seed_{seed}" for seed in record["done"])])
     write_text(os.path.join(directory, "ensemble.csv"), table.to_csv(index=False, float_format="%.10g",
                                                                      lineterminator="\n"))
+    write_text(os.path.join(directory, "summary.csv"), summaries.table_of(record).to_csv(
+        index=False, float_format="%.9g", lineterminator="\n"))
     (name, begin), end = phase, os.times()
     cost = (name, end.elapsed - begin.elapsed, sum(end[:4]) - sum(begin[:4]),  # with the CPU time of the workers
             resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
@@ -162,6 +167,7 @@ def _write(scene: Any, record: dict[str, Any], options: Options, phase: tuple[st
     _diptych.record_files(directory, "ensemble")
     if record["summary"]:
         say(options, summaries.text_of(record["summary"]))
+        say(options, summaries.text_of_checks(record["checks"]))
         say(options, _diptych.origin_of_law(scene.dict()["comparison"]["parameters_from"]))
 
 

@@ -4,8 +4,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
+
+import pandas as pd
 
 from ...entries import describe
 from ..runs.engine import columns_text
@@ -52,6 +55,13 @@ summary/: the numbers that a user asks for first, with the rows of the summary o
     continuum (interval) [as unit says]: mean of the continuum over the samples
     difference (interval) [as unit says]: mean of continuum minus grains, sample by sample
     verdict (text): equivalent, different or cannot tell, with the margin; or not in both panels
+checks/: limits within which the results of a member are reliable
+    key (text): place of the checked number in comparison.json
+    name (text): name of the checked number
+    limit: largest magnitude at which the results are reliable
+    reason (text): meaning of a value beyond the limit
+    n: number of members with the check
+    broken (list): seeds of the members that break it
 levels/: with --levels only: means of the grains in the limit of short steps
     cheap: discrete/accuracy of all samples
     fine: discrete/accuracy of the second run of some samples, the pairs
@@ -163,6 +173,36 @@ def summary(member: Mapping[str, dict[str, Any]], record: dict[str, Any]) -> lis
 
 def _mean(key: str, values: Sequence[float]) -> Interval:
     return (line_statistics if QUANTITIES[key]["difference"] == "line" else statistics)(values).interval()
+
+
+def checks_of(members: Mapping[int, Sequence[dict[str, Any]]]) -> list[dict[str, Any]]:
+    """The entry checks of ensemble.json. members: those of comparison.json by seed."""
+    every = [(seed, check) for seed, checks in members.items() for check in checks]
+    first = {check["key"]: check for _, check in reversed(every)}
+    return [{**{name: check[name] for name in ("key", "name", "limit", "reason")},
+             "n": sum(one["key"] == key for _, one in every),
+             "broken": [seed for seed, one in every if one["key"] == key and not one["kept"]]}
+            for key, check in sorted(first.items())]
+
+
+def text_of_checks(checks: Sequence[dict[str, Any]]) -> str:
+    """The count, and a line per check that a member breaks."""
+    broken = [one for one in checks if one["broken"]]
+    lines = [f"{one['name']}, limit {one['limit']:.2g}, in {len(one['broken'])} of {one['n']} samples: {one['reason']}"
+             for one in broken]
+    count = f"{len(broken)} of {len(checks)} checks fail" if broken else f"all {len(checks)} checks hold"
+    return "\n  ".join([count, *lines])
+
+
+def table_of(record: Mapping[str, Any]) -> pd.DataFrame:
+    """summary.csv, with the columns of a single run; the last row counts the checks."""
+    parts = ("grains", "continuum", "difference")
+    rows = [[row["quantity"], row["unit"], *(end for part in parts for end in row[part]), row["verdict"]]
+            for row in record["summary"]]
+    ends = [part + end for part in parts for end in ("", "_low", "_high")]
+    count = text_of_checks(record["checks"]).partition("\n")[0]
+    return pd.DataFrame([*rows, ["checks", "-", *[math.nan] * len(ends), count]],
+                        columns=["quantity", "unit", *ends, "verdict"])
 
 
 def text_of(rows: Sequence[dict[str, Any]]) -> str:

@@ -161,6 +161,7 @@ def add_summary(record: dict[str, Any], levels: dict[str, Any]) -> None:
     n_draws = len(record["continuum_runs"]["values"]) - 1
     for found in levels["quantities"]:
         verdict, row = verdicts[found["key"]], validation[found["key"]]
+        rows[found["key"]]["quantity"] += f" (accuracy {levels['cheap']:g})"
         parts = [(row["parts"]["mesh"], math.inf), (row["parts"]["load_step"], math.inf), (row["u_input"], n_draws - 1)]
         grains, difference, words = _compared(found, verdict, [part for part in parts if math.isfinite(part[0])])
         record["summary"].append({"key": found["key"], "quantity": found["quantity"] + IN_THE_LIMIT,
