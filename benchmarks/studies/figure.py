@@ -64,7 +64,7 @@ def main():
     for k, (title, draw) in enumerate(parts):
         axes = figure.add_subplot(rows, options.columns, k + 1)
         draw(axes)
-        axes.set_title(title, fontsize=9.5)
+        axes.set_title(title, fontsize=9.5, pad=18 if "sensitivity" in study.record else None)  # above the legend
     with_maps = not options.no_maps and "sensitivity" not in study.record
     letters = "; ".join(f"{look[2]} {name}" for name, look in CLASSES.items())
     words = f"{letters}; below: the error that is largest against its limit; ?: the samples leave a doubt"

@@ -179,11 +179,15 @@ def comparison_of_two_stages():
     first = dict(BAND, angle_deg=within(-45.0, -46.5, -43.5), jump=within(0.9, 0.8, 1.0), resamples=200,
                  lost_share=0.02)
     record["windows"] = [{"from": 0.0, "to": 0.01, "discrete": panel([first]),
-                          "continuum": panel([BAND, dict(BAND, angle_deg=44.0)])}]
+                          "continuum": panel([BAND, dict(BAND, angle_deg=44.0, diffuse=True)])}]
     record["continuum_coarse"] = {"element_size_d": 4.0, "windows": [{"from": 0.0, "to": 0.01, "bands": [BAND]}]}
     record["continuum_summary"] = {"element_size_d": 2.0, "platen_unbalance": 3e-4}
     record["discrete_summary"] = {"grains": 40, "residual_factor": None, "a_later_key": 1.5, "solver_noise": 0.0123,
                                   "initial_height": 8.0, "kinetic_energy_ratio_median": 1.2}
+    record["checks"] = [{"key": "discrete_summary/solver_noise", "name": "noise", "value": 0.0123, "limit": 0.03,
+                         "kept": True, "reason": "It is noise."},
+                        {"key": "discrete_summary/spin", "name": "spin", "value": 0.002, "limit": 0.001, "kept": False,
+                         "reason": "It spins."}]
     record["cost"] = {"discrete_cpu_s": 1.0}
     record["theory"] = {"coulomb_deg": 55.0, "roscoe_deg": 49.0, "arthur_deg": 52.0}
     rows = [{"width_d": width, "points": [{"name": "zone", "s": 1.5, "t_over_s": 0.3}], "scatter_s": 0.4,

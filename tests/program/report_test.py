@@ -80,7 +80,7 @@ class CompleteFolder(unittest.TestCase):
         self.assertIn("solid fraction", drawn["Continuum"])
 
     def test_both_panels_share_their_colour_limits(self):
-        # The 98th percentiles are 0.98 * 2 % (grains) and 0.98 * 8 % (continuum); the lower counts. Over axial strain
+        # The 98th percentiles are 0.98 * 2 % (grains) and 0.98 * 8 % (continuum); the grains count. Over axial strain
         # this is 1.96/0.5 in both stages and 1.96/1 in the window. The median 3.92 gives 1.96 % over 0.5 % and 3.92 %
         # over 1 %, rounded to two digits.
         self.assertEqual(self.increment("stage-1")["values"]["shear"]["discs"]["limits"], [0.0, 2.0])
@@ -159,13 +159,27 @@ class CompleteFolder(unittest.TestCase):
         self.assertEqual(row.group(1), "3.00")
 
     def test_a_summary_has_the_meanings_and_units_of_the_program(self):
-        # the initial height of 8 is shown in d; noise and unbalance have an expected value
+        # the initial height of 8 is shown in d
         self.assertRegex(self.words, r'initial height</th><td>8 d</td>')
-        self.assertRegex(self.words, r'grains: noise</th><td>0\.012</td><td>reliable below 0\.03</td>')
-        self.assertRegex(self.words, r'platen unbalance</th><td>3\.0 × 10⁻⁴</td><td>equilibrium: 0</td>')
+        self.assertRegex(self.words, r'platen unbalance</th><td>3\.0 × 10⁻⁴</td><td></td>')
+
+    def test_broken_checks_are_counted_on_top_and_marked(self):
+        top = self.words[:self.words.index("</header>")]
+        self.assertRegex(top, r'class="warning"><strong>1 of 2 checks fail</strong>: spin \(')
+        self.assertRegex(self.words, r'spin</th><td>0.002</td><td>0.001</td><td><span class="check broken">broken<')
+        self.assertRegex(self.words, r'noise</th><td>0.012</td><td>0.03</td><td><span class="check kept">kept<')
+        self.assertEqual(self.words.count("0.012"), 1, "a checked number stands in the table of the checks only")
+
+    def test_every_heading_is_in_the_contents(self):
+        links = re.findall(r'<a href="#(part-\d+)">(.*?)</a>', self.text)
+        self.assertEqual(links, re.findall(r'<h2[^>]* id="(part-\d+)">(.*?)</h2>', self.text))
+        self.assertGreater(len(links), 15)
+
+    def test_a_diffuse_zone_has_no_inclination(self):
+        self.assertRegex(self.words, r'<th scope="row">angle_deg</th><td>−45.0° \[[^<]*</td><td>−45.0°</td><td>diffuse</td>')
 
     def test_the_page_needs_no_other_file(self):
-        self.assertIsNone(re.search(r' (?:src|href)="(?!data:)', self.text))
+        self.assertIsNone(re.search(r' (?:src|href)="(?!data:|#)', self.text))
         self.assertIsNone(re.search(r"url\(|@import", self.text))
 
 

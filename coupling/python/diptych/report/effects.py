@@ -9,7 +9,7 @@ from matplotlib.ticker import FixedLocator, NullLocator
 from matplotlib.transforms import ScaledTranslation
 
 from . import studies as tables
-from .charts.style import CONTINUUM, DASHES, FAINT, GRAINS, INK, LINE_COLOURS, place_labels, ruled, svg
+from .charts.style import CONTINUUM, DASHES, FAINT, GRAINS, INK, LINE_COLOURS, legend_above, place_labels, ruled, svg
 from .page.writing import write
 from .studies import PANEL_WORDS, unit_of
 from .tables.wording import number, suffix, typeset
@@ -80,7 +80,7 @@ def _over_parameter(study, family, places, label):
     axes.set(xlabel=across["name"])
     axes.set_ylabel(textwrap.fill(label, 40), va="top")  # a second line goes to the right
     if len(drawn) > 1:
-        axes.legend(loc="best", fontsize=7.5, handlelength=2.2)
+        legend_above(axes, fontsize=8, handlelength=2.2)
     _set_limits(axes, positions, [point["quantities"][k] for _, k, _, points in drawn for _, point in points])
     return svg(figure, f"{label} over {across['name']}: means with 95 % intervals, samples as dots.")
 

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from ..files import read_json
-from .charts.style import CONTINUUM, GRAINS, INK, PANEL_LINES, THIRD, chart, limit_below, svg
+from .charts.style import CONTINUUM, GRAINS, INK, PANEL_LINES, THIRD, chart, legend_above, limit_below, svg
 from .data.files import read_csv
 from .data.numbers import loading_variable_of
 from .page.writing import write
@@ -60,7 +60,7 @@ def _chart(element, name, factor, label, caption):
         axes.plot(across, factor * law, color=CONTINUUM, linestyle=PANEL_LINES["continuum"], label="law")
     limit_below(axes, name == "volumetric_strain")
     axes.set_xlim(left=0)
-    axes.legend(loc="best")
+    legend_above(axes)
     return svg(figure, f"{label} along the path, grains and law."), caption
 
 
@@ -95,7 +95,7 @@ def _directions(element):
                       (element.curves[name] + 30) % 180 - 30, mark, color=colour, markersize=2.5, label=label)
     axes.set(ylim=(-30, 150), yticks=range(-30, 151, 30))
     axes.set_xlim(left=0)
-    axes.legend(loc="best")
+    legend_above(axes)
     return (svg(figure, "Directions along the path, grains and law."),
             "Directions from the horizontal: of the larger principal stress, and of most contact normals. They mean "
             "nothing where t/s or the anisotropy vanish.")

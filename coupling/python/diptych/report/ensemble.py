@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from ..files import member_folders, read_ensemble, read_json, stage_name, window_name
 from .charts import profiles
-from .charts.style import FAINT, INK, PANEL_COLOURS, PANEL_LINES, PANEL_MARKS, chart, ruled, svg
+from .charts.style import FAINT, INK, PANEL_COLOURS, PANEL_LINES, PANEL_MARKS, chart, legend_above, ruled, svg
 from .data.files import open_arrays, read_provenance, read_text, scene_value
 from .data.numbers import Descriptions, LoadingVariable, loading_variable_of
 from .data.panels import PANEL_NAMES
@@ -37,6 +37,7 @@ def draw(folder):
           validation=tables.validation_table(results), differences=differences(labelled), dots=marks, curves=lines,
           across=across, bands=tables.band_table(results), members=tables.members(results),
           quantities=tables.quantity_table(results), provenance=tables.provenance(results),
+          checks=tables.checks(results.record), regularised=_regularised(results.profile),
           fitted=scene_value(read_text(os.path.join(folder, "ensemble.prm")), "comparison", "parameters_from"))
 
 
@@ -82,6 +83,13 @@ def load(folder):
                               for panel in PANEL_NAMES for name, group in file.get(panel, {}).items()}
             results.profile = _profile(file, member)
     return results
+
+
+def _regularised(profile):
+    """The sentence on the couple stresses of the mean profiles, or ""."""
+    curves = [profile[panel]["couple_stress"][:, 0] for panel in PANEL_NAMES] if profile else []
+    known = [np.isfinite(curve).any() for curve in curves]
+    return profiles.regularisation([float(np.nanmax(np.abs(curve))) for curve in curves]) if known and all(known) else ""
 
 
 def _places(member, across):
@@ -190,5 +198,5 @@ def _curve(results, name, label, scale=1.0):
     axes.set_xlim(left=0)
     if name == "stress_ratio":
         axes.set_ylim(bottom=0)
-    axes.legend(loc="best")
+    legend_above(axes)
     return svg(figure, f"{label} of every seed, their mean and its 95 % interval, both panels.")

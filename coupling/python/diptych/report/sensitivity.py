@@ -47,10 +47,10 @@ def _chart(one, names):
     """First and total indices of one quantity with their intervals, the largest total index on top. names: {key:
     label}."""
     ranked = by_total(one)
-    height = 0.6 + 0.33 * len(ranked)
+    height = 0.85 + 0.33 * len(ranked)
     left = (0.15 + 0.065 * max(map(len, names.values()))) / 4.5
     figure = Figure(figsize=(4.5, height))
-    draw_indices(figure.add_axes([left, 0.5 / height, 0.97 - left, 1 - 0.55 / height]), ranked, names)
+    draw_indices(figure.add_axes([left, 0.5 / height, 0.97 - left, 1 - 0.8 / height]), ranked, names)
     return svg(figure, f"First and total Sobol indices of {one['quantity']}, {one['panel']}, with 95 % intervals.")
 
 
@@ -65,7 +65,8 @@ def draw_indices(axes, ranked, names):
                       label=None if k else label)
     axes.set(xlim=(-0.02, 1.02), ylim=(len(ranked) - 0.5, -0.5), xlabel="share of the variance")
     axes.set_yticks(range(len(ranked)), [names[p["parameter"]] for p in ranked])
-    axes.legend(loc="lower right", fontsize=8, handletextpad=0.3)
+    axes.legend(loc="lower right", bbox_to_anchor=(1, 1), ncol=2, fontsize=8, handletextpad=0.3, borderaxespad=0.1,
+                borderpad=0.1)
 
 
 def _indices(one, names):

@@ -120,7 +120,7 @@ def draw_error_against_cost(axes, study, place, reference):
         axis.set_major_locator(LogLocator(subs=(1, 2, 5) if ends[1] < FEW * ends[0] else (1,)))
         axis.set_major_formatter("{x:g}")
         axis.set_minor_formatter("")
-    axes.legend(loc="best", fontsize=7.5, handlelength=1.6)
+    axes.legend(loc="best", fontsize=8, handlelength=1.6)
     return True
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from ... import _diptych
 from ...errors import SceneError
 from ..runs.histories import path_bins
-from ..runs.input_file import Setting, seeds_of_line
+from ..runs.input_file import Setting, read_seeds, seeds_of_line
 
 # Fixed keys and parameters are those of benchmarks/calibration/reference.
 SET = {"hardening": "mobilisation", "softening_strain": 0.3, "cohesion": 0.01}

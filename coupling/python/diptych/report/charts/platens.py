@@ -5,7 +5,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from .style import GRAINS, PANEL_COLOURS, PANEL_LINES, PANEL_MARKS, place_labels, ruled, svg
+from .style import GRAINS, PANEL_COLOURS, PANEL_LINES, PANEL_MARKS, legend_above, place_labels, ruled, svg
 from ..data.numbers import plain
 from ..data.panels import PANEL_NAMES
 
@@ -44,5 +44,5 @@ def _over(panels, name, label, words, law=None):
         slip = np.linspace(*axes.get_xlim(), 100)
         axes.plot(slip, law[0] * np.tanh(slip / (law[0] * law[1])), color=GRAINS, linewidth=0.8)
         caption += f" Line: {law[0]:.2g} tanh(slip / ({law[0]:.2g} × {law[1]:.3g} d)), fitted to these grains alone."
-    axes.legend(loc="best")
+    legend_above(axes)
     return svg(figure, f"{RATIO} of both panels {words}."), caption

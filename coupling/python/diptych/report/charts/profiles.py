@@ -10,13 +10,14 @@ from ..data.numbers import interval, plain
 from ..data.panels import PANEL_NAMES
 
 # array -> label of its axis, number of the profile that belongs to it and its name
-ROWS = {"relative_rotation": ("rotation (rad)", "rotation_amplitude", "rotation − spin, amplitude"),
+ROWS = {"relative_rotation": ("rotation (rad)", "rotation_amplitude", "rotation − spin,"),
         "couple_stress": ("couple stress (P d)", "couple_stress_peak", "peak"),
         "solid_fraction": ("solid fraction", "loosening", "loosening"),
         "velocity_fluctuation": ("rms fluctuation / platen", None, "")}
 NONE = {"velocity_fluctuation": "a continuum has no fluctuations"}
 CLASSICAL = "a classical continuum has none"
-HEIGHT = 7.85  # of the figure [inch]
+HEIGHT = 8.65  # of the figure [inch]
+MOST_ALIKE = 10  # ratio of the couple stresses beyond which the page says that the mechanisms differ
 
 
 def pair(increment):
@@ -29,8 +30,21 @@ def pair(increment):
     angles = [f"{PANEL_NAMES[panel].lower()} {signed(format(numbers[panel]['angle_deg'], '.1f'))}°"
               for panel in PANEL_NAMES
               if "angle_deg" in numbers[panel]]
+    couples, turns = ([plain(numbers[panel].get(key)) for panel in PANEL_NAMES]
+                      for key in ("couple_stress_peak", "rotation_amplitude"))
     return Pair(*[_panel(panel, curves[panel], numbers[panel], limits, increment.title) for panel in PANEL_NAMES],
-                caption=f"Profile across a band of inclination: {', '.join(angles)}; {increment.title}.")
+                caption=f"Profile across a band of inclination: {', '.join(angles)}; {increment.title}."
+                + regularisation(couples, turns))
+
+
+def regularisation(couples, turns=(None, None)):
+    """A sentence if the couple stress of the continuum is not that of the grains. couples, turns: numbers of grains and
+    continuum or None."""
+    if None in couples or not abs(couples[1]) > MOST_ALIKE * abs(couples[0]):
+        return ""
+    more = "" if None in turns else f", rotation − spin {turns[0]:.2g} and {turns[1]:.2g} rad"
+    return signed(f" The internal length regularises the law and is no mechanism of these grains: couple stress "
+                  f"{couples[0]:.2g} P d in the grains and {couples[1]:.2g} P d in the continuum{more}.")
 
 
 def of_means(curves, title):
@@ -47,27 +61,26 @@ def _curves(arrays, panel):
 
 
 def _limits(curves):
-    """{row: (low, high)} that hold both panels, with room for the legend."""
+    """{row: (low, high)} that hold both panels."""
     limits = {}
     for name in ROWS:
         keys = (name, "spin") if name == "relative_rotation" else (name,)
         drawn = [one[key] for one in curves.values() for key in keys]
         known = np.concatenate([values[np.isfinite(values)] for values in drawn])
         margin = 0.08 * (np.ptp(known) or 1) if len(known) else 0.1
-        room = (6 if name == "relative_rotation" else 4) * margin
-        limits[name] = (known.min() - margin, known.max() + room) if len(known) else (0, 1)
+        limits[name] = (known.min() - margin, known.max() + margin) if len(known) else (0, 1)
     return limits
 
 
 def _panel(panel, curves, numbers, limits, title):
-    boxes = [[0.175, 1 - (0.3 + (k + 1) * 1.66 + k * 0.14) / HEIGHT, 0.805, 1.66 / HEIGHT] for k in range(len(ROWS))]
+    boxes = [[0.175, 1 - (0.5 + (k + 1) * 1.66 + k * 0.32) / HEIGHT, 0.805, 1.66 / HEIGHT] for k in range(len(ROWS))]
     figure, every = frame("profiles", (4.5, HEIGHT), boxes)
     x, colour = curves["distance"], PANEL_COLOURS[panel]
     for (name, (label, key, word)), axes in zip(ROWS.items(), every):
         value, low, high = curves[name].T
         if name == "relative_rotation":
             axes.plot(x, curves["spin"][:, 0], color=INK, linewidth=0.9, linestyle=(0, (4, 2)),
-                      label="spin of the material")
+                      label="spin")
         if np.isfinite(value).any():
             known = np.isfinite(low) & np.isfinite(high)
             axes.fill_between(x, low, high, where=known, color=colour, alpha=0.25, linewidth=0)
@@ -80,8 +93,9 @@ def _panel(panel, curves, numbers, limits, title):
         axes.yaxis.set_label_coords(-0.17, 0.5)
         axes.tick_params(labelbottom=axes is every[-1])
         if axes.get_legend_handles_labels()[0]:
-            axes.legend(loc="upper left", handlelength=1.2, fontsize=6.5)
-    every[0].set_title(PANEL_NAMES[panel], loc="left", fontweight="bold")
+            axes.legend(loc="lower left", bbox_to_anchor=(-0.2, 1), ncol=2, handlelength=1.2, fontsize=8,
+                        borderaxespad=0.1, borderpad=0.1, columnspacing=1)
+    every[0].set_title(PANEL_NAMES[panel], loc="left", fontweight="bold", pad=18)
     every[-1].set_xlabel("distance from the band / d")
     return svg(figure, f"{PANEL_NAMES[panel]}: rotation minus spin, couple stress, solid fraction and fluctuation of "
                f"velocity over the distance from the band, with 95 % intervals, {title}.")

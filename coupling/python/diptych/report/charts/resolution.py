@@ -3,7 +3,7 @@
 
 from matplotlib.figure import Figure
 
-from .style import FAINT, GRAINS, INK, THIRD, ruled, svg
+from .style import FAINT, GRAINS, INK, THIRD, legend_above, ruled, svg
 from ..data.numbers import plain
 
 LOOKS = ((GRAINS, "o", "-"), (INK, "s", (0, (5, 1.5))), (THIRD, "^", (0, (2, 1.2))))
@@ -52,10 +52,9 @@ def _points(rows, key, words, study, stress):
                       if p.get("name") == name and plain(p.get(quantity)) is not None]
             if points:
                 axes.plot(*zip(*points), color=colour, marker=mark, markersize=4, linestyle=dashes, label=name)
-        low, high = axes.get_ylim()
-        axes.set_ylim(min(low, 0), high + 0.12 * (high - min(low, 0)))
+        axes.set_ylim(bottom=min(0, axes.get_ylim()[0]))
         if k == 0:
-            axes.legend(loc="lower right", ncol=3)
+            legend_above(axes, 3)
     axes.set_xlabel(words)
     return svg(figure, f"Mean stress and stress ratio at {len(names)} points against the {words}.")
 
@@ -71,5 +70,5 @@ def _scatter(rows, key, words, study):
         return None
     _ticks(axes, [row[key] for row in rows])
     axes.set(xlabel=words, ylabel="scatter (% of the mean)", ylim=(0, None))
-    axes.legend(loc="upper right")
+    legend_above(axes)
     return svg(figure, f"Scatter of mean and deviatoric stress over the sample against the {words}.")

@@ -68,6 +68,21 @@ def chart(result, label):
     return figure, axes
 
 
+def legend_above(axes, n_columns=2, **look):
+    """Puts the legend above the axes, where it lies on no data. The figure grows by its rows."""
+    figure, rows = axes.figure, -(-len(axes.get_legend_handles_labels()[0]) // n_columns)
+    if not rows:
+        return
+    width, height = figure.get_size_inches()
+    taller = height + 0.19 * rows
+    figure.set_size_inches(width, taller)
+    for one in figure.axes:
+        left, bottom, across, up = one.get_position().bounds
+        one.set_position([left, bottom * height / taller, across, up * height / taller])
+    axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncol=n_columns, borderaxespad=0.1, borderpad=0.1,
+                labelspacing=0.2, columnspacing=1.2, **look)
+
+
 def logarithmic(axes):
     """Decades as plain numbers without minor ticks; formulas and minor ticks would take most of the time."""
     if axes.get_yscale() != "log":

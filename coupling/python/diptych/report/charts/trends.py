@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Every figure is over the loading, for both panels, with the 95 % intervals of the comparison."""
 
-from .style import FAINT, INK, PANEL_COLOURS, PANEL_MARKS, THIRD, chart, svg, with_intervals
+from .style import FAINT, INK, PANEL_COLOURS, PANEL_MARKS, THIRD, chart, legend_above, svg, with_intervals
 from ..data.numbers import plain, scaled
 from ..data.panels import PANEL_NAMES, THEORY
 
@@ -42,19 +42,17 @@ def _inclination(result):
         angle = plain(result.part("theory").get(key))
         if angle is not None:
             axes.axhline(angle, color=INK, linewidth=1, linestyle=DASHES[key], label=f"{name} {angle:.1f}°")
-    low, high = axes.get_ylim()
-    axes.set_ylim(low - 1, high + 0.45 * (high - low) + 2)
-    axes.legend(loc="upper right", ncol=2, fontsize=8)
+    legend_above(axes)
     return svg(figure, "Angle between band and minor principal stress against the loading, with theory lines."), caption
 
 
 def _width(result):
-    caption = "Width of the first band, in current coordinates. Bars: 95 % intervals by block bootstrap, if known."
+    caption = "Width of the first band, in current coordinates. Bars: 95 % intervals of the grains by block bootstrap."
     figure, axes = chart(result, "10–90 % width of the band (d)")
     if not _points(axes, result, lambda stage, panel: strongest_band(stage, panel).get("width_10_90_d")):
         return None, caption
-    axes.set_ylim(0, 1.25 * axes.get_ylim()[1])
-    axes.legend(loc="upper right", ncol=2)
+    axes.set_ylim(bottom=0)
+    legend_above(axes)
     return svg(figure, "10–90 % width of the first band against the loading, both panels."), caption
 
 
@@ -73,7 +71,7 @@ def _dissipation(result):
     if area:
         axes.plot(*zip(*area), color=FAINT, linestyle="--", linewidth=1.2, label="share of the area")
     axes.set_ylim(0, 100)
-    axes.legend(loc="best")
+    legend_above(axes, 3)
     return svg(figure, "Share of dissipation inside the band of the grains against the loading, both panels."), caption
 
 
@@ -96,5 +94,5 @@ def _stress_difference(result):
         return None, caption
     axes.set_xlim(left=0)
     axes.set_ylim(bottom=0)
-    axes.legend(loc="best", title="size of the cells", title_fontsize=8.5, ncol=3)
+    legend_above(axes, 3)
     return svg(figure, "Relative difference of the stress against the loading at three sizes of cell."), caption

@@ -103,6 +103,10 @@ class Result:
         """A group of the comparison, or {}."""
         return self.comparison.get(key) or {}
 
+    def check(self, key):
+        """The check of a number by its place in the comparison, or {}."""
+        return next((one for one in self.comparison.get("checks", []) if one["key"] == key), {})
+
     def history(self, panel, name):
         """(progress as shown, values) of the rows with finite numbers; None: no such column, or fewer than two rows."""
         progress, values = self.histories[panel]["progress"], self.histories[panel].get(name)

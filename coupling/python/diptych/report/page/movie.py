@@ -6,7 +6,7 @@ import os
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.cm import ScalarMappable
-from matplotlib.collections import EllipseCollection, PolyCollection
+from matplotlib.collections import EllipseCollection
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from PIL import Image
@@ -36,8 +36,8 @@ def draw(folder):
 
 
 def _frame(result, stage, limits_of_axes, scale):
-    """Grains as discs on the left, cells of the continuum on the right; both coloured by the shear strain that the
-    stage adds."""
+    """Grains as discs on the left, the continuum on the right; both coloured by the shear strain that the stage
+    adds."""
     x0, x1, y0, y1 = limits_of_axes
     width = 4.0
     height = width * (y1 - y0) / (x1 - x0)
@@ -49,8 +49,7 @@ def _frame(result, stage, limits_of_axes, scale):
         axes.axis("off")
         axes.set_title(name, fontweight="bold")
         values = SHEAR.values(stage, result, SHEAR.home, panel)
-        shapes = axes.add_collection(_shapes(axes, stage, panel, norm=scale, cmap=SHEAR.colour_map))
-        shapes.set_array(np.ma.masked_invalid(values))
+        (_discs if panel == "discrete" else _smooth)(axes, stage, values, norm=scale, cmap=SHEAR.colour_map)
     bar = figure.add_axes([2 * width / of[0], 0.15, 0.18 / of[0], 0.6])
     figure.colorbar(ScalarMappable(scale, SHEAR.colour_map), cax=bar, extend="max", label=SHEAR.label(result))
     across = stage.loading_variable
@@ -61,9 +60,18 @@ def _frame(result, stage, limits_of_axes, scale):
     return Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB").quantize(128)
 
 
-def _shapes(axes, stage, panel, **look):
-    if panel == "continuum":
-        return PolyCollection(stage.arrays["cells/corners"], edgecolors="face", linewidths=0.2, **look)
+def _discs(axes, stage, values, **look):
     size = 2 * stage.arrays["discrete/radius"]
-    return EllipseCollection(size, size, 0 * size, units="xy", offsets=stage.arrays["discrete/position"],
-                             offset_transform=axes.transData, linewidths=0, **look)
+    shapes = axes.add_collection(EllipseCollection(
+        size, size, 0 * size, units="xy", offsets=stage.arrays["discrete/position"], offset_transform=axes.transData,
+        linewidths=0, **look))
+    shapes.set_array(np.ma.masked_invalid(values))
+
+
+def _smooth(axes, stage, values, **look):
+    """Colours between nodes; the value of a node is the mean over its cells."""
+    nodes, cells = np.unique(stage.arrays["cells/corners"].reshape(-1, 2), axis=0, return_inverse=True)
+    of_node = np.bincount(cells, np.repeat(values, 4)) / np.bincount(cells)
+    corners = cells.reshape(-1, 4)
+    triangles = np.concatenate([corners[:, :3], corners[:, [0, 2, 3]]])
+    axes.tripcolor(*nodes.T, triangles, of_node, shading="gouraud", **look)

@@ -144,9 +144,9 @@ def limits(quantity, place, increments, result):
     """Function increment -> (low, high), the same rule for both panels and all instants; None: nothing is stored.
 
     Limits are medians over the increments of the 2nd and 98th percentiles, so that no single instant sets the scale,
-    and means over the panels. A strain increment is scaled by its range of progress, and the lower percentile of the
-    two panels counts. A band of one element then saturates, which the arrow of the bar shows, and does not hide the
-    wider band of the grains.
+    and means over the panels. A strain increment is scaled by its range of progress, and the percentile of the grains
+    counts. A band of one element then saturates, which the arrow of the bar shows, and does not hide the wider band of
+    the grains. Without a band, the grains scatter about the strain of the continuum, and keep their colours.
     """
     if not _offered(quantity, place, increments, result):
         return None
@@ -157,9 +157,9 @@ def limits(quantity, place, increments, result):
         sets = [np.abs(values) if quantity.signed else values for values in sets if len(values)]
         if sets:
             # One percentile per panel: both weigh the same for any number of grains or cells.
-            join = np.min if quantity.per_progress and quantity.from_zero else np.mean
-            lows.append(join([np.percentile(values, 2) for values in sets]))
-            highs.append(join([np.percentile(values, 98) for values in sets]))
+            used = sets[:1] if quantity.per_progress and quantity.from_zero else sets
+            lows.append(np.mean([np.percentile(values, 2) for values in used]))
+            highs.append(np.mean([np.percentile(values, 98) for values in used]))
     if not highs:
         return None
     high = float(np.median(highs))

@@ -35,6 +35,8 @@ def _band_cell(result, band, place):
     key = place.rsplit("/", 1)[-1]
     if isinstance(band, str):
         return band if key == BAND_KEYS[0] else "–"
+    if key == BAND_KEYS[0] and band.get("diffuse"):
+        return "diffuse"
     return shown(result.numbers, place, band.get(key))
 
 
@@ -49,7 +51,7 @@ def notes(result, increment):
     if any(interval(band.get("angle_deg")) for band in every):
         found.append("In brackets: 95 % intervals by block bootstrap" + (
             f" with {'/'.join(map(str, sorted(samples)))} samples" if samples else "")
-            + ". Difference: continuum − grains; for "
+            + ". The continuum has none: nothing in it is random. Difference: continuum − grains; for "
             "inclinations the rotation from the band of the grains to that of the continuum, positive anticlockwise.")
     lost = round(100 * max((plain(band.get("lost_share")) or 0.0 for band in every), default=0.0))
     if lost > 0:
@@ -127,5 +129,5 @@ def stages(result):
 
 
 def _of_bands(result, stage, panel, key):
-    texts = [shown(result.numbers, f"stages/{panel}/bands/{key}", band.get(key)) for band in stage.bands(panel)]
+    texts = [_band_cell(result, band, f"stages/{panel}/bands/{key}") for band in stage.bands(panel)]
     return "; ".join(texts) or "diffuse"

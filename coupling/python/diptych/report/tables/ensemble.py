@@ -4,7 +4,6 @@
 import os
 
 from ..._diptych import key_quantities
-from ...arrays import ends_text
 from ...files import key_of_band, member_folders, number_name
 from ..data.panels import PANEL_NAMES
 from .wording import DECIMALS, UNBROKEN, ending, fixed, number, rounded, shown_unit
@@ -32,29 +31,26 @@ def panel_quantities(results, verdict):
     return {p: results.quantities.get(number_name(p, verdict["key"], verdict["window"])) for p in PANEL_NAMES}
 
 
-def with_interval(record, unit):
-    """"16.9 [14.7, 19.1] d", with the unit once so that columns stay narrow."""
-    if record is None or record["mean"] is None:
-        return "–"
-    ends = ends_text(record["low"], record["high"], lambda end: fixed(end, unit))
-    return fixed(record["mean"], unit) + ends + ending(unit)
-
-
 def verdict_rows(results):
-    """One row per verdict: text, means, difference, intervals, margin, pairs, verdict."""
+    """One row per verdict: text, difference, 90 % interval, margin, pairs, verdict."""
     rows = []
     for verdict in results.record["verdicts"]:
         own_unit = unit_of(results, verdict)
         unit, decimals = ("%", 1) if verdict["relative"] else (own_unit, DECIMALS.get(own_unit, 3))
-        means = panel_quantities(results, verdict)
         margin = 100 * verdict["margin"] if unit == "%" else verdict["margin"]
         rows.append({
             "text": text_of(results, verdict), "relative": verdict["relative"],
-            "means": [with_interval(means[p], own_unit) for p in PANEL_NAMES],
             "difference": _signed(verdict["difference"]["value"], unit, decimals, ending(unit)),
-            "intervals": [_ends(verdict[key], unit, decimals) for key in ("difference_90", "difference")],
+            "interval": _ends(verdict["difference_90"], unit, decimals),
             "margin": "± " + number(margin) + ending(unit), "n": verdict["n"], "verdict": verdict["verdict"]})
     return rows
+
+
+def checks(record):
+    """Rows of the checks, the broken ones first: name, share of the samples, limit, "kept" or "broken", reason."""
+    rows = sorted(record.get("checks", []), key=lambda one: not one["broken"])
+    return [[one["name"], f"{len(one['broken'])} of {one['n']}", number(one["limit"], "", 2),
+             "broken" if one["broken"] else "kept", one["reason"]] for one in rows]
 
 
 def validation_table(results):

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 from ..data.numbers import plain
-from .wording import EXPECTED, NULLS, ORDER, number, shown_unit, suffix, typeset
+from .wording import NULLS, ORDER, number, shown_unit, suffix, typeset
 
 LEFT_OUT = ("law", "parameters_from")  # shown elsewhere on the page
 
@@ -16,17 +16,18 @@ def first(record):
 
 
 def table(result, part):
-    """Rows of a group of the comparison: meaning, number, expected value. Empty texts are left out."""
-    rows = []
-    values = result.part(part)
+    """Rows of a group of the comparison: meaning and number. Empty texts are left out, and numbers of the summary and
+    of the checks, which the page has already."""
+    rows, values = [], result.part(part)
+    elsewhere = {f"{part}/{row['key']}" for row in result.comparison.get("summary", [])} | {
+        one["key"] for one in result.comparison.get("checks", [])}
     for key in sorted(values, key=lambda name: (ORDER.index(name) if name in ORDER else len(ORDER), name)):
         value = values[key]
         is_group = isinstance(value, list) or (isinstance(value, dict) and "value" not in value)
-        if key in LEFT_OUT or value == "" or is_group:
-            continue
         place = f"{part}/{key}"
-        rows.append([result.numbers.meaning(place), _text(result, place, key, value), EXPECTED.get(key, "")])
-    return {"head": ["", "value", "expected"], "rows": rows}
+        if key not in LEFT_OUT and value != "" and not is_group and place not in elsewhere:
+            rows.append([result.numbers.meaning(place), _text(result, place, key, value)])
+    return {"head": ["", "value"], "rows": rows}
 
 
 def _text(result, place, key, value):

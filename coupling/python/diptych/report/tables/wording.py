@@ -1,9 +1,8 @@
-# diptych: numbers as text, and their expected values
+# diptych: numbers as text
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A number may carry an interval: {"value", "low", "high"}. Unit "%" multiplies by 100, others are appended.
 
-Meanings and units come from the list of numbers of the comparison. This file adds expected values and the form of
-numbers.
+Meanings and units come from the list of numbers of the comparison. This file adds the form of numbers.
 """
 
 import math
@@ -40,25 +39,6 @@ ORDER = ("grains", "cells", "unknowns", "element_size_d", "preparation_solid_fra
          "platen_difference_share_below_1_percent", "platen_difference_mean", "platen_difference_largest", "contacts",
          "coordination_number", "rattlers", "preparation_cpu_s", "discrete_cpu_s", "continuum_cpu_s",
          "comparison_cpu_s", "peak_memory_mb")
-
-# key -> expected value
-EXPECTED = {
-    "mean_inertial_number": "quasi-static: well below 10⁻³",
-    "solver_noise": "reliable below 0.03",
-    "internal_length_d": "local laws have none; the mesh sets their band",
-    "viscous_share": "rate independent: 0",
-    "unstable_share": "0, unless the law softens while it contracts",
-    "platen_unbalance": "equilibrium: 0",
-    "share_zz_not_intermediate": "below 5 %; elsewhere the in-plane yield surface is approximate",
-    "max_penetration_d": "rigid grains: 0",
-    "impact_share": "6 % where the strength is right to 0.5 %, 15 % at 3 % (no restitution; less in slow flow)",
-    "energy_residual": "closed balance: 0",
-    "momentum_residual": "closed balance: 0",
-    "spin_term_share": "Moreau (1997): below 10⁻³",
-    "kinetic_energy_ratio_median": "slow: below 2",
-    "platen_difference_share_below_1_percent": "98 % or more",
-    "platen_difference_mean": "Moreau (1997): below 1 %",
-}
 
 # key -> meaning of null
 NULLS = {"internal_length_d": "none", "localisation_strain": "never", "localisation_angle_deg": "–"}

@@ -126,6 +126,33 @@ function drawCells(view, id, numbers, map, limits) {
   }
 }
 
+// Colours between the nodes; the value of a node is the mean over its cells. Each cell is drawn in n x n parts.
+function drawSmooth(view, id, numbers, map, limits) {
+  const corners = values(id), c = view.c, known = new Map(), count = numbers.length;
+  const nodeOf = (k, i) => corners[8 * k + 2 * i] + "," + corners[8 * k + 2 * i + 1];
+  for (let k = 0; k < count; ++k)
+    for (let i = 0; numbers[k] === numbers[k] && i < 4; ++i) {
+      const [sum, n] = known.get(nodeOf(k, i)) || [0, 0];
+      known.set(nodeOf(k, i), [sum + numbers[k], n + 1]);
+    }
+  const n = Math.max(2, Math.min(6, Math.floor(Math.sqrt(20000 / count))));
+  const between = (four, s, t) => (1 - t) * ((1 - s) * four[0] + s * four[1]) + t * ((1 - s) * four[3] + s * four[2]);
+  c.lineWidth = 0.6;
+  for (let k = 0; k < count; ++k) {
+    const [x, y] = [0, 1].map((axis) => [0, 2, 4, 6].map((i) => corners[8 * k + i + axis]));
+    const four = [0, 1, 2, 3].map((i) => known.get(nodeOf(k, i)) || [NaN, 1]).map(([sum, cells]) => sum / cells);
+    for (let part = 0; part < n * n; ++part) {
+      const s = part % n / n, t = Math.floor(part / n) / n, h = 1 / n;
+      c.fillStyle = c.strokeStyle = colourOf(map, limits, between(four, s + h / 2, t + h / 2));
+      const ends = [[s, t], [s + h, t], [s + h, t + h], [s, t + h]];
+      path(view, ends.map(([a, b]) => [between(x, a, b), between(y, a, b)]));
+      c.closePath();
+      c.fill();
+      c.stroke();
+    }
+  }
+}
+
 function drawOutline(view, increment) {
   pen(view.c, INK, 0.7);
   for (const side of increment.outline) {

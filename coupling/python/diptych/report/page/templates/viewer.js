@@ -23,7 +23,7 @@ function drawQuantity(view, increment, panel, canvas) {
   const { limits, numbers, discs, cells } = shown(increment, panel, chosen.quantity, chosen.place);
   if (!numbers) return "";
   if (discs) drawDiscs(view, increment.discs, numbers, chosen.quantity.map, limits);
-  else drawCells(view, cells, numbers, chosen.quantity.map, limits);
+  else (chosen.place === "discs" ? drawSmooth : drawCells)(view, cells, numbers, chosen.quantity.map, limits);
   drawOutline(view, increment);
   drawBands(view, increment, panel, true);
   Object.assign(canvas.dataset, { quantity: chosen.quantity.key, low: limits[0], high: limits[1] });
