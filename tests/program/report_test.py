@@ -166,8 +166,8 @@ class CompleteFolder(unittest.TestCase):
     def test_broken_checks_are_counted_on_top_and_marked(self):
         top = self.words[:self.words.index("</header>")]
         self.assertRegex(top, r'class="warning"><strong>1 of 2 checks fail</strong>: spin \(')
-        self.assertRegex(self.words, r'spin</th><td>0.002</td><td>0.001</td><td><span class="check broken">broken<')
-        self.assertRegex(self.words, r'noise</th><td>0.012</td><td>0.03</td><td><span class="check kept">kept<')
+        self.assertRegex(self.words, r'spin</th><td>0.002</td><td>0.001</td><td class="broken">broken<')
+        self.assertRegex(self.words, r'noise</th><td>0.012</td><td>0.03</td><td class="kept">kept<')
         self.assertEqual(self.words.count("0.012"), 1, "a checked number stands in the table of the checks only")
 
     def test_every_heading_is_in_the_contents(self):

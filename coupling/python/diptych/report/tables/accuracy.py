@@ -24,10 +24,11 @@ def table(result):
 
 
 def checks(result):
-    """Rows of the checks, the broken ones first: name, value, limit, "kept" or "broken", reason."""
+    """Rows: name, value, limit, "kept" or "broken", reason; the broken ones first."""
     rows = sorted(result.comparison.get("checks", []), key=lambda one: one["kept"])
-    return [[one["name"], number(one["value"], "", 2), number(one["limit"], "", 2),
-             "kept" if one["kept"] else "broken", one["reason"]] for one in rows]
+    return {"head": ["", "value", "limit", "", "beyond the limit"],
+            "rows": [[one["name"], number(one["value"], "", 2), number(one["limit"], "", 2),
+                      "kept" if one["kept"] else "broken", one["reason"]] for one in rows]}
 
 
 def _row(result, part, key, digits=4):

@@ -47,10 +47,11 @@ def verdict_rows(results):
 
 
 def checks(record):
-    """Rows of the checks, the broken ones first: name, share of the samples, limit, "kept" or "broken", reason."""
+    """Rows: name, samples beyond the limit, limit, "kept" or "broken", reason; the broken ones first."""
     rows = sorted(record.get("checks", []), key=lambda one: not one["broken"])
-    return [[one["name"], f"{len(one['broken'])} of {one['n']}", number(one["limit"], "", 2),
-             "broken" if one["broken"] else "kept", one["reason"]] for one in rows]
+    return {"head": ["", "samples beyond", "limit", "", "beyond the limit"],
+            "rows": [[one["name"], f"{len(one['broken'])} of {one['n']}", number(one["limit"], "", 2),
+                      "broken" if one["broken"] else "kept", one["reason"]] for one in rows]}
 
 
 def validation_table(results):
