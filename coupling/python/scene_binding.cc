@@ -141,6 +141,14 @@ namespace diptych::python
                keys[py::str(key)] = because;
              return keys;
            })
+      .def("law_parameters",
+           [](const coupling::Scene &scene) { // law.NAME, value, ends of its range: of a library
+             py::list found;
+             const continuum::LawParameters &all = scene.continuum.material.library.parameters;
+             for (const continuum::LawParameter &one : all.list)
+               found.append(py::make_tuple(all.prefix + one.name, one.value, one.range[0], one.range[1]));
+             return found;
+           })
       .def("stages", [](const coupling::Scene &scene) { return coupling::stages(scene.loading); });
     m.def("read_scene", read, py::arg("file"), py::arg("changes"), py::arg("compares"));
     m.def("described_keys", described);

@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Only reads files; nothing runs."""
 
+import itertools
 import os
+import subprocess
 
 import numpy as np
 import pytest
@@ -10,7 +12,9 @@ from conftest import QUICK, SOURCE
 
 import diptych
 from diptych.campaigns.calibration.calibration_file import read_calibration, read_curve
-from diptych.campaigns.calibration.standard import standard_calibration
+from diptych.campaigns.calibration.observations import read_target
+from diptych.campaigns.calibration.reading import checked
+from diptych.campaigns.calibration.standard import PARAMETERS, standard_calibration
 from diptych.campaigns.runs.input_file import Setting
 
 CURVE = """# drained biaxial test
@@ -76,3 +80,54 @@ def test_a_point_has_neither_band_nor_length_and_its_bins_end_where_the_path_tur
     assert contents["bins"] == pytest.approx([1 / 3, 2 / 3, *np.arange(1, 3.01, 1 / 6)], rel=1e-5)
     assert "internal_length" not in [p["key"] for p in contents["parameters"]]
     assert contents["quantities"] == ["stress_ratio", "volumetric_strain"] and contents["load_step"] == 0.00125
+
+
+def law_of(**keys):
+    return [Setting("continuum", key, str(value), "") for key, value in keys.items()]
+
+
+@pytest.mark.parametrize("hardening", PARAMETERS)
+def test_the_law_of_the_scene_stays_and_no_point_between_the_bounds_is_refused(hardening):
+    """The corners of the bounds are the hardest points; 0.87 is denser than discs of two sizes pack."""
+    settings = law_of(law="drucker_prager", hardening=hardening, cohesion=0.02, softening_strain=0.1)
+    c = read_calibration(QUICK, standard_calibration(QUICK, "1-2", settings))
+    there, density = checked(c), 0.87
+    there.others["solid_fraction_start"] = density
+    for corner in itertools.product((0, 1), repeat=len(there)):
+        point = there.settings(np.array(corner), c.targets[0].name)
+        keys = read_target(c.targets[0], [*law_of(solid_fraction_start=density), *c.fixed, *point]).dict()["continuum"]
+    assert (keys["hardening"], keys["cohesion"], keys["softening_strain"]) == (hardening, 0.02, 0.1)
+
+
+def test_a_dilatancy_ratio_above_the_least_gives_a_dilatancy_below_the_friction():
+    """t/s of 0.26 + 5.5 0.82 ln(0.86/0.82) = 0.4748 is possible: the ratio is at least 1 - 0.26/0.4748 = 0.4524."""
+    c = read_calibration(QUICK, standard_calibration(QUICK, "1-2", law_of(hardening="critical_state")))
+    there = checked(c)
+    there.others["solid_fraction_start"] = 0.86
+    values = dict(zip([p.key for p in c.parameters], there.values(there.start)))
+    assert values["dilatancy_ratio"] == pytest.approx(0.4524 + 0.25, abs=1e-4)
+
+
+def test_laws_without_standard_parameters_are_refused_and_libraries_give_their_own(tmp_path):
+    table = law_of(hardening="table", table_strain="0, 1", table_friction_angle="20, 20",
+                   table_dilatancy_angle="5, 0", table_cohesion="0, 0")
+    with pytest.raises(diptych.SceneError, match="table has no standard parameters"):
+        standard_calibration(QUICK, "1-2", table)
+    examples = os.path.join(os.environ["DIPTYCH_SOURCE"], "benchmarks", "own_law", "von_mises.c")
+    header = os.path.join(os.environ["DIPTYCH_SOURCE"], "continuum", "laws")
+    library = str(tmp_path / "von_mises.so")
+    subprocess.run(["cc", "-shared", "-fPIC", "-I" + header, "-o", library, examples, "-lm"], check=True)
+    contents = standard_calibration(QUICK, "1-2", law_of(law="library", law_library=library))
+    found = {p.key: (p.start, p.low, p.high) for p in read_calibration(QUICK, contents).parameters}
+    assert found["law.strength"][0] == pytest.approx(10 * found["law.strength"][1])
+
+
+def test_a_file_of_set_is_found_from_the_working_directory(tmp_path, monkeypatch):
+    (tmp_path / "mine.csv").write_text("eyy,sxx,exy\n0,1,0\n0.02,1,0\n0.01,1,0\n")
+    monkeypatch.chdir(tmp_path)
+    keys = {"mode": "path", "path": "mine.csv", "axial_strain": "2", "stage_strain": "1"}
+    path = [Setting("loading", key, value, "") for key, value in keys.items()]
+    more = [Setting("discrete", "lateral", "cell", ""), Setting("comparison", "window_edges", "0, 1, 2", "")]
+    contents = standard_calibration(QUICK, "1-2", [*path, *more])
+    assert contents["targets"][0]["set"]["loading/path"] == str(tmp_path / "mine.csv")
+    assert "internal_length" not in [p["key"] for p in contents["parameters"]]  # a point has no band

@@ -190,6 +190,8 @@ def run_calibration(line: argparse.Namespace, options: Options) -> None:
         try:
             paths = runs.paths()
             check_data(calibration, paths, runs, record)
+            if not calibration.of_grains:
+                coordinates.others["solid_fraction_start"] = runs.densest(paths)
             posterior = calibrate(Trials(calibration, coordinates, paths, runs.evaluate, record))
         except (Stopped, NotConverged) as error:
             record["status"], ended = error.why if isinstance(error, Stopped) else str(error), error

@@ -15,7 +15,7 @@ import pandas as pd
 from ... import _diptych
 from ...errors import SceneError
 from ...importers import read_table
-from ..runs.coordinates import COORDINATES, USUAL, Parameter
+from ..runs.coordinates import ABOVE_LEAST, COORDINATES, LOGARITHMS, RATIOS, USUAL, Parameter
 from .noise import KINDS, Noise, Observable
 from .profiles import PROFILE, STRIPS
 from ..runs.histories import is_beyond
@@ -215,9 +215,10 @@ def _parameter(part: Part, targets: Sequence[Target]) -> Parameter:
         part.refuse(f" = {key} is not allowed; name a key of the section continuum, or of the grains as discrete/KEY",
                     "key")
     path = key if "/" in key else "continuum/" + key
-    coordinate = part.choice("coordinate", COORDINATES[:4 if section == "continuum" else 2],
-                             USUAL.get(key, "logarithm"))
-    is_ratio = coordinate in ("share_of", "drop_from")
+    allowed = [one for one in COORDINATES if section == "continuum" or one not in RATIOS]
+    allowed += [ABOVE_LEAST] if key == "dilatancy_ratio" else []
+    coordinate = part.choice("coordinate", allowed, USUAL.get(key, "logarithm"))
+    is_ratio = coordinate in RATIOS
     if not is_ratio and part.has("of"):
         part.refuse(" is only allowed with coordinate = share_of or drop_from", "of")
     part.setting("key", path, 0.3)  # checks that the key exists
@@ -232,7 +233,7 @@ def _parameter(part: Part, targets: Sequence[Target]) -> Parameter:
         part.refuse(f" = {p.start:g} lies outside its bounds [{p.low:g}, {p.high:g}]", "start")
     if is_ratio and not (p.low >= 0 and p.high <= 1):
         part.refuse(f" = {p.low:g} and high = {p.high:g}: shares and drops lie between 0 and 1", "low")
-    if coordinate == "logarithm" and not p.low > 0:
+    if coordinate in LOGARITHMS and not p.low > 0:
         part.refuse(f" = {p.low:g}: a logarithm needs bounds above 0", "low")
     for name in () if is_ratio else ("low", "high"):  # both must lie in the range of the key
         part.setting(name, path, part.value[name])

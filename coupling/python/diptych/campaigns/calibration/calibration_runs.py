@@ -119,6 +119,12 @@ class CalibrationRuns:
         """The grains of every target, run or read, with what they show."""
         return [self._path(target) for target in self.calibration.targets]
 
+    def densest(self, paths: Sequence[Path]) -> float:
+        """The largest solid fraction at the start of a path."""
+        given = [path.scene.dict()["continuum"]["solid_fraction_start"] for path in paths]
+        return max(self.outlines[path.target.name].solid_fraction if start == "auto" else start
+                   for path, start in zip(paths, given))
+
     def unsteady(self, path: Path, noise: Noise) -> list[str]:
         """Runs the first samples with half the step. Why an observable is left out: it moves by more than samples
         scatter, and by more than two runs of a sample differ by chance."""
