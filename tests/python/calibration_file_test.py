@@ -67,7 +67,7 @@ def test_a_scene_with_seeds_has_standard_parameters():
     assert plain["quantities"] == ["stress_ratio", "volumetric_strain"]
     assert "internal_length" not in [p["key"] for p in plain["parameters"]]
     with pytest.raises(diptych.SceneError, match="two seeds"):
-        standard_calibration(QUICK, "1", [])
+        standard_calibration(QUICK, "1-1", [])
 
 
 def test_a_point_has_neither_band_nor_length_and_its_bins_end_where_the_path_turns(tmp_path):

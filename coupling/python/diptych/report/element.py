@@ -65,7 +65,7 @@ def _chart(element, name, factor, label, caption):
 
 
 def _loops(element):
-    """t/s with its sign, and volume, over the larger strain. None if the progress is that strain."""
+    """t/s with its sign, and volume, over the larger strain. Empty if the progress is that strain."""
     if element.record["walk"] != "path":
         return []
     grains, law = (lambda name, of=of: element.curves.get(f"{of}_{name}") for of in ("grains", "law"))
@@ -80,7 +80,7 @@ def _loops(element):
                 axes.plot(factor * of(name), value(of), **look)
         axes.axhline(0, color=INK, linewidth=0.6)
         axes.set_xlabel(words)
-        axes.legend(loc="best")
+        legend_above(axes)
         found.append((svg(figure, f"{label} over {words}, grains and law."),
                       f"{label[0].upper()}{label[1:].removesuffix(' (%)')} over {words.removesuffix(' (%)')}."))
     return found
@@ -104,8 +104,7 @@ def _directions(element):
 def _rows(entries, keys):
     """One row per quantity. A dash stands for a number that the law does not have."""
     units = ["%" if one["quantity"] in PER_CENT else suffix(one["unit"]) for one in entries]
-    words = {**NAMES, "friction angle of the peak": "friction angle of the peak"}
-    return [[words[one["quantity"]], *(rounded(one[key], unit).replace(ABSENT, "–") for key in keys)]
+    return [[NAMES.get(one["quantity"], one["quantity"]), *(rounded(one[key], unit).replace(ABSENT, "–") for key in keys)]
             for one, unit in zip(entries, units)]
 
 
