@@ -298,7 +298,7 @@ class Machine(Folder):
     def test_a_closed_pipe_does_not_stop_a_run(self):
         """As in `diptych run ... 2>&1 | true`."""
         for words, name in ((["discrete", *FEW], "discrete.csv"),
-                            (["run", *BOTH, "--seeds", "1", "--overwrite", "--jobs", "1"], "ensemble.json")):
+                            (["run", *BOTH, "--seeds", "1-1", "--overwrite", "--jobs", "1"], "ensemble.json")):
             reader, writer = os.pipe()
             os.close(reader)
             with open(writer, "wb") as pipe:
