@@ -248,7 +248,7 @@ namespace diptych::coupling
   std::vector<Entry> read_fragment(const std::string &file)
   {
     std::istringstream       in      = scene_input(file);
-    const std::vector<Entry> entries = entries_of_prm(file, in);
+    const std::vector<Entry> entries = entries_of(file, in);
     for (const Entry &entry : entries)
       check_entry(entry);
     return entries;

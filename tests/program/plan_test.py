@@ -52,6 +52,8 @@ class Panels(Plan):
         self.expect(0, ["discrete", self.path("planned.prm"), "--output", again, "--quiet"])
         accuracy = next(s for s in panel["settings"] if s.startswith("discrete/accuracy")).split(" = ")[1]
         self.assertIn(f"set accuracy = {accuracy}\n", content(again, "scene.prm").decode())
+        keys = content(self.folder, "planned.prm").decode().count("  set ")
+        self.assertLess(keys, 30, "it holds the keys of the scene and of the plan, not the defaults")
 
     def test_a_continuum_is_planned_by_itself(self):
         self.plan(OBLIQUE, "3%", *COARSE)

@@ -178,14 +178,27 @@ def make_plan(question: Question, scene: _diptych.Scene, pilot: PilotRuns) -> Pl
     return plan
 
 
+def _text_with(text: str, names: set[str]) -> str:
+    """The text of a scene with these keys only."""
+    kept: dict[str, list[str]] = {}
+    for line in text.splitlines():
+        word, _, rest = line.strip().partition(" ")
+        if word == "subsection":
+            section = rest
+        elif word == "set" and f"{section}/{rest.split(' =')[0]}" in names:
+            kept.setdefault(section, []).append(line)
+    return "".join(f"\nsubsection {name}\n" + "\n".join(lines) + "\nend\n" for name, lines in kept.items())
+
+
 def write_plan(directory: str, question: Question, plan: Plan) -> None:
-    """plan.json and planned.prm: the scene with the chosen settings."""
+    """plan.json and planned.prm: the keys of the scene and those that the plan chose, without defaults."""
     write_json(directory + "/plan.json", plan.record())
     scene = _diptych.read_changed_scene(question.scene, [*question.changes, *plan.settings], False)
     lines = [f"# The first of two levels. For both: diptych run planned.prm --seeds {panel.seeds[0]}-{panel.seeds[-1]} "
              f"--levels {panel.levels['cheap']:g},{panel.levels['fine']:g}\n" for panel in plan.panels if panel.levels]
-    text = scene.in_folder("", scene.name).text()
-    write_text(directory + "/planned.prm", "".join(lines) + text)
+    given = [*map(Setting._make, _diptych.read_fragment(question.scene)), *question.changes, *plan.settings]
+    text = _text_with(scene.in_folder("", scene.name).text(), {f"{one.section}/{one.key}" for one in given})
+    write_text(directory + "/planned.prm", "".join(lines) + f"# planned from {plan.scene}\n" + text)
 
 
 def main_plan(args: argparse.Namespace, options: Options) -> None:
