@@ -18,6 +18,12 @@ def test_every_public_name_has_a_docstring():
         assert word in diptych.map_stress.__doc__
 
 
+def test_dir_and_the_docstring_name_what_there_is():
+    assert set(dir(diptych)) == set(diptych.__all__)
+    for name in ("run", "ensemble", "study", "plan", "calibrate", "homogenise", "load", "compare", "find_bands"):
+        assert name in dir(diptych) and name in diptych.__doc__, name
+
+
 def test_importing_the_package_does_not_load_deal_ii():
     script = "import diptych, sys; diptych.scene({}); print(open('/proc/self/maps').read().count('libdeal_II'))"
     assert subprocess.run([sys.executable, "-c", script], capture_output=True, text=True,

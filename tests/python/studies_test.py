@@ -15,6 +15,8 @@ import pytest
 from conftest import SMALL, explained
 
 import diptych
+from diptych.campaigns import api
+from diptych.campaigns.runs.input_file import read_seeds
 from diptych.campaigns.studies import effects
 from diptych.campaigns.studies import evaluation
 from diptych.campaigns.runs import statistics
@@ -282,6 +284,28 @@ def test_ctrl_c_keeps_an_ensemble_of_a_dict_and_the_same_call_goes_on(tmp_path, 
         diptych.ensemble(SMALL, 3, "out")
     with pytest.raises(AttributeError, match="verdicts"):
         found.points
+
+
+def test_run_is_the_command_and_can_be_stopped(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+    def stop():
+        while not glob.glob("out/discrete.csv"):
+            time.sleep(0.01)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    threading.Thread(target=stop).start()
+    with pytest.raises(diptych.Stopped, match="--resume"):
+        diptych.run(SMALL, "out")
+    found = diptych.run(SMALL, "out", resume=True)
+    assert found.summary().loc["peak t/s", "grains"] > 0.1 and found.scene["sample"]["grains"] == 300
+    assert os.listdir() == ["out"]
+    for call, text in ((lambda: diptych.run(SMALL, "out", set={"discrete/friction": 0.2}), "--overwrite"),
+                       (lambda: diptych.run({"sample": {"grians": 3}}), "grains"),
+                       (lambda: diptych.run(SMALL, "out", seeds=range(1, 4)), "ensemble")):
+        with pytest.raises(diptych.SceneError, match=text):
+            call()
+    assert read_seeds(api._seeds([4])) == [4]
 
 
 def expect_explained(found):

@@ -4,7 +4,8 @@
 
 Scenes are nested dicts or paths, checked like scene files (scene, keys). Panels are objects (DiscretePanel,
 ContinuumPanel). Result folders of the program load as arrays (load, compare). Operators take arrays from any source:
-map_stress, find_bands, strips, shear_strain, probe, integrate, biaxial, solve.
+map_stress, find_bands, strips, shear_strain, probe, integrate, biaxial, solve. The commands are functions: run,
+ensemble, study, plan, calibrate, homogenise. dir(diptych) lists everything.
 
 Two dimensions, unit thickness, any consistent units. Stress and strain are positive in compression, dilation is a
 negative volumetric strain, angles are degrees from the horizontal, forces act on the first body.
@@ -36,11 +37,15 @@ def __getattr__(name: str) -> object:
         from . import homogenisation
 
         return getattr(homogenisation, name)
-    if name in ("CalibrationResult", "Campaign", "PlanResult", "calibrate", "ensemble", "plan", "study"):
+    if name in ("CalibrationResult", "Campaign", "PlanResult", "calibrate", "ensemble", "plan", "run", "study"):
         from .campaigns import api
 
         return getattr(api, name)
     raise AttributeError(f"module 'diptych' has no attribute '{name}'")
+
+
+def __dir__() -> list[str]:
+    return __all__
 
 
 __all__ = [
@@ -49,6 +54,6 @@ __all__ = [
     "NotConverged", "PanelResults", "PlanResult", "Record", "Results", "SceneError", "SceneWarning", "Stopped",
     "StressMap", "__version__", "benchmarks_dir", "biaxial", "calibrate", "compare", "contacts",
     "displacement_gradient", "ensemble", "find_bands", "grid", "homogenise", "increment", "integrate", "keys",
-    "load", "map_stress", "notebooks_dir", "plan", "platen_friction", "principal", "probe", "scene", "shear_strain",
-    "solve", "strips", "study", "theory_lines",
+    "load", "map_stress", "notebooks_dir", "plan", "platen_friction", "principal", "probe", "run", "scene",
+    "shear_strain", "solve", "strips", "study", "theory_lines",
 ]

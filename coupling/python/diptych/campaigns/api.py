@@ -1,10 +1,13 @@
 # diptych: studies, ensembles, plans and calibrations from Python scripts
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""study(), ensemble(), plan() and calibrate() do what the commands do, and return their tables as DataFrames."""
+"""run(), study(), ensemble(), plan() and calibrate() do what the commands do, and return their results."""
 
 import itertools
 import json
 import os
+import subprocess
+import tempfile
+import time
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -13,11 +16,14 @@ from typing import Any, Self, TypeVar
 
 import pandas as pd
 
+from .. import _diptych
+from ..compiled import demand_continuum
 from ..errors import NotConverged, SceneError, Stopped
 from ..files import member_folders, read_ensemble
-from ..scenes import SceneLike, changes, text_of
+from ..results import Results, load
+from ..scenes import SceneLike, changes, read, text_of
 from .commands import do
-from .runs.engine import stop_signals
+from .runs.engine import NOT_CONVERGED, WRONG_INPUT, environment, program, stop_signals
 from .runs.folders import read_json
 
 PathLike = str | os.PathLike[str]
@@ -194,24 +200,26 @@ def _seeds(seeds: Any) -> str:
     if isinstance(seeds, Integral):
         raise SceneError(f"seeds = {seeds} is not allowed; give range(1, {seeds + 1}) for {seeds} samples, [{seeds}] "
                          f"for the sample with seed {seeds}", "seeds")
-    return text_of(seeds).replace(" ", "")
+    text = text_of(seeds).replace(" ", "")
+    return f"{text}-{text}" if text.isdigit() and not isinstance(seeds, str) else text
+
+
+def _words(output: str, options: dict[str, Any]) -> list[str]:
+    """Options of a call as those of the command line."""
+    words = ["--output", output, "--quiet"]
+    for name, value in options.items():
+        if name in ("set", "vary"):
+            words += [word for key, one in value.items() for word in ("--" + name, f"{key}={text_of(one)}")]
+        elif value is not False:
+            words += ["--" + name] + ([] if value is True else [_seeds(value) if name == "seeds" else str(value)])
+    return words
 
 
 def _result(kind: type[Result], command: str, contents: Mapping[str, Any] | PathLike, output: PathLike,
             options: dict[str, Any]) -> Result:
     """Does a command in this process. On Ctrl-C it keeps what is done and raises Stopped."""
-    output = os.fspath(output)
-    words = ["--output", output, "--quiet"]
-    for key, value in options.pop("set", {}).items():
-        words += ["--set", f"{key}={text_of(value)}"]
-    for key, values in options.get("vary", {}).items():
-        words += ["--vary", f"{key}={text_of(values)}"]
-    if "seeds" in options:
-        options["seeds"] = _seeds(options["seeds"])
-    holds_scene = bool(options.pop("vary", None)) or command not in ("study", "calibrate")
-    for name, value in options.items():
-        if value is not False:
-            words += ["--" + name] if value is True else ["--" + name, str(value)]
+    output, holds_scene = os.fspath(output), bool(options.get("vary")) or command not in ("study", "calibrate")
+    words = _words(output, options)
     with _file_of(command, holds_scene, contents, output) as file, stop_signals():
         try:
             do([command, file, *words])
@@ -220,6 +228,37 @@ def _result(kind: type[Result], command: str, contents: Mapping[str, Any] | Path
         except NotConverged as error:
             raise NotConverged(f"{error}; {kind.__name__}.load('{output}') reads what is there") from None
     return kind.load(output)
+
+
+def run(scene: SceneLike, output: PathLike = "", **options: Any) -> Results:
+    """Computes grains and continuum of one sample, compares them, writes a folder and returns its Results.
+
+    scene    path of a scene file, or a dict as in diptych.scene()
+    output   folder of the results; default: as `diptych run`, results/NAME of NAME.prm
+    options  those of `diptych run`: threads=2, resume=True, overwrite=True, set={"section/key": value}
+
+    Many samples: ensemble(). Raises SceneError for wrong input, Stopped on Ctrl-C (resume=True then goes on),
+    NotConverged if a panel does not converge, RuntimeError for failures of the system.
+
+    >>> run("mine.prm", set={"discrete/friction": 0.3}).summary()
+    """
+    if "seeds" in options:
+        raise SceneError("run: computes one sample; diptych.ensemble(scene, seeds, output) computes many", "seeds")
+    demand_continuum("diptych.run")
+    checked = read(scene, options.get("set", {}), True)
+    folder = os.fspath(output) or checked.directory
+    with _file_of("run", True, scene, folder) as file, stop_signals(), tempfile.TemporaryFile("w+") as errors:
+        process = subprocess.Popen([program(), "run", file, *_words(folder, options)], process_group=0,
+                                   stdout=subprocess.DEVNULL, stderr=errors, env=environment())
+        while process.poll() is None:
+            time.sleep(0.05)
+            if _diptych.stop_requested():
+                process.terminate()
+        errors.seek(0)
+        if process.returncode:
+            kind = {WRONG_INPUT: SceneError, NOT_CONVERGED: Stopped if _diptych.stop_requested() else NotConverged}
+            raise kind.get(process.returncode, RuntimeError)(errors.read().strip().removeprefix("diptych: "))
+    return load(folder)
 
 
 def study(contents: Mapping[str, Any] | PathLike, output: PathLike, **options: Any) -> Campaign:
