@@ -25,7 +25,8 @@ from readmes import text_of, write
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 UNUSED = ("404.html", "sitemap.xml", "sitemap.xml.gz", "assets/javascripts/lunr", "assets/javascripts/workers")
-PAGES = [("index", "Start"), ("install", "Install"), ("first_comparison", "First comparison"), ("gallery", "Gallery"),
+PAGES = [("index", "Start"), ("install", "Install"), ("cluster", "Clusters, no root"),
+         ("first_comparison", "First comparison"), ("gallery", "Gallery"),
          ("own_scene", "Your own scene"), ("own_data", "Your own data"), ("result_folders", "Result folders"),
          ("ensembles", "Ensembles"), ("studies", "Studies and plans"),
          ("calibration", "Calibration"), ("python", "Python"), ("cost", "What it costs"),
@@ -59,6 +60,12 @@ class Directives:
         command = "apt-get install " + " ".join(block[1].split())
         return "```\n" + " \\\n".join(textwrap.wrap(command, 80, subsequent_indent="    ",
                                                     break_on_hyphens=False)) + "\n```"
+
+    def do_versions(self, names):
+        """The least versions that the find_package lines of CMake files demand."""
+        text = "".join(text_of(self.path(name)) for name in names.split())
+        found = re.findall(r"(cmake)_minimum_required\(VERSION ([\d.]+)|find_package\((\S+) (\d[\d.]*)", text)
+        return ", ".join(f"{one or other} {first or second}" for one, first, other, second in found) + "."
 
     def do_equations(self, name):
         """The comments of a source file that hold a formula, below a link to the page of the file."""
