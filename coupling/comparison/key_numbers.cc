@@ -15,12 +15,14 @@ namespace diptych::coupling
 {
   namespace
   {
+    constexpr char no_interval[] = "no interval (one sample)";
+
     std::string verdict_of(const Interval &difference)
     {
       if (std::isnan(difference.value))
         return "not in both panels";
       if (std::isnan(difference.low) || std::isnan(difference.high))
-        return "one sample";
+        return no_interval;
       return difference.low > 0 || difference.high < 0 ? "different" : "cannot tell";
     }
 
@@ -116,9 +118,9 @@ namespace diptych::coupling
           text += row[k] + std::string(width[k] - row[k].size() + 2, ' ');
         text += row.back() + (&row == &rows.back() ? "" : "\n");
       }
-    const auto of_one = [](const KeyNumber &k) { return k.verdict == "one sample"; };
+    const auto of_one = [](const KeyNumber &k) { return k.verdict == no_interval; };
     if (std::any_of(numbers.begin(), numbers.end(), of_one))
-      text += "\none sample: run the scene with --seeds 1-8 for intervals and verdicts";
+      text += "\nno interval: run the scene with --seeds 1-8 for intervals and verdicts";
     return text;
   }
 

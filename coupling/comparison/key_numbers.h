@@ -19,15 +19,15 @@ namespace diptych::coupling
   {
     std::string key, quantity, unit;
     Interval    grains, continuum, difference;
-    std::string verdict; // "different", "cannot tell", "one sample" (no interval), "diffuse" or "not in both panels"
+    std::string verdict; // "different", "cannot tell", "no interval (one sample)", "diffuse" or "not in both panels"
   };
 
   // In the order of key_quantities, with the band of the last window; without a window there is none.
   std::vector<KeyNumber> key_numbers(const Comparison &c);
 
   constexpr const char *verdict_meaning =
-    "different: the interval of the difference excludes 0; cannot tell: it contains 0; one sample: no interval; diffuse: a zone "
-    "wider than a third of the sample has no inclination";
+    "different: the interval of the difference excludes 0; cannot tell: it contains 0; diffuse: a zone "
+    "wider than a third of the sample has no inclination; else: why there is none";
 
   template <class Visitor> void list_numbers(const KeyNumber &k, Visitor &v)
   {

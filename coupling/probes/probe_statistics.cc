@@ -147,6 +147,12 @@ namespace diptych::coupling
 
     void judge(const ProbeMargins &margins, ProbeDifference &d)
     {
+      if (const auto is_open = [](const Interval &x) { return !std::isfinite(x.low) || !std::isfinite(x.high); };
+          is_open(d.t_over_s) && is_open(d.anisotropy) && is_open(d.direction_deg))
+        {
+          d.verdict = "cannot tell: too few blocks for an interval";
+          return;
+        }
       Finding           worst   = Finding::none;
       const std::string phrases = phrase("t/s", d.t_over_s, margins.t_over_s, worst) + "; " +
                                   phrase("anisotropy", d.anisotropy, margins.anisotropy, worst) + "; " +

@@ -94,10 +94,6 @@ namespace diptych::coupling
       text << "t/s at the end " << rows.back().stress_ratio << " at " << at(rows.back()) << "; " << report.n_cells
            << " elements, " << report.n_unknowns << " unknowns, " << report.steps << " steps, " << report.cut_backs
            << " cut-backs";
-      if (report.localisation_progress)
-        text << "\n  from " << text_of(rows.back().loading_variable, *report.localisation_progress)
-             << " on at least one point of the mesh may localise (singular acoustic tensor), band at "
-             << *report.localisation_angle << " degrees";
       if (const double share = largest(&continuum::HistoryRow::viscous_share).viscous_share; share > 0)
         text << "\n  viscosity carries up to " << 100 * share << " % of the shear strength where the sample yields";
       if (const double share = largest(&continuum::HistoryRow::unstable_share).unstable_share; share > 0)

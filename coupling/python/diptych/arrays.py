@@ -66,6 +66,11 @@ def ends_text(low: float | None, high: float | None, form: Callable[[float], str
     return f" [{form(low)}{between}{form(high)}]"
 
 
+def short(value: float) -> str:
+    """A number with two digits, plainly: 110 and not 1.1e+02."""
+    return f"{float(f'{value:.2g}'):g}"
+
+
 def rms(values: Array) -> float:
     """Root mean square of the numbers that are known; NaN if none is."""
     known = values[np.isfinite(values)]

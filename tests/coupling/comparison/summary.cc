@@ -159,7 +159,7 @@ namespace
       return *std::find_if(numbers.begin(), numbers.end(), [&](const KeyNumber &n) { return n.key == key; });
     };
     EXPECT_NEAR(at("peak_stress_ratio").difference.value, -0.04, 1e-15);
-    EXPECT_EQ(at("peak_stress_ratio").verdict, "one sample");
+    EXPECT_EQ(at("peak_stress_ratio").verdict, "no interval (one sample)");
     EXPECT_EQ(at("strength").verdict, "not in both panels") << "no strength";
     EXPECT_EQ(at("platen_force_pd").difference.value, 6);
     EXPECT_EQ(at("peak_friction_angle_deg").unit, "degrees");
@@ -168,7 +168,7 @@ namespace
     EXPECT_EQ(at("band_width_10_90_d").grains.value, 2);
     EXPECT_EQ(at("band_width_10_90_d").verdict, "cannot tell");
     const std::string csv = csv_of(numbers, {Check{"", "", 1, 2, ""}, Check{"", "", 3, 2, ""}});
-    EXPECT_NE(csv.find("\npeak t/s,-,0.4,,,0.36,,,-0.04,,,one sample\n"), std::string::npos);
+    EXPECT_NE(csv.find("\npeak t/s,-,0.4,,,0.36,,,-0.04,,,no interval (one sample)\n"), std::string::npos);
     EXPECT_NE(csv.find("\nchecks,-,,,,,,,,,,1 of 2 checks fail\n"), std::string::npos);
     c.windows[0].discrete.band.bands[0].is_diffuse = true;
     for (const KeyNumber &n : key_numbers(c))

@@ -159,8 +159,8 @@ def _changes(study):
 def _verdict(row):
     if row["verdict"] != "not resolved":
         return row["verdict"]
-    needed = f"about {row['samples_needed']}" if row["samples_needed"] else "more than 1000"
-    return f"not resolved: needs {needed} samples"
+    n = row["samples_needed"]
+    return f"not resolved: needs about {n} samples" if n else "not resolvable (more than 1000 samples)"
 
 
 def _ends(study, row):

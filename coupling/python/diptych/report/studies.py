@@ -4,7 +4,7 @@
 import os
 from dataclasses import dataclass
 
-from ..arrays import ends_text
+from ..arrays import ends_text, short
 from ..files import read_json
 from .charts.style import signed
 from .data.files import open_arrays
@@ -165,7 +165,7 @@ def orders(study):
         others = ", ".join(f"{axis['name']} {label}"
                            for axis, label in zip(study.family(row["family"])["axes"], row["labels"]) if label)
         rows.append([row["quantity"], f"{row['family']}: {row['axis']}".lstrip(": "), others or "–", row["points"],
-                     _interval(row["order"], "{:.2g}".format), _interval(row["limit"], "{:.4g}".format)])
+                     _interval(row["order"], short), _interval(row["limit"], "{:.4g}".format)])
     return {"head": ["quantity", "along", "at", "points", "order [95 %]", "limit [95 %]"], "rows": rows}
 
 

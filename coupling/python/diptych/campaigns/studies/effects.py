@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from ...arrays import Interval
+from ...arrays import Interval, short
 from ...entries import describe
 from .points import Point
 from ..runs.statistics import line_statistics, line_turn
@@ -149,7 +149,7 @@ def _shown(found: dict[str, Any]) -> str:
     """ "0.352 +- 0.013" """
     if math.isnan(found["mean"]):
         return "-"
-    return f"{found['mean']:.4g}" + ("" if math.isnan(found["high"]) else f" +- {found['high'] - found['mean']:.2g}")
+    return f"{found['mean']:.4g}" + ("" if math.isnan(found["high"]) else f" +- {short(found['high'] - found['mean'])}")
 
 
 def text_of_means(study: Study, points: Sequence[Point], records: Sequence[dict[str, Any]]) -> str:
@@ -199,5 +199,5 @@ def _needs(change: dict[str, Any]) -> str:
     if change["verdict"] != "not resolved":
         return ""
     n = change["samples_needed"]
-    needed = f"about {n:.0f}" if math.isfinite(n) else f"more than {MOST_SAMPLES}"
-    return f": {needed} samples needed"
+    return f": about {n:.0f} samples needed" if math.isfinite(n) else \
+        f": not resolvable (more than {MOST_SAMPLES} samples)"

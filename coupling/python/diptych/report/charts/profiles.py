@@ -5,7 +5,7 @@
 import numpy as np
 
 from .style import FAINT, INK, PANEL_COLOURS, Pair, frame, signed, svg
-from ...arrays import ends_text
+from ...arrays import ends_text, short
 from ..data.numbers import interval, plain
 from ..data.panels import PANEL_NAMES
 
@@ -105,4 +105,4 @@ def _label(name, number, word):
     value = plain(number)
     if value is None:
         return "rotation − spin" if name == "relative_rotation" else "mean of a strip"
-    return signed(f"{word} {value:.2g}" + ends_text(*(interval(number) or (None, None)), "{:.2g}".format))
+    return signed(f"{word} {short(value)}" + ends_text(*(interval(number) or (None, None)), short))
