@@ -7,7 +7,7 @@
 #include "coupling/program/commands.h"
 #include "continuum/laws/material_point.h"
 #include "coupling/scene/keys.h"
-#include "coupling/scene/path_shape.h"
+#include "coupling/scene/path_warning.h"
 #include "coupling/scene/scene_error.h"
 #include "coupling/store/file_names.h"
 #include "coupling/store/provenance.h"
@@ -110,12 +110,9 @@ namespace diptych::coupling
     CommandLine line = given;
     if (line.path.empty())
       line.path = scene.loading.mode == discrete::LoadingMode::path ? scene.loading.path.text : "drained";
-    const continuum::PointPath path    = path_of(line, scene);
-    Scene                      on_path = scene;
-    on_path.loading.mode               = discrete::LoadingMode::path;
-    on_path.loading.path.text          = line.path;
-    if (const std::string warning = reversal_warning(on_path); !warning.empty())
-      warn(warning);
+    const continuum::PointPath path = path_of(line, scene);
+    if (const std::string warning = reversal_warning(scene.continuum, path.values); !warning.empty())
+      warn(line.path + ": " + warning);
     return writing(scene.output.directory, [&](FolderLock &lock) {
       Opening opening = opening_of(line, true);
       if (!continuum::value_of<continuum::NamedPath>(line.path))

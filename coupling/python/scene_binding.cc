@@ -13,7 +13,7 @@
 #include "coupling/python/bindings.h"
 #include "coupling/scene/derived_keys.h"
 #include "coupling/scene/identity.h"
-#include "coupling/scene/path_shape.h"
+#include "coupling/scene/path_warning.h"
 #include "coupling/scene/scene_file.h"
 #include "coupling/version.h"
 
@@ -126,12 +126,19 @@ namespace diptych::python
                return std::string(scene.loading.path.text == "simple_shear" ? "shear_strain" : "axial_strain");
              return std::string(discrete::name_of(discrete::loading_variable_of(scene.loading.mode)));
            })
-      .def("path_shape",
+      .def("path_shape", // mode path: (progress, strain) of the rows, or of start and end where the progress is a strain
            [](const coupling::Scene &scene) {
-             const coupling::PathShape path = coupling::path_shape(scene.loading);
-             return py::make_tuple(path.progress, path.strain);
+             const coupling::LoadingOptions &o    = scene.loading;
+             const std::vector<double>       ends = {0, o.axial_strain};
+             if (!o.path.names_a_file())
+               return py::make_tuple(ends, ends);
+             const auto path = coupling::cell_path(o.path, {o.pressure});
+             return py::make_tuple(path.progress, discrete::times_of(path, o.pressure, 1));
            })
-      .def("reversal_warning", &coupling::reversal_warning)
+      .def("reversal_warning",
+           [](const coupling::Scene &scene) {
+             return coupling::reversal_warning(scene.continuum, coupling::discrete_loading(scene.loading).path.values);
+           })
       .def("in_folder", in_folder, py::arg("directory"), py::arg("name"), py::arg("seed") = py::none())
       .def_property_readonly("directory", [](const coupling::Scene &scene) { return scene.output.directory; })
       .def("unused_keys",

@@ -72,7 +72,8 @@ class Results(Calibrate):
                 self.assertLess(abs(o["half_step"]), o["deviation"], o)
             self.assertEqual([p["quantity"] for p in path["predictions"]],
                              ["peak_stress_ratio", "peak_friction_angle_deg", "peak_outline_stress_ratio",
-                              "peak_core_stress_ratio", "peak_nominal_stress_ratio", "friction_angle_deg", "platen_force_pd",
+                              "peak_core_stress_ratio", "peak_nominal_stress_ratio", "friction_angle_deg",
+                              "platen_force_pd",
                               "volumetric_strain"])
         self.assertEqual([{p["use"] for p in path["predictions"]} for path in record["paths"]],
                          [{"fitted"}, {"predicted"}])

@@ -64,7 +64,8 @@ class Import(Case):
         scene = content(self.path("mine", "scene.prm")).decode()
         for text in ("platens = frictional", "platen_friction = 0.3", "platen_slip_length = 0"):
             self.assertIn(text, scene)
-        told = self.done("import", "lammps", *files("lammps/[cg]*.dump"), "--walls-touch", "--output", self.path("guess"))
+        told = self.done("import", "lammps", *files("lammps/[cg]*.dump"), "--walls-touch", "--output",
+                         self.path("guess"))
         for text in ("no side walls are in the files: the scene takes discrete/lateral = end_grains",
                      "no forces on walls are in the files: the scene takes continuum/platens = rough",
                      "from the mean horizontal stress of the contacts in frame step 120000"):

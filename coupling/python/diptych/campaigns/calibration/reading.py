@@ -13,6 +13,7 @@ from ... import _diptych
 from ...compiled import continuum, demand_continuum
 from ...errors import SceneError
 from ..runs.coordinates import Coordinates
+from ..runs.engine import complain
 from ..runs.input_file import settings_of
 from .calibration_file import OF_BANDS, Calibration, Target, is_element, read_curve
 from .calibration_runs import CalibrationRuns
@@ -46,6 +47,8 @@ def _check_target(calibration: Calibration, coordinates: Coordinates, target: Ta
     except SceneError as error:
         raise SceneError(f"{calibration.file}: with every parameter at its start: {error}; "
                          "change start or set") from error
+    if is_element(scene) and not calibration.of_grains and (warning := scene.reversal_warning()):
+        complain(f"diptych: warning: target '{target.name}': {warning}")
     if not calibration.of_grains:
         demand_continuum("calibrate")
     if not calibration.of_grains and not is_element(scene):

@@ -23,7 +23,7 @@ QUANTITIES = {"stress_ratio": "-", "mean_stress": "P", "volumetric_strain": "-",
               **{c: "pressure" for c in ("sxx", "syy", "sxy")}, **{c: "-" for c in ("exx", "eyy", "exy")}}
 
 
-@dataclass
+@dataclass(kw_only=True)
 class Curves:
     """progress (parts): the middle of each. grains: name -> (sample, parts). law: name -> (parts). ends: name ->
     (samples and law) in the last row, NaN if a run ended before the path, and "peak" of t/s."""
@@ -72,11 +72,10 @@ def observed(scene: Any, tables: Sequence[pd.DataFrame], law: pd.DataFrame | Non
         last = _derived({name: values[-1] for name, values in columns.items()}, pressure)
         ends.append({"peak": peak_on_path(scene, table), **(last if x[-1] >= edges[-1] * (1 - 1e-9) else {})})
     samples = curves[:len(tables)]
-    return Curves(0.5 * (edges[1:] + edges[:-1]),
-                  {name: np.array([one[name] for one in samples]) for name in QUANTITIES},
-                  {} if law is None else curves[-1],
-                  {name: np.array([one.get(name, np.nan) for one in (*ends, *([{}] if law is None else []))])
-                   for name in ("peak", *QUANTITIES)})
+    return Curves(progress=0.5 * (edges[1:] + edges[:-1]), law={} if law is None else curves[-1],
+                  grains={name: np.array([one[name] for one in samples]) for name in QUANTITIES},
+                  ends={name: np.array([one.get(name, np.nan) for one in (*ends, *([{}] if law is None else []))])
+                        for name in ("peak", *QUANTITIES)})
 
 
 def _mean_and_error(values: np.ndarray, name: str) -> tuple[np.ndarray, np.ndarray]:

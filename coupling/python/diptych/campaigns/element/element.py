@@ -111,7 +111,7 @@ def run_element(line: argparse.Namespace, options: Options) -> None:
     grains = [_run(line.target, "discrete", on_sample(settings, seed, line.target)) for seed in seeds]
     _run(line.target, "material-point", settings)  # a wrong law is refused before the grains run
     if warning := scene.reversal_warning():
-        complain(f"diptych: warning: {warning}")
+        complain(f"diptych: warning: {scene.dict()['loading']['path']}: {warning}")
     directory = line.output or f"results/{scene.name}_element"
     with Folder(directory) as folder:
         folder.open_runs("element", line.target, options, lambda: [("the scene", line.target), *scene.input_files()])
