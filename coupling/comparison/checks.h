@@ -42,7 +42,7 @@ namespace diptych::coupling
   }
 
   // The only list of checks; terminal, summary.csv, comparison.json and page show it. A number that is unknown has no check.
-  std::vector<Check> checks_of(const Scene &scene, const Comparison &c);
+  std::vector<Check> checks_of(const discrete::Options &grains, const ComparisonOptions &options, const Comparison &c);
 
   std::string count_of(const std::vector<Check> &checks); // "2 of 12 checks fail"
   std::string text_of(const std::vector<Check> &checks);  // the same and a line per broken check, for a terminal

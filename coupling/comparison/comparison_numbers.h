@@ -191,7 +191,7 @@ namespace diptych::coupling
     v.group("discrete_summary", "the grains' whole run", c.discrete);
     v.group("continuum_summary", "the continuum's whole run", c.continuum);
     v.list("summary", "the numbers that a user asks for first", key_numbers(c));
-    v.list("checks", "limits within which the results are reliable", checks_of(d.scene, c));
+    v.list("checks", "limits within which the results are reliable", checks_of(d.scene.discrete, d.scene.comparison, c));
     v.group("cost", "CPU time and memory", c.cost);
     v.group("resolution_study", "dependence of the grains' stress on the averaging length", c.resolution);
     v.group("theory", "inclinations of a band to the minor principal stress by theory", c.theory);

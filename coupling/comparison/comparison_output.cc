@@ -143,7 +143,8 @@ namespace diptych::coupling
     root["numbers"] = descriptions();
     discrete::write_text(comparison_json(directory), root.dump(1) + "\n");
     discrete::write_text(summary_csv(directory),
-                         csv_of(key_numbers(document.comparison), checks_of(document.scene, document.comparison)));
+                         csv_of(key_numbers(document.comparison),
+                                checks_of(document.scene.discrete, document.scene.comparison, document.comparison)));
     discrete::write_text(comparison_csv(directory), table_of(stages(document.scene.loading), root));
   }
 } // namespace diptych::coupling

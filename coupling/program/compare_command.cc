@@ -66,8 +66,8 @@ namespace diptych::coupling
       write_comparison(next, {scene, c});
       record_files(next, "comparison");
       text = text_of(key_numbers(c)) + sxx_text_of(c, scene.loading.pressure) +
-             platens_text_of(c.discrete.platens, scene.continuum) + "\n" + text_of(checks_of(scene, c)) + "\n" +
-             origin_of_law(scene.comparison.parameters_from);
+             platens_text_of(c.discrete.platens, scene.continuum) + "\n" +
+             text_of(checks_of(scene.discrete, scene.comparison, c)) + "\n" + origin_of_law(scene.comparison.parameters_from);
       progress.finish();
       for (const StageRecord &stage : c.stages)
         if (!(stage.mapping.total_relative_error < largest_error_of_the_total))

@@ -76,10 +76,10 @@ class Browser(unittest.TestCase):
         self.assertEqual((self.page.run("document.querySelectorAll('canvas.bar').length > 2"), cut), (True, 0))
 
     def test_a_map_has_the_right_colour_at_a_place(self):
-        # The limits of the window are 0 and 3.9 %. Continuum, third cell: 0.08 * 2/5 = 3.2 %. Its nodes have the means of
-        # their cells, 1.6, 2.4, 5.6 and 4.8 %. Its part 3, 3 of 6 x 6 has its middle at 5/12 of both sides: 3.267 %, so
-        # colour floor(256 * 3.267/3.9) = 214. Grains: grain 20 (fifth row, first column) at (0.5, 4.5): 2 * 20/39 = 1.0256 %, so floor(256 *
-        # 1.0256/3.9) = 67.
+        # The limits of the window are 0 and 3.9 %. Continuum, third cell: its nodes have the means of their cells, 1.6,
+        # 2.4, 5.6 and 4.8 %. Its third part of six along both sides has its middle at 5/12: 3.267 %, so colour
+        # floor(256 * 3.267/3.9) = 214. Grains: grain 20 (fifth row, first column) at (0.5, 4.5): 2 * 20/39 = 1.0256 %,
+        # so floor(256 * 1.0256/3.9) = 67.
         table = self.page.run("data.maps.viridis")
         for panel, at, number in (("continuum", (1.0, 3.75), 214), ("discrete", (0.5, 4.65), 67)):
             expected = [int(table[number][k:k + 2], 16) for k in (1, 3, 5)]

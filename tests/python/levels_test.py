@@ -113,7 +113,8 @@ def test_an_ensemble_gets_rows_in_the_limit():
     continuum = 0.36 + 0.001 * np.arange(8)
     verdict = {"key": "peak_stress_ratio", "discrete": x.tolist(), "continuum": continuum.tolist(), "n": 8,
                "relative": True, "margin": 0.0}
-    record = {"verdicts": [verdict], "summary": [{"key": "peak_stress_ratio", "quantity": "peak t/s", "continuum": (0.3635, 0.361, 0.366)}],
+    first = {"key": "peak_stress_ratio", "quantity": "peak t/s", "continuum": (0.3635, 0.361, 0.366)}
+    record = {"verdicts": [verdict], "summary": [first],
               "validation": [{"key": "peak_stress_ratio", "parts": {"mesh": np.nan, "load_step": 0.0},
                               "u_input": np.nan}],
               "continuum_runs": {"values": []}}

@@ -181,8 +181,7 @@ namespace
   // 23 %.
   TEST(Summary, ChecksNameEachBrokenLimit)
   {
-    Scene scene                          = example_scene();
-    scene.comparison.coarse_element_size = 2 * scene.continuum.element_size;
+    Scene      scene = example_scene();
     Comparison c;
     c.discrete.spin_term_share    = 2e-3;
     c.discrete.balance.mean.value = -0.02;
@@ -191,12 +190,14 @@ namespace
     c.windows[0].continuum.band.bands[0].width_10_90 = 10;
     c.continuum.numbers.peak.value                   = 0.4;
     c.coarse.emplace();
+    c.continuum.element_size                                 = 2;
+    c.coarse->element_size                                   = 4;
     c.coarse->windows                                        = c.windows;
     c.coarse->windows[0].continuum.band.bands[0].width_10_90 = 14;
     c.coarse->peak.value                                     = 0.41;
     const auto broken                                        = [&] {
       std::vector<std::string> keys;
-      for (const Check &check : checks_of(scene, c))
+      for (const Check &check : checks_of(scene.discrete, scene.comparison, c))
         if (!check.kept())
           keys.push_back(check.key.substr(check.key.rfind('/') + 1));
       return keys;
@@ -204,7 +205,7 @@ namespace
     EXPECT_EQ(broken(), (std::vector<std::string>{"spin_term_share", "platen_difference_mean"}));
     c.coarse->windows[0].continuum.band.bands[0].width_10_90 = 17;
     EXPECT_EQ(broken().back(), "width_10_90_d");
-    const std::string text = text_of(checks_of(scene, c));
+    const std::string text = text_of(checks_of(scene.discrete, scene.comparison, c));
     EXPECT_EQ(text.find("3 of "), 0u) << text;
     EXPECT_NE(text.find("spin term over the mean stress 0.002, limit 0.001: "), std::string::npos) << text;
     scene.discrete.method.method = diptych::discrete::Method::imported;

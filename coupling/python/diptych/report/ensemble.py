@@ -87,9 +87,9 @@ def load(folder):
 
 def _regularised(profile):
     """The sentence on the couple stresses of the mean profiles, or ""."""
-    curves = [profile[panel]["couple_stress"][:, 0] for panel in PANEL_NAMES] if profile else []
-    known = [np.isfinite(curve).any() for curve in curves]
-    return profiles.regularisation([float(np.nanmax(np.abs(curve))) for curve in curves]) if known and all(known) else ""
+    curves = [profile[panel]["couple_stress"][:, 0] for panel in PANEL_NAMES] if profile else [np.empty(0)]
+    known = all(np.isfinite(curve).any() for curve in curves)
+    return profiles.regularisation([float(np.nanmax(np.abs(curve))) for curve in curves]) if known else ""
 
 
 def _places(member, across):
