@@ -132,6 +132,14 @@ class Manual(Built):
                 for option in re.findall(r" (--[a-z-]+)", rest):
                     self.assertIn(option, known, f"{name}: diptych {command}")
 
+    def test_the_recipe_for_apptainer_has_the_steps_of_the_container_file(self):
+        folder = os.path.join(SOURCE, ".container")
+        recipe = subprocess.run([os.path.join(folder, "apptainer")], capture_output=True, text=True, check=True).stdout
+        steps = re.findall(r"^(?:RUN|COPY|ENV) (.*)$", content(folder, "Containerfile").decode(), re.MULTILINE)
+        self.assertEqual(len(steps), 4)
+        for step in [*steps, "From: debian:12", "exec /opt/diptych/build/release/diptych "]:
+            self.assertIn(step, recipe)
+
     def test_equations_are_the_comments_of_the_sources(self):
         # without blanks: list items are lines of their own
         shown, count = "".join(self.shown("equations.html").split()), 0

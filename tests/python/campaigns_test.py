@@ -12,6 +12,7 @@ from scipy import stats
 
 import diptych
 from diptych import scenes
+from diptych.arrays import short
 from diptych.campaigns.calibration.calibration_runs import observe_history
 from diptych.campaigns.calibration.grains import mean_of
 from diptych.campaigns.calibration.noise import Observable
@@ -257,6 +258,10 @@ def test_profiles_are_averaged_over_the_samples_that_reach_a_strip(tmp_path):
     assert mean[:40] == pytest.approx(np.arange(40) + 1) and error[:40] == pytest.approx(1)
     assert low[:40] == pytest.approx(np.arange(40) + 1 - stats.t.ppf(0.975, 1)) and np.isnan([mean[40], error[40],
                                                                                               low[40]]).all()
+
+
+def test_short_numbers_have_no_exponent():
+    assert [short(value) for value in (110.3, 0.0354, 694)] == ["110", "0.035", "690"]
 
 
 def test_lists_of_seeds():
