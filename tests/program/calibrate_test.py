@@ -155,7 +155,7 @@ class Results(Calibrate):
         fragment = content(self.path("calibrated.prm")).decode()
         self.assertIn("subsection discrete\n  set friction = ", fragment)
         self.assertIn("calibrated on test, discrete.csv, seeds 1-4", fragment)
-        self.assertIn(b"<h2>Measured curve and grains</h2>", content(self.path("report.html")))
+        self.assertIn(b">Measured curve and grains</h2>", content(self.path("report.html")))
 
 
 class Curves(Calibrate):

@@ -289,7 +289,7 @@ class Page(Ensemble):
             self.assertIn(f'href="{os.path.relpath(page, self.folder)}"', text)
             self.assertTrue(os.path.getsize(page) > 0)
         links = re.findall(r'(?:href|src)="([^"]+)"', text)
-        self.assertEqual([link for link in links if not link.startswith(("data:", "runs/"))], [])
+        self.assertEqual([link for link in links if not link.startswith(("data:", "runs/", "#"))], [])
         # four peaks, strength, force, volume, angle and width of one window
         self.assertEqual(len(re.findall(r'<td class="verdict', text)), 10)
         self.assertIn("two one-sided tests", text)

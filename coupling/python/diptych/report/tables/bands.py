@@ -47,11 +47,13 @@ def notes(result, increment):
     verdicts = [f"{name}: {verdict}" for name, verdict in verdicts if verdict]
     found = [f"Detector – {'; '.join(verdicts)}."] if verdicts else []
     every = [band for panel in PANEL_NAMES for band in increment.bands(panel)]
+    misfit = increment.panel("continuum").get("band_misfit")
     samples = {band["resamples"] for band in every if band.get("resamples")}
     if any(interval(band.get("angle_deg")) for band in every):
         found.append("In brackets: 95 % intervals by block bootstrap" + (
             f" with {'/'.join(map(str, sorted(samples)))} samples" if samples else "")
-            + ". The continuum has none: nothing in it is random. Difference: continuum − grains; for "
+            + f". The continuum has none: nothing in it is random. Its fit leaves {number(misfit, '%', 2)} of the platen’s "
+            "displacement (root mean square). Difference: continuum − grains; for "
             "inclinations the rotation from the band of the grains to that of the continuum, positive anticlockwise.")
     lost = round(100 * max((plain(band.get("lost_share")) or 0.0 for band in every), default=0.0))
     if lost > 0:
