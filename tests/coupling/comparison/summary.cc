@@ -170,7 +170,8 @@ namespace
     const std::string csv = csv_of(numbers, {Check{"", "", 1, 2, ""}, Check{"", "", 3, 2, ""}});
     EXPECT_NE(csv.find("\npeak t/s,-,0.4,,,0.36,,,-0.04,,,no interval (one sample)\n"), std::string::npos);
     EXPECT_NE(csv.find("\nchecks,-,,,,,,,,,,1 of 2 checks fail\n"), std::string::npos);
-    c.windows[0].discrete.band.bands[0].is_diffuse = true;
+    c.windows[0].discrete.band.bands[0].is_diffuse    = true;
+    c.windows[0].discrete.band.bands[0].interval.jump = c.windows[0].continuum.band.bands[0].interval.jump = {1, 1, 1};
     for (const KeyNumber &n : key_numbers(c))
       if (n.key == std::string("band_angle_deg"))
         EXPECT_TRUE(std::isnan(n.grains.value) && n.verdict == "diffuse");
