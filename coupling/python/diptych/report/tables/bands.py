@@ -52,8 +52,8 @@ def notes(result, increment):
     if any(interval(band.get("angle_deg")) for band in every):
         found.append("In brackets: 95 % intervals by block bootstrap" + (
             f" with {'/'.join(map(str, sorted(samples)))} samples" if samples else "")
-            + f". The continuum has none: nothing in it is random. Its fit leaves {number(misfit, '%', 2)} of the platen’s "
-            "displacement (root mean square). Difference: continuum − grains; for "
+            + ". The continuum has none: nothing in it is random. Its fit leaves "
+            f"{number(misfit, '%', 2)} of the platen’s displacement (root mean square). Difference: continuum − grains; for "
             "inclinations the rotation from the band of the grains to that of the continuum, positive anticlockwise.")
     lost = round(100 * max((plain(band.get("lost_share")) or 0.0 for band in every), default=0.0))
     if lost > 0:
