@@ -188,11 +188,11 @@ def _platens(arrival: Arrival, lateral: str) -> dict[str, Any]:
     if lateral == "periodic":  # rough platens would hold the corners that the period takes along
         return {"platens": "smooth"}
     friction = _wall_friction(arrival)
-    if friction > LEAST_FRICTION:
+    if friction > LEAST_FRICTION and lateral == "rigid_walls":
         arrival.remarks.append(f"the forces on the walls show friction: T/N up to {friction:.3g}; the scene takes "
                                "continuum/platens = frictional with this platen_friction on all walls")
         return {"platens": "frictional", "platen_friction": float(f"{friction:.3g}"), "platen_slip_length": 0}
-    platens = "smooth" if math.isfinite(friction) or lateral == "rigid_walls" else "rough"
+    platens = "rough" if lateral == "end_grains" and not friction <= LEAST_FRICTION else "smooth"
     if math.isnan(friction):
         arrival.remarks.append(f"no forces on walls are in the files: the scene takes continuum/platens = {platens}")
     return {"platens": platens}
