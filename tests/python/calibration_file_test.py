@@ -131,3 +131,15 @@ def test_a_file_of_set_is_found_from_the_working_directory(tmp_path, monkeypatch
     contents = standard_calibration(QUICK, "1-2", [*path, *more])
     assert contents["targets"][0]["set"]["loading/path"] == str(tmp_path / "mine.csv")
     assert "internal_length" not in [p["key"] for p in contents["parameters"]]  # a point has no band
+
+
+def test_a_curve_without_deviations_gets_the_usual_scatter(tmp_path):
+    (tmp_path / "lab.csv").write_text(CURVE)
+    text = ('{"targets": [{"name": "lab", "scene": "%s", "curve": "lab.csv"}], "quantities": ["stress_ratio", '
+            '"volumetric_strain"], "bins": [0, 0.02], %s"parameters": [{"key": "friction_angle_peak", "start": 25, '
+            '"low": 12, "high": 40}]}')
+    for given, start, growth in (("", 2e-4, 0.02), ('"noise": {"volume_growth": 0.1}, ', 2e-4, 0.1)):
+        (tmp_path / "c.json").write_text(text % (QUICK, given))
+        c = read_calibration(str(tmp_path / "c.json"))
+        assert (c.noise.volume_start, c.noise.volume_growth, c.noise.stress_level) == (start, growth, None)
+        assert len(c.remarks) == 1 and "no volumetric_strain_deviation" in c.remarks[0]

@@ -3,6 +3,7 @@
 """A calibration file names targets, quantities and parameters. Paths in it are relative to its folder. A scene with
 seeds stands for a file with standard contents."""
 
+import json
 import os
 import sys
 from collections.abc import Mapping, Sequence
@@ -16,7 +17,7 @@ from ... import _diptych
 from ...errors import SceneError
 from ...importers import read_table
 from ..runs.coordinates import ABOVE_LEAST, COORDINATES, LOGARITHMS, RATIOS, USUAL, Parameter
-from .noise import KINDS, Noise, Observable
+from .noise import ESTIMATED, KINDS, Noise, Observable
 from .profiles import PROFILE, STRIPS
 from ..runs.histories import is_beyond
 from ..runs.input_file import Part, Setting, is_number, name_of, value_text
@@ -29,6 +30,8 @@ CURVE_COLUMNS = {"stress_ratio": "stress_ratio_deviation", "volumetric_strain": 
 # Names of these columns in element.csv, which holds means over samples of grains and their standard errors.
 OTHER_NAMES = {f"{name}{ending}": f"grains_{name}{other}" for name in CURVE_COLUMNS
                for ending, other in (("", ""), ("_deviation", "_error"))}
+# Scatter of a laboratory test whose curve brings no deviations.
+USUAL_NOISE = {"stress_level": 0.01, "stress_shape": 0.005, "volume_start": 2e-4, "volume_growth": 0.02}
 PRESCRIBED = 1e-9  # a smaller deviation: the path prescribes the quantity
 
 
@@ -67,14 +70,15 @@ class Calibration:
     fixed: list[Setting]
     noise: Noise
     starts: int = 2
-    jacobians: int = 4
-    fine_jacobians: int = 1
+    jacobians: int = 8
+    fine_jacobians: int = 2
     start_jacobians: int = 1
     load_step: float = 0.001
     coarse_element_size: float = 4.0
     check_samples: int = 2
     more_runs: int = 0  # for the emulator; 0: three per parameter, at most 20
     seed: int = 1
+    remarks: list[str] = field(default_factory=list)  # on usual values that the file leaves out
 
     @property
     def of_grains(self) -> bool:
@@ -269,6 +273,21 @@ def _check_curves(root: Part, targets: Sequence[Target], parameters: Sequence[Pa
                         "curve")
 
 
+def _take_usual_noise(c: Calibration) -> None:
+    """Curves without deviations get the usual scatter, unless the file or samples of grains give another."""
+    if any(len(target.seeds) > 1 for target in c.targets):
+        return
+    bare = {kind: target.curve for target in c.targets if target.curve for kind, column in CURVE_COLUMNS.items()
+            if kind in c.kinds and kind in (table := read_curve(target.curve)) and column not in table}
+    for kind, curve in bare.items():
+        usual = {key: USUAL_NOISE[key] for key in ESTIMATED[kind] if getattr(c.noise, key) is None}
+        for key, value in usual.items():
+            setattr(c.noise, key, value)
+        if usual:
+            c.remarks.append(f"{os.path.basename(curve)} has no {CURVE_COLUMNS[kind]}: the usual scatter counts; to "
+                             f"change it: \"noise\": {json.dumps(usual)}")
+
+
 def read_calibration(file: str, contents: Mapping[str, Any] | None = None) -> Calibration:
     """Reads a .json file, or its contents, whose paths begin at the folder of `file`. Raises SceneError."""
     root = Part(file, {}, contents) if contents else Part.read(file, "targets, quantities, bins and parameters")
@@ -316,4 +335,5 @@ def read_calibration(file: str, contents: Mapping[str, Any] | None = None) -> Ca
                            ("seed", 0, 1_000_000), ("load_step", 1e-9, 1), ("coarse_element_size", 0.01, 1e3)):
         if root.has(key):
             setattr(c, key, root.number(key, low, high, isinstance(getattr(c, key), int)))
+    _take_usual_noise(c)
     return c

@@ -103,6 +103,7 @@ def checked(calibration: Calibration) -> Coordinates:
 def check_data(calibration: Calibration, paths: Sequence[Path], runs: CalibrationRuns, record: dict[str, Any]) -> None:
     """With coarser steps of the grains the fit would describe the step and not the material."""
     noise = noise_of([path.of_noise for path in paths], calibration.noise)
+    record["words"] += calibration.remarks
     for path in paths:
         target = path.target
         if not target.is_fitted:
