@@ -8,6 +8,7 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import diptych
@@ -16,7 +17,7 @@ from diptych.campaigns.calibration import noise
 from diptych.campaigns.calibration.calibration import calibrate, empty_record
 from diptych.campaigns.runs.coordinates import Coordinates, Parameter
 from diptych.campaigns.calibration.calibration_file import Calibration, Target, read_curve
-from diptych.campaigns.calibration.findings import predictions, summary
+from diptych.campaigns.calibration.findings import doubts, predictions, summary, write_calibration
 from diptych.campaigns.calibration.grains import mean_of
 from diptych.campaigns.calibration.noise import Data, Noise, Observable
 from diptych.campaigns.calibration.profiles import PROFILE, STRIPS
@@ -229,6 +230,30 @@ def test_intervals_hold():
     assert sum(held) >= 41 and np.mean(share) < 0.4  # of 48
 
 
+@pytest.mark.parametrize("changes, converged, failed, why", [
+    ({}, True, 9, ""),
+    ({"is_outside": True}, True, 0, "the best point lies outside its own posterior in cohesion"),
+    ({"share_known": 1.5}, True, 0, "the posterior is wider than the prior in cohesion"),
+    ({}, True, 10, "10 of 18 runs at draws of the posterior failed"),
+    ({}, False, 0, "the search has not converged")])
+def test_intervals_that_are_none_are_replaced_by_a_sentence(changes, converged, failed, why):
+    p = {"key": "cohesion", "targets": [], "is_outside": False, "share_known": 1.0, **changes}
+    assert doubts([p], converged, {"failed": failed, "more_runs": 18}) == (why and f"No intervals: {why}.")
+
+
+def test_a_search_that_does_not_converge_gives_no_interval(tmp_path):
+    """One Jacobian is too few for six parameters and exact data. A posterior of an earlier run does not stay."""
+    c = calibration(**EXACT)
+    c.jacobians, c.fine_jacobians, truth = 1, 1, truth_of(c, "", TRUTHS)
+    record = calibrated(c, [path_of(c.targets[0], Data(observables=c.observables_of(SCENE), values=[truth, truth]))])
+    assert not record["has_converged"] and "the search has not converged" in record["no_intervals"]
+    assert record["findings"] == [record["no_intervals"]]
+    assert all(np.isnan(p["number_low"]) and not p["draws"] for p in record["parameters"])
+    (tmp_path / "posterior.csv").write_text("of an earlier run")
+    write_calibration(str(tmp_path), record, {}, pd.DataFrame())
+    assert not (tmp_path / "posterior.csv").exists()
+
+
 def test_failed_runs_are_left_out_and_told():
     """The law refuses friction above 29 degrees, as at the first start, and the samples' own mesh never comes to its
     end."""
@@ -310,7 +335,7 @@ def test_a_calibration_whose_own_meshes_fail_rests_on_the_coarse_one():
     data = Data(observables=observables, values=truth, given=np.full(len(truth), 1e-3))
     record = calibrated(c, [path_of(c.targets[0], data)], run)
     assert record["parameters"][0]["value"] == pytest.approx(23, rel=1e-3)
-    told = summary(record, 1.0)
+    told = summary(record, dict.fromkeys(("total_cpu_s", "grains_cpu_s", "continuum_cpu_s"), 1.0))
     assert re.match(r"c: chi\^2 of \d+ observables \(not finished\) -> [\d.]+(e-\d+)?; ", told), told
     assert "with the calibrated parameters 'only' did not finish: no answer" in told
     rows = misfits(SimpleNamespace(paths=record["paths"]))["rows"]

@@ -25,17 +25,21 @@ MARKS = {"stress_ratio": "o", "volumetric_strain": "s", "ln_width": "D", "rotati
 QUANTITIES = {**{one["key"]: one["name"] for one in key_quantities()},
               "volumetric_strain": "volumetric strain, last bin",
               "width_10_90": "width 10–90, last window, d", "angle_deg": "inclination, last window, degrees"}
-COORDINATES = {"value": "", "logarithm": "", "share_of": "share of ", "drop_from": "drop from "}
+COORDINATES = {"value": "", "logarithm": "", "share_of": "share of ", "drop_from": "drop from ",
+               "above_least": "above the least value: "}
+SHORT = {"share_of": ", share", "drop_from": ", drop", "above_least": ", above least"}
 
 
 def draw(folder):
     calibration, paths = load(folder), []
     for path in calibration.paths:
         shown = [curve(path, kind, calibration.model) for kind in CURVES if _known(path, kind, "mean")]
-        paths.append((path, shown + [residuals(path)] + ([discrepancy(path)] if path["use"] == "fit" else [])))
+        has_misfit = path["use"] == "fit" and not calibration.record["no_intervals"]
+        paths.append((path, shown + [residuals(path)] + ([discrepancy(path)] if has_misfit else [])))
     write(folder, "calibration.html", record=calibration.record, data=calibration.data, paths=paths,
           parameters=parameters(calibration), predictions=predictions(calibration), misfits=misfits(calibration),
-          minima=minima(calibration), cost=cost(calibration), corner=corner(calibration))
+          minima=minima(calibration), cost=cost(calibration),
+          corner=None if calibration.record["no_intervals"] else corner(calibration))
 
 
 def load(folder):
@@ -162,7 +166,7 @@ def discrepancy(path):
 def corner(calibration):
     """The posterior: a histogram of each parameter with its prior, draws of each pair, and their correlation."""
     entries, n = calibration.parameters, len(calibration.parameters)
-    scales = [np.log10 if p["coordinate"] == "logarithm" else numbers for p in entries]
+    scales = [np.log10 if p["coordinate"] in ("logarithm", "above_least") else numbers for p in entries]
     draws = [scale(p["draws"]) for scale, p in zip(scales, entries)]
     ends = [scale([p["low"], p["start"], p["high"]]) for scale, p in zip(scales, entries)]
     size = 1.45 * n + 1.2
@@ -189,7 +193,7 @@ def corner(calibration):
         for axis, k, shown in ((axes.xaxis, j, i == n - 1), (axes.yaxis, i, j == 0 and i > 0)):
             if shown:
                 name = re.sub(" (?=angle|length|modulus|strain)", "\n", label(entries[k]).replace("_", " "))
-                kind = {"share_of": ", share", "drop_from": ", drop"}.get(entries[k]["coordinate"], "")
+                kind = SHORT.get(entries[k]["coordinate"], "")
                 axis.set_label_text(name + kind)
                 axis.set_ticks([ends[k][0], ends[k][2]], [f"{entries[k][end]:g}" for end in ("low", "high")])
                 for text, side in zip(axis.get_ticklabels(),
@@ -208,10 +212,12 @@ def parameters(calibration):
     for p in calibration.parameters:
         ratio = COORDINATES[p["coordinate"]]
         number = text(p["number"], 3) if ratio else ""
-        rows.append([label(p), text(p["value"]), f"{ratio}{p['of']}: {number}" if ratio else "",
-                     f"{text(p['number_low'], 3)} … {text(p['number_high'], 3)}",
-                     f"{text(p['low'], 3)} … {text(p['high'], 3)}", f"{100 * p['share_known']:.0f} %",
-                     "yes" if p["is_identified"] else "not identified"])
+        known = [f"{text(p['number_low'], 3)} … {text(p['number_high'], 3)}", f"{100 * p['share_known']:.0f} %",
+                 "yes" if p["is_identified"] else "not identified"]
+        interval, left, is_known = ["none"] * 3 if calibration.record["no_intervals"] else known
+        of = p["of"] + ": " if p["of"] else ""
+        rows.append([label(p), text(p["value"]), f"{ratio}{of}{number}" if ratio else "", interval,
+                     f"{text(p['low'], 3)} … {text(p['high'], 3)}", left, is_known])
     return {"head": ["continuum/" if calibration.model == "continuum" else "", "value", "fitted as", "95 %", "bounds",
                      "deviation left", "identified"], "rows": rows}
 
@@ -264,4 +270,6 @@ def cost(calibration):
     if calibration.model == "grains":
         rows = [["points of search and emulator, each with all seeds", str(r["coarse_runs"])],
                 ["points of the comparison", str(r["other_runs"])]]
-    return {"head": ["", ""], "rows": [*rows, ["CPU time of the grains, s", text(calibration.cost["grains_cpu_s"], 3)]]}
+    rows += [["CPU time of the grains, s", text(calibration.cost["grains_cpu_s"], 3)],
+             ["CPU time of the command with its workers, s", text(calibration.cost["total_cpu_s"], 3)]]
+    return {"head": ["", ""], "rows": rows}

@@ -5,6 +5,7 @@ parameters, findings.py computes the effect of load steps half as long and predi
 
 import argparse
 import json
+import os
 from typing import Any
 
 import numpy as np
@@ -18,7 +19,7 @@ from .calibration_file import read_calibration
 from .calibration_runs import CalibrationRuns
 from .findings import posterior_table, predict, report, summary, write_calibration
 from .grains import GrainRuns
-from .posterior import sample_posterior
+from .posterior import confirmed, sample_posterior
 from .reading import check_data, checked, inputs_of, standard_contents
 from .trials import Trials, search
 
@@ -48,7 +49,10 @@ noise/: scatter of one sample
     volume_growth: standard deviation of the volumetric strain: part that grows with strain, per strain
     ln_width: standard deviation of the logarithm of a band's width
     degrees_of_freedom: number of samples minus number of paths
-words (list): findings as text
+no_intervals (text): why no interval is given; empty if the intervals hold
+has_converged (yes or no): true if a search has converged, on the coarse mesh or on the samples' own
+findings (list): identified parameters, the others, the discrepancy; or why no interval is given
+words (list): remarks on data, runs and search
 parameters/: fitted parameters
     key (text): key of the section continuum, or discrete/KEY
     targets (list): targets it belongs to; empty: one value for all
@@ -151,6 +155,7 @@ for name, meaning in (("stress_ratio", "t/s"), ("volume", "volumetric strain")):
 describe("calibration_cost.json", """\
 continuum_cpu_s [s]: CPU time of all runs of the continuum
 grains_cpu_s [s]: CPU time of all runs of the grains
+total_cpu_s [s]: CPU time of this command with its workers, sampling included
 """)
 
 
@@ -158,7 +163,8 @@ def empty_record(title: str, model: str = "continuum") -> dict[str, Any]:
     """calibration.json before the search. model: "grains" if their keys are fitted."""
     return {"format": 1, "title": title, "model": model, "status": "started",
             "settings": [], "own": [], "chi2_before": np.nan, "chi2_coarse": np.nan, "chi2": np.nan, "n_observables": 0,
-            "coarse_runs": 0, "fine_runs": 0, "failed_runs": 0, "other_runs": 0, "noise": {}, "words": [],
+            "coarse_runs": 0, "fine_runs": 0, "failed_runs": 0, "other_runs": 0, "noise": {},
+            "no_intervals": "", "has_converged": False, "findings": [], "words": [],
             "parameters": [], "correlation": [], "emulator": {}, "discrepancy": {}, "minima": [], "paths": []}
 
 
@@ -166,8 +172,9 @@ def calibrate(trials: Trials) -> pd.DataFrame:
     """Fills the record; returns the draws of the posterior. Raises NotConverged if no start has a run."""
     fine, coarse = search(trials)
     draws = sample_posterior(trials, fine)
-    report(trials, fine, coarse, draws)
-    predict(trials, fine.point, fine.jacobian, draws)
+    best = confirmed(trials, fine, draws, fine is not coarse)
+    report(trials, best, [fine, *([] if fine is coarse else [coarse])], draws)
+    predict(trials, best.point, best.jacobian, draws)
     trials.record["status"] = "finished"
     return posterior_table(trials.coordinates, draws.points)
 
@@ -175,7 +182,7 @@ def calibrate(trials: Trials) -> pd.DataFrame:
 def run_calibration(line: argparse.Namespace, options: Options) -> None:
     """The command `diptych calibrate FILE`, or SCENE with --seeds. line: target, seeds, set, set_file and output.
     Raises Stopped or NotConverged, with the best point so far in the folder."""
-    contents = standard_contents(line)
+    contents, before = standard_contents(line), sum(os.times()[:4])
     text = json.dumps(contents, indent=1) + "\n" if contents else ""
     calibration = read_calibration(line.target, contents)
     coordinates = checked(calibration)
@@ -195,12 +202,17 @@ def run_calibration(line: argparse.Namespace, options: Options) -> None:
             posterior = calibrate(Trials(calibration, coordinates, paths, runs.evaluate, record))
         except (Stopped, NotConverged) as error:
             record["status"], ended = error.why if isinstance(error, Stopped) else str(error), error
-        write_calibration(directory, record, runs.cpu_s, posterior)
+        cost = {"continuum_cpu_s": runs.cpu_s["continuum"], "grains_cpu_s": runs.cpu_s["discrete"],
+                "total_cpu_s": sum(os.times()[:4]) - before}
+        write_calibration(directory, record, cost, posterior)
         if not ended:
-            tell(summary(record, runs.cpu_s["discrete" if calibration.of_grains else "continuum"]))
+            tell(summary(record, cost))
             draw(options, directory, "calibration")
             say(options, f"{directory}/calibrated.prm, calibration.json, calibration.csv")
     if isinstance(ended, Stopped):
         raise Stopped(f"{ended.why}; what was found is kept in {directory}", options.again)
     if ended:
         raise NotConverged(f"{ended}; what was found is kept in {directory}; to go on: {options.again}")
+    if not record["has_converged"]:
+        raise NotConverged(f"the search has not converged; its best point is kept in {directory}; allow more Jacobians "
+                           "in the calibration file, or change starts and bounds")

@@ -24,10 +24,10 @@ from ..runs.key_numbers import QUANTITIES
 from ..runs.statistics import Difference, line_statistics, paired, statistics
 
 NORMAL_95 = 1.6448536269514722  # 95 % quantile
+WIDEST = 1.3  # deviations of posterior / prior; two valleys in one posterior can reach this
 CUT = 0.04  # to a bound, in the unit cube: an interval ends there
 LARGEST_SHARE = 2 / 3  # of the prior deviation that an identified parameter keeps
-STRENGTHS = (PEAK, ANGLE, "peak_outline_stress_ratio", "peak_core_stress_ratio", "peak_nominal_stress_ratio",
-             "friction_angle_deg", "platen_force_pd")
+STRENGTHS = [key for key, one in QUANTITIES.items() if one["margin"] == QUANTITIES[PEAK]["margin"]]
 COLUMNS = ("kind", "from", "to", "count", "mean", "deviation", "deviation_of_mean", "before", "after",
            "parameter_deviation", "half_step", "counts", "discrepancy", "discrepancy_deviation")
 
@@ -47,21 +47,31 @@ def parameter_records(coordinates: Coordinates, draws: Array, best: Array) -> li
             for k, (p, value) in enumerate(zip(coordinates.parameters, coordinates.values(best)))]
 
 
-def parameter_words(parameters: Sequence[dict[str, Any]]) -> list[str]:
-    """Findings on parameters that are not identified or reach a bound."""
-    words = []
-    for p in parameters:
-        name = p["key"] + (f" ({', '.join(p['targets'])})" if p["targets"] else "")
-        if not p["is_identified"]:
-            words.append(f"{name} is not identified: its posterior deviation is {p['share_known']:.2f} times the prior "
-                         "one")
-        if p["is_outside"]:
-            words.append(f"{name}: the best point of the search lies outside the interval of the posterior, whose "
-                         f"median is {p['number_median']:.4g}")
-        if p["is_cut"]:
-            words.append(f"the interval of {name} ends at its bound, so this end comes from the bound and not from the "
-                         "data")
-    return words
+def name_of(parameter: dict[str, Any]) -> str:
+    """The key of a parameter, and its targets if it is not common to all."""
+    return parameter["key"] + (f" ({', '.join(parameter['targets'])})" if parameter["targets"] else "")
+
+
+def doubts(parameters: Sequence[dict[str, Any]], has_converged: bool, emulator: dict[str, Any]) -> str:
+    """The sentence that replaces all intervals if the posterior is none; empty if they hold."""
+    outside, wide = ([name_of(p) for p in parameters if of(p)] for of in (
+        lambda p: p["is_outside"], lambda p: p["share_known"] > WIDEST))
+    reasons = [] if has_converged else ["the search has not converged"]
+    reasons += [f"the best point lies outside its own posterior in {', '.join(outside)}"] if outside else []
+    reasons += [f"the posterior is wider than the prior in {', '.join(wide)}"] if wide else []
+    if 2 * emulator["failed"] > emulator["more_runs"]:
+        reasons += [f"{emulator['failed']} of {emulator['more_runs']} runs at draws of the posterior failed"]
+    return f"No intervals: {'; '.join(reasons)}." if reasons else ""
+
+
+def finding_words(record: dict[str, Any]) -> list[str]:
+    """Three lines: the identified parameters, the others, the misfit of the model."""
+    known = [name_of(p) for p in record["parameters"] if p["is_identified"] and not p["is_cut"]]
+    others = [name_of(p) + (" (not identified)" if not p["is_identified"] else " (its interval ends at a bound)")
+              for p in record["parameters"] if not p["is_identified"] or p["is_cut"]]
+    return [f"identified: {', '.join(known) or 'no parameter'}",
+            f"at a bound or not identified: {', '.join(others) or 'no parameter'}",
+            discrepancy_words(record["discrepancy"], record["model"])]
 
 
 def discrepancy_record(noise: Noise, draws: Draws, paths: int) -> dict[str, Any]:
@@ -73,16 +83,14 @@ def discrepancy_record(noise: Noise, draws: Draws, paths: int) -> dict[str, Any]
                                for key, value, three in zip(names, before, found.T)}}
 
 
-def discrepancy_words(record: dict[str, Any]) -> list[str]:
-    """Findings on the misfit of the law."""
-    parts = []
-    for key, name, unit in (("stress_ratio", "t/s", 1), ("volumetric_strain", "volume, %", 100),
-                            ("correlation_strain", "correlation over strain, %", 100)):
-        value, *ends = (unit * number for number in record[key]["found"])
-        parts.append(f"{name} {value:.2g}{ends_text(*ends, '{:.2g}'.format)} (before "
-                     f"{unit * record[key]['before']:.2g})")
-    rests = "one path alone" if record["paths"] == 1 else f"{record['paths']} paths"
-    return [f"discrepancy of the law, deviation: {', '.join(parts)}; it rests on {rests}"]
+def discrepancy_words(record: dict[str, Any], model: str) -> str:
+    """The misfit of the model that scatter does not explain."""
+    parts = [f"{name} {unit * found[0]:.2g}{ends_text(*(unit * end for end in found[1:]), '{:.2g}'.format)}"
+             for key, name, unit in (("stress_ratio", "t/s", 1), ("volumetric_strain", "volume, %", 100))
+             for found in [record[key]["found"]]]
+    of = "law" if model == "continuum" else "grains"
+    return (f"discrepancy of the {of}, deviation: {', '.join(parts)}"
+            + ("; one path alone tells little of it" if record["paths"] == 1 else ""))
 
 
 def widened(test: Difference, deviation: float) -> Difference:
@@ -124,7 +132,7 @@ def predictions(path: Path, runs: Sequence[Observation], deviations: Array) -> l
         earlier, now, *grains = values
         mean, deviation = (line_statistics if kind == "line" else statistics)(grains).mean, np.nan
         test = measured(mean, given, now, kind) if np.isfinite(given) else paired(grains, [now] * len(grains), kind)
-        if k is not None and deviations[k] > 0:
+        if k is not None and deviations[k] != 0:  # NaN: unknown, and so is the interval
             deviation = deviations[k] * (1 / peak if quantity in STRENGTHS else now / mean if quantity == "width_10_90"
                                          else 1)
             test = widened(test, deviation)
@@ -190,16 +198,23 @@ def with_scatter(key: str, curves: Array) -> dict[str, Array]:
     return {key: curves.mean(0), key + "_low": curves.mean(0) - spread, key + "_high": curves.mean(0) + spread}
 
 
-def report(trials: Trials, fine: Fit, coarse: Fit, draws: Draws) -> None:
+def report(trials: Trials, best: Fit, searches: Sequence[Fit], draws: Draws) -> None:
+    """searches: on the samples' own mesh and on the coarse mesh, or the only one."""
     record = trials.record
-    record["parameters"] = parameter_records(trials.coordinates, draws.points, fine.point)
+    record["parameters"] = parameter_records(trials.coordinates, draws.points, best.point)
     record["correlation"] = np.corrcoef(draws.points, rowvar=False).reshape(2 * (len(trials.coordinates),))
     record["discrepancy"] = discrepancy_record(trials.noise, draws, len(trials.fitted))
-    record["words"] += parameter_words(record["parameters"]) + discrepancy_words(record["discrepancy"])
-    searches = [("on the samples' own mesh ", fine, "fine_jacobians"), ("on the coarse mesh ", coarse, "jacobians")]
-    if fine is coarse:
-        searches = [("", fine, "jacobians")]
-    record["words"] += [f"{mesh}{fit.note}; allow more Jacobians by `{key}`" for mesh, fit, key in searches if fit.note]
+    meshes = [("on the samples' own mesh ", "fine_jacobians"), ("on the coarse mesh ", "jacobians")]
+    meshes = meshes if len(searches) > 1 else [("", "jacobians")]
+    record["has_converged"] = not all(fit.note for fit in searches)
+    record["no_intervals"] = doubts(record["parameters"], not searches[0].note, record["emulator"])
+    if record["no_intervals"]:
+        for p in record["parameters"]:
+            p |= {"number_low": np.nan, "number_median": np.nan, "number_high": np.nan, "is_identified": False,
+                  "draws": []}
+    record["findings"] = [record["no_intervals"]] if record["no_intervals"] else finding_words(record)
+    record["words"] += [f"{mesh}{fit.note}; allow more Jacobians by `{key}`"
+                        for (mesh, key), fit in zip(meshes, searches) if fit.note]
     record["words"] += trials.failure_words()
 
 
@@ -208,6 +223,8 @@ def predict(trials: Trials, best: Array, jacobian: Array, draws: Draws) -> None:
     trials.keep(best)
     jacobian = np.linalg.solve(trials.data.root, jacobian[:len(trials.data.mean)])  # of the observables
     spread, curve = np.atleast_2d(np.cov(draws.points, rowvar=False)), iter(draws.curve.T)
+    if trials.record["no_intervals"]:
+        spread = np.full_like(spread, np.nan)
     trials.record["other_runs"] += 3 * len(trials.paths)
     calibrated = [trials.settings(best, path.target.name) for path in trials.paths]
     step, uncalibrated = trials.calibration.load_step, [path.target.before for path in trials.paths]
@@ -254,23 +271,25 @@ def _chi2(value: float) -> str:
     return f"{value:.4g}" if np.isfinite(value) else "(not finished)"
 
 
-def summary(record: dict[str, Any], cpu_s: float) -> str:
+def summary(record: dict[str, Any], cost: dict[str, float]) -> str:
     """The result for the terminal."""
     runs = (f"{record['coarse_runs']} coarse and {record['fine_runs']} fine runs, " if record["model"] == "continuum"
             else f"{record['coarse_runs']} runs of all seeds, ")
     lines = [f"{record['title']}: chi^2 of {record['n_observables']} observables {_chi2(record['chi2_before'])} -> "
-             f"{_chi2(record['chi2'])}; {runs}{record['other_runs']} of predictions, {cpu_s:.4g} CPU s"]
+             f"{_chi2(record['chi2'])}; {runs}{record['other_runs']} of predictions, "
+             + f"{cost['total_cpu_s']:.3g} CPU s with all workers (grains {cost['grains_cpu_s']:.3g}, continuum "
+             f"{cost['continuum_cpu_s']:.3g})"]
     for p in record["parameters"]:
         share = f" {p['coordinate']} {p['of']} {p['number']:.3g}" if p["of"] else ""
         lines.append(f"  {p['key']} = {p['value']:.4g}{share}{ends_text(p['number_low'], p['number_high'])}"
-                     f"{'' if p['is_identified'] else ', not identified'}")
+                     f"{'' if p['is_identified'] or record['no_intervals'] else ', not identified'}")
     for path in record["paths"]:
         for one in path["predictions"]:
             data, before, after = (f"{x:.4g}" if np.isfinite(x) else "-"
                                    for x in (one["data"], one["before"], one["after"]))
             lines.append(f"  {path['name']} ({one['use']}): {one['quantity']} {data}, before {before}, "
                          f"after {after}: {one['verdict']}")
-    return "\n".join(lines + ["  " + words for words in record["words"]])
+    return "\n".join(lines + ["  " + words for words in [*record["findings"], *record["words"]]])
 
 
 def _origin(record: dict[str, Any]) -> str:
@@ -300,21 +319,23 @@ def _fragment(record: dict[str, Any]) -> str:
 
 def posterior_table(coordinates: Coordinates, draws: Array) -> pd.DataFrame:
     """A row per draw, a column per parameter: values of the keys. Targets of an own value follow the key."""
-    names = [p.key + (f" ({', '.join(p.targets)})" if p.targets else "") for p in coordinates.parameters]
+    names = [name_of({"key": p.key, "targets": p.targets}) for p in coordinates.parameters]
     return pd.DataFrame([coordinates.values(point) for point in draws], columns=names)
 
 
-def write_calibration(directory: str, record: dict[str, Any], cpu_s: dict[str, float],
+def write_calibration(directory: str, record: dict[str, Any], cost: dict[str, float],
                       posterior: pd.DataFrame | None) -> None:
-    """Writes calibration.json, calibration.csv (a row per observable), posterior.csv (a row per draw),
-    calibration_cost.json and calibrated.prm."""
+    """Writes calibration.json, calibration.csv (a row per observable), calibration_cost.json and calibrated.prm; and
+    posterior.csv (a row per draw) if its intervals hold. One of an earlier run is removed."""
     rows = [{"path": path["name"], "use": path["use"], **one} for path in record["paths"]
             for one in path["observables"]]
     table = pd.DataFrame(rows, columns=["path", "use", *COLUMNS]).astype({"counts": int})
     write_json(directory + "/calibration.json", record)
-    cost, form = {"continuum_cpu_s": cpu_s["continuum"], "grains_cpu_s": cpu_s["discrete"]}, "%.10g"
+    form, draws = "%.10g", directory + "/posterior.csv"
     write_json(directory + "/calibration_cost.json", cost)
     write_text(directory + "/calibration.csv", table.to_csv(index=False, float_format=form, na_rep="nan"))
-    if posterior is not None:
-        write_text(directory + "/posterior.csv", posterior.to_csv(index=False, float_format=form))
+    if posterior is not None and not record["no_intervals"]:
+        write_text(draws, posterior.to_csv(index=False, float_format=form))
+    elif os.path.exists(draws):
+        os.remove(draws)
     write_text(directory + "/calibrated.prm", _fragment(record))

@@ -5,11 +5,12 @@ of t/s and volume is a process over strain, independent between paths; the data 
 correlation length. emcee samples them with the parameters and the variances that a few samples gave."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.linalg
 import scipy.spatial
+import scipy.stats
 
 try:
     import emcee
@@ -38,9 +39,11 @@ FARTHEST, LARGE = 6.0, 1e30  # ln of a factor of a variance: two samples bound i
 class Draws:
     """Thinned draws of the posterior. points: (draws, parameters). sizes: (draws, 3), the factors of the tolerance of
     t/s and of volume, and the correlation strain. strain: correlation strain before the data. curve: (2, observables),
-    the discrepancy model - truth and its deviation; NaN: does not count. autocorrelation: in steps."""
+    the discrepancy model - truth and its deviation; NaN: does not count. autocorrelation: in steps. mode: the most
+    probable of the points."""
 
     points: Array
+    mode: Array
     sizes: Array
     strain: float
     curve: Array
@@ -124,13 +127,14 @@ class Posterior:
                                         moves=[(emcee.moves.DEMove(), 0.8), (emcee.moves.DESnookerMove(), 0.2)])
         sampler.run_mcmc(emcee.State(start, random_state=random.get_state()), steps)
         flat = sampler.get_chain(discard=steps // 2, flat=True)
-        z = flat[np.linspace(0, len(flat) - 1, DRAWS).astype(int)]
+        at = np.linspace(0, len(flat) - 1, DRAWS).astype(int)
+        z, mode = flat[at], flat[at[np.argmax(sampler.get_log_prob(discard=steps // 2, flat=True)[at])], :n]
         residual, covariance, of_law = self._parts(z)
         gain = np.linalg.solve(covariance, of_law).swapaxes(1, 2)
         means = (gain @ residual[..., None])[..., 0]
         left, curve = np.diagonal(of_law - gain @ of_law, axis1=1, axis2=2), np.full((2, len(self.used)), np.nan)
         curve[:, self.used] = means.mean(0), np.sqrt(means.var(0) + left.mean(0))
-        return Draws(points=z[:, :n], sizes=np.exp(z[:, n:n + 3]) * [1, 1, self.strain], strain=self.strain,
+        return Draws(points=z[:, :n], mode=mode, sizes=np.exp(z[:, n:n + 3]) * [1, 1, self.strain], strain=self.strain,
                      curve=curve, acceptance=float(sampler.acceptance_fraction.mean()),
                      autocorrelation=float(sampler.get_autocorr_time(tol=0, quiet=True)[:n].max()))
 
@@ -151,6 +155,14 @@ def sample_posterior(trials: Trials, fit: Fit) -> Draws:
         "steps": STEPS, "autocorrelation": draws.autocorrelation,
         "left_out": float(np.sqrt(np.mean(posterior.left_out[~posterior.emulator.is_fine.astype(bool)][-n:] ** 2)))}
     return draws
+
+
+def confirmed(trials: Trials, fit: Fit, draws: Draws, is_fine: bool) -> Fit:
+    """The most probable point instead of that of the search, if a run there shows that it lies in the joint 95 % region
+    of the search, which ignores the scatter common to all bins and the correlation of the discrepancy."""
+    residual = trials.residuals(is_fine)([draws.mode])[0]
+    fits = np.isfinite(residual).all() and residual @ residual < fit.chi2 + scipy.stats.chi2.ppf(0.95, len(fit.point))
+    return replace(fit, point=draws.mode, residual=residual) if fits else fit
 
 
 def _posterior(trials: Trials) -> Posterior:

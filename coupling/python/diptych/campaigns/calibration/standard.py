@@ -22,8 +22,7 @@ _DENSITY = ({"key": "critical_stress_ratio", "start": 0.26, "low": 0.1, "high": 
             {"key": "critical_solid_fraction", "coordinate": "value", "start": 0.82, "low": 0.76, "high": 0.88},
             {"key": "strength_by_density", "start": 5.5, "low": 1, "high": 20},
             {"key": "dilatancy_ratio", "coordinate": "above_least", "start": 0.25, "low": 0.05, "high": 2},
-            {"key": "stress_ratio_start", "coordinate": "share_of", "of": "critical_stress_ratio", "start": 0.4,
-             "low": 0.02, "high": 1},
+            {"key": "stress_ratio_start", "start": 0.1, "low": 0.01, "high": 0.5},
             {"key": "mobilisation_strain", "start": 0.02, "low": 0.002, "high": 0.2})
 # The standard parameters of each hardening, and those of every law that reads them. Those of mobilisation are those of
 # benchmarks/calibration/reference.

@@ -102,7 +102,8 @@ def search(trials: Trials) -> tuple[Fit, Fit]:
     coarse = _fit_coarse(trials)
     if trials.calibration.of_grains:
         return coarse, coarse
-    fine = least_squares(trials.residuals(True), coarse.point, trials.calibration.fine_jacobians, coarse.jacobian)
+    known = None if coarse.note else coarse.jacobian  # that of a search which has not converged may hide a slope
+    fine = least_squares(trials.residuals(True), coarse.point, trials.calibration.fine_jacobians, known)
     if np.isfinite(fine.chi2):
         return fine, coarse
     trials.record["words"].append("the best point of the coarse mesh did not finish on the samples' own mesh; the "
