@@ -15,7 +15,7 @@ from ...arrays import Array, Interval, ends_text
 from ..runs.coordinates import Coordinates
 from .noise import Noise, covariance, covariance_of_mean
 from .posterior import Draws
-from .observations import ANGLE, PEAK, Observation, Path
+from .observations import PEAK, Observation, Path
 from .search import NORMAL, PRIOR, Fit, difference_jacobian
 from .trials import Trials
 from ..runs.folders import write_json, write_text
