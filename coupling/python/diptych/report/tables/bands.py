@@ -53,8 +53,9 @@ def notes(result, increment):
         found.append("In brackets: 95 % intervals by block bootstrap" + (
             f" with {'/'.join(map(str, sorted(samples)))} samples" if samples else "")
             + ". The continuum has none: nothing in it is random. Its fit leaves "
-            f"{number(misfit, '%', 2)} of the platen’s displacement (root mean square). Difference: continuum − grains; "
-            "for inclinations the rotation from the band of the grains to that of the continuum, positive anticlockwise.")
+            f"{number(misfit, '%', 2)} of the platen’s displacement (root mean square). Difference: continuum − "
+            "grains; for inclinations the rotation from the band of the grains to that of the continuum, positive "
+            "anticlockwise.")
     lost = round(100 * max((plain(band.get("lost_share")) or 0.0 for band in every), default=0.0))
     if lost > 0:
         found.append(f"In {lost} % of the bootstrap samples no band was found; the interval is based on the other "
