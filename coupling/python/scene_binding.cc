@@ -150,7 +150,7 @@ namespace diptych::python
            })
       .def("law_parameters",
            [](const coupling::Scene &scene) { // law.NAME, value, ends of its range: of a library
-             py::list found;
+             py::list                        found;
              const continuum::LawParameters &all = scene.continuum.material.library.parameters;
              for (const continuum::LawParameter &one : all.list)
                found.append(py::make_tuple(all.prefix + one.name, one.value, one.range[0], one.range[1]));

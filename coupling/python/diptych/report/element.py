@@ -104,8 +104,8 @@ def _directions(element):
 def _rows(entries, keys):
     """One row per quantity. A dash stands for a number that the law does not have."""
     units = ["%" if one["quantity"] in PER_CENT else suffix(one["unit"]) for one in entries]
-    return [[NAMES.get(one["quantity"], one["quantity"]), *(rounded(one[key], unit).replace(ABSENT, "–") for key in keys)]
-            for one, unit in zip(entries, units)]
+    return [[NAMES.get(one["quantity"], one["quantity"]),
+             *(rounded(one[key], unit).replace(ABSENT, "–") for key in keys)] for one, unit in zip(entries, units)]
 
 
 def _numbers(record):
