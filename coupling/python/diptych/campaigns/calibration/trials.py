@@ -1,7 +1,7 @@
 # diptych: the second phase of a calibration: the search
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Searches from several starts on coarse meshes, then continues on the samples' own meshes with the coarse Jacobian.
-Grains in the place of the continuum have one mesh only."""
+Grains in the place of the continuum and the law's point have one search only."""
 
 import re
 from collections import Counter
@@ -15,7 +15,7 @@ from ...arrays import Array
 from ...errors import NotConverged
 from ..runs.coordinates import Coordinates
 from ..runs.input_file import Setting
-from .calibration_file import Calibration
+from .calibration_file import Calibration, is_element
 from .noise import FittedData, noise_of
 from .observations import Observation, Path
 from .search import DIFFERENCE, GRAINS_DIFFERENCE, PRIOR, Fit, least_squares, spread_point
@@ -100,7 +100,7 @@ class Trials:
 def search(trials: Trials) -> tuple[Fit, Fit]:
     """The fits on the samples' own meshes and on the coarse mesh: the same one if there is no other."""
     coarse = _fit_coarse(trials)
-    if trials.calibration.of_grains:
+    if trials.calibration.of_grains or all(is_element(path.scene) for path in trials.fitted):
         return coarse, coarse
     known = None if coarse.note else coarse.jacobian  # that of a search which has not converged may hide a slope
     fine = least_squares(trials.residuals(True), coarse.point, trials.calibration.fine_jacobians, known)
