@@ -13,6 +13,7 @@ from running import (bits, content, ENVIRONMENT, finished, Folder, history, PROG
 
 HEADER, EXAMPLES = os.path.join(SOURCE, "continuum", "laws"), os.path.join(SOURCE, "benchmarks", "own_law")
 FAULTY = os.path.join(SOURCE, "tests", "program", "faulty_law.c")
+SHIPPED = os.path.join(SOURCE, "benchmarks", "moreau_quick", "scene.prm")  # with the default law
 SCENE = """# a small rectangle whose law is a library
 subsection continuum
   set law = library
@@ -60,9 +61,9 @@ class Libraries(Folder):
     def with_fault(self, fault, *words):
         return subprocess.run([PROGRAM, *words], env={**ENVIRONMENT, "FAULT": fault}, capture_output=True, text=True)
 
-    def test_the_examples_pass_the_checks(self):
-        for library in ("mohr_coulomb", "von_mises"):
-            told = finished("check-law", os.path.join(self.libraries, library + ".so")).stdout
+    def test_the_examples_and_the_default_law_pass_the_checks(self):
+        for law in (*(os.path.join(self.libraries, name + ".so") for name in ("mohr_coulomb", "von_mises")), SHIPPED):
+            told = finished("check-law", law).stdout
             self.assertEqual(told.count(": holds\n"), 5, told)
             self.assertNotIn("strain increment", told)  # no place without a fault
         self.assertIn("law.hardening_modulus = 10 [loading/pressure]", told)
