@@ -279,7 +279,7 @@ def test_ctrl_c_keeps_an_ensemble_of_a_dict_and_the_same_call_goes_on(tmp_path, 
     assert diptych.Campaign.load("out").numbers["interrupted"][-1] == 3  # on a busy machine the first may have ended
     found = diptych.ensemble(SMALL, range(1, 4), "out", resume=True)
     assert diptych.load(found.folders[2]).scene["sample"]["seed"] == 2
-    assert found.numbers["done"] == [1, 2, 3] and found.numbers["scene"] == "out" and len(found.verdicts) == 10
+    assert found.numbers["done"] == [1, 2, 3] and found.numbers["scene"] == "out" and len(found.verdicts) == 11
     with pytest.raises(diptych.SceneError, match=r"range\(1, 4\) for 3 samples"):
         diptych.ensemble(SMALL, 3, "out")
     with pytest.raises(AttributeError, match="verdicts"):

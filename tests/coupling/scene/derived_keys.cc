@@ -77,7 +77,7 @@ namespace
     EXPECT_EQ(strain("0.04"), 0.005);
     EXPECT_EQ(strain("0.012"), 0.006);
     EXPECT_EQ(strain("0.001"), 0.001);
-    EXPECT_EQ(strain("4"), 0.1);
+    EXPECT_EQ(strain("0.8"), 0.02);
     EXPECT_EQ(scene_with({"loading/mode=time", "loading/duration=0.5"}).loading.stage_time, 0.5);
   }
 
