@@ -25,6 +25,7 @@ STEP = 0.1  # of contact dynamics in the tests of collisions
 COOLING, E_COOLING, END_COOLING = 0.1, 0.9, 60.  # solid fraction, restitution, end in mean times between collisions
 # Mean time between two collisions of a disc at the temperature 1, for discs of diameter 1 (Enskog; Henderson 1975).
 UNIT_COOLING = math.pi / (16 * COOLING) * (1 - COOLING) ** 2 / (1 - 7 * COOLING / 16)
+METHODS = ("contact dynamics", "springs")
 UNITS, COLLISIONS, LIMIT = 20., 200., 0.1  # plane: end, most collisions of a disc in the search for a collapse, error
 DENSE = ("sample/grains=600", "sample/width_over_height=0.3", "loading/duration=0.001", "loading/stage_time=0.001",
          "discrete/step=0.001", "discrete/tolerance=1e-4")
@@ -175,35 +176,34 @@ def point(options, sample, unit, e_n, name):
     found = {"collapse": 2 * far["collisions"] / count if far["collapsed"] else math.inf,
              "events": math.nan if near["collapsed"] else near["seconds"],
              "time": (far["time"] if far["collapsed"] else math.inf) / unit}
-    for method, runs in (("contact dynamics", steps), ("springs", contacts)):
+    for method, runs in zip(METHODS, (steps, contacts)):
         step, found[method] = longest_step(runs, energy)
         found[method + " step"] = step / unit
+        found[method + " errors"] = [100 * (run["energy"] / energy - 1) if run else math.nan for run in runs]
     return found
 
 
 def plane(options):
-    """Prints the table. Returns whether events collapse where they must and nowhere else."""
-    found = {}
-    for seed in options.seeds:
-        dense = claims.Runs(options, seed, options.output).run(f"dense_{seed}", "discrete", methods.SCENE, *DENSE)
-        for fraction in options.solid_fractions:
-            sample = methods.shrunk(dense, fraction).thermal(options, seed)
-            free = sample.events(options, collisions=10 * len(sample.columns))
-            unit = free["time"] / 20
-            for e_n in options.restitutions:
-                found.setdefault((fraction, e_n), []).append(
-                    dict(point(options, sample, unit, e_n, f"plane_{seed}_{fraction:g}_{e_n:g}"), rate=1 / unit))
-    print("solid            rate of    collapse after    longest step for 10 %         CPU s per 20 times\n"
-          "fraction    e    a disc     collisions, times  contact dyn., springs   events, contact dyn., springs")
-    mean = {key: {name: numpy.mean([run[name] for run in runs]) for name in runs[0]} for key, runs in found.items()}
-    for (fraction, e_n), one in mean.items():
-        print(f"{fraction:8g} {e_n:4g} {one['rate']:9.4g} {one['collapse']:12.4g} {one['time']:8.3g}"
-              f"{one['contact dynamics step']:14.3g} {one['springs step']:8.3g}"
-              f"{one['events']:13.3g} {one['contact dynamics']:9.3g} {one['springs']:9.3g}")
+    """Prints the table, for one sample. Returns whether events collapse at a restitution of 0.5 and not from 0.9 on."""
+    found, seed = {}, options.seeds[0]
+    dense = claims.Runs(options, seed, options.output).run(f"dense_{seed}", "discrete", methods.SCENE, *DENSE)
+    print(f"contact dynamics: steps {options.plane_steps}, springs: contacts {options.plane_contacts}, to {UNITS:g}\n"
+          "solid fraction, e | rate of a disc | collapse: collisions, time | longest step for 10 %: contact dynamics, "
+          "springs\n | CPU s: event-driven, contact dynamics, springs | errors [%]: contact dynamics | springs")
+    for fraction in options.solid_fractions:
+        sample = methods.shrunk(dense, fraction).thermal(options, seed)
+        unit = sample.events(options, collisions=10 * len(sample.columns))["time"] / 20
+        for e_n in options.restitutions:
+            one = point(options, sample, unit, e_n, f"plane_{seed}_{fraction:g}_{e_n:g}")
+            numbers = [[1 / unit], [one["collapse"], one["time"]], [one[f"{method} step"] for method in METHODS],
+                       [one[method] for method in ("events", *METHODS)],
+                       *(one[f"{method} errors"] for method in METHODS)]
+            print(f"{fraction:5g} {e_n:4g} |", " | ".join(" ".join(f"{x:8.3g}" for x in part) for part in numbers))
+            found[fraction, e_n] = one
     if options.figures:
-        draw_plane(mean, os.path.join(options.figures, "plane.png"))
-    return all(math.isinf(one["collapse"]) for (_, e_n), one in mean.items() if e_n >= 0.9) and any(
-        one["collapse"] < COLLISIONS for (_, e_n), one in mean.items() if e_n == 0.5)
+        draw_plane(found, os.path.join(options.figures, "plane.png"))
+    return all(math.isinf(one["collapse"]) for (_, e_n), one in found.items() if e_n >= 0.9) and any(
+        one["collapse"] < COLLISIONS for (_, e_n), one in found.items() if e_n == 0.5)
 
 
 def draw_cooling(found, periodic, path):
@@ -211,38 +211,38 @@ def draw_cooling(found, periodic, path):
     matplotlib.use("Agg")
     import matplotlib.pyplot as pyplot
     figure, (left, right) = pyplot.subplots(1, 2, figsize=(9.5, 3.9), constrained_layout=True)
-    left.loglog(haff(numpy.arange(61.))[0], "k-", linewidth=0.8, label="Haff's law")
+    left.loglog(haff(numpy.arange(61.))[0], "k-", label="Haff's law")
     left.loglog(periodic, "k.", markersize=4, label="event-driven, periodic")
     for method, colour in (("event-driven", "tab:green"), ("contact dynamics", "tab:blue"), ("springs", "tab:red")):
         named = {name: runs for name, runs in found.items() if name.startswith(method)}
         for (name, runs), line in zip(reversed(named.items()), ("-", "--", ":")):
             history = runs[0]["history"]
             left.loglog(history[1:, 0] / UNIT_COOLING, history[1:, 1] / len(runs[0]["grains"]), line, color=colour,
-                        label=name)
+                        linewidth=1, label=name)
         error = numpy.array([claims.mean_and_error([run["error"] for run in runs]) for runs in named.values()]).T
         seconds = [numpy.mean([run["seconds"] for run in runs]) for runs in named.values()]
         right.errorbar(seconds, *error, fmt="o-", color=colour, capsize=3, label=method)
         for name, x, y in zip(named, seconds, error[0]):
             right.annotate(name.split(", ")[-1], (x, y), textcoords="offset points", xytext=(5, 6), fontsize=8)
     left.set(xlabel="time / first mean time between collisions", ylabel="energy / first energy", xlim=(0.9, 70))
-    right.set(xscale="log", xlabel="CPU seconds", ylabel="error of the energy at the end [%]")
+    right.set(xscale="log", xlabel="CPU seconds", ylabel="error of the energy at the end [%]", xlim=(0.02, 5))
     for axis in (left, right):
         axis.legend(fontsize=8)
     figure.savefig(path, dpi=110)
 
 
-def draw_plane(mean, path):
+def draw_plane(found, path):
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as pyplot
-    fractions, restitutions = (sorted(set(column)) for column in zip(*mean))
+    fractions, restitutions = (sorted(set(column)) for column in zip(*found))
     names = ("collisions of a disc\nuntil event-driven collapses", "longest step of springs /\nof contact dynamics",
              "CPU s of contact dynamics /\nof springs", "CPU s of contact dynamics /\nof event-driven")
     values = (lambda one: one["collapse"], lambda one: one["springs step"] / one["contact dynamics step"],
               lambda one: one["contact dynamics"] / one["springs"], lambda one: one["contact dynamics"] / one["events"])
     figure, axes = pyplot.subplots(1, 4, figsize=(13, 3.4), constrained_layout=True, sharey=True)
     for axis, name, value in zip(axes, names, values):
-        grid = numpy.array([[value(mean[fraction, e_n]) for fraction in fractions] for e_n in restitutions])
+        grid = numpy.array([[value(found[fraction, e_n]) for fraction in fractions] for e_n in restitutions])
         axis.imshow(numpy.log(numpy.where(numpy.isinf(grid), 2 * COLLISIONS, grid)), origin="lower", cmap="RdYlGn",
                     aspect="auto")
         for (row, column), x in numpy.ndenumerate(grid):
