@@ -41,7 +41,7 @@ def packings():
 
 
 def sheared():
-    cases = ((1e-4, 0.6), (1e-3, 1), (1e-2, 2))
+    cases = ((1e-4, 0.6), (1e-3, 0.6))
     return spread([i for i, _ in cases], [[strength(seed, *case) for case in cases] for seed in (1, 2)])
 
 
@@ -86,7 +86,8 @@ def draw(curves):
     axes = picture.subplots(2, 4).ravel()
     for axis, source in zip(axes, [source for source in LOOKS if source in curves]):
         title, x_label, y_label, values, scale = LOOKS[source]
-        axis.set(title=title, xlabel=x_label, ylabel=y_label, xscale=scale)
+        axis.set_title(title, fontsize=9)
+        axis.set(xlabel=x_label, ylabel=y_label, xscale=scale)
         if source in ("radjai", "collapse"):
             {"radjai": draw_radjai, "collapse": draw_collapse}[source](axis, *curves[source])
         else:
@@ -98,5 +99,6 @@ def draw(curves):
         for value in values:
             axis.axhline(value, color=GREY, linestyle="--")
         axis.grid(alpha=0.3)
-    axes[-1].axis("off")
+    for axis in axes[len(set(LOOKS) & set(curves)):]:
+        axis.axis("off")
     picture.savefig(os.path.join(HERE, "figure.png"), dpi=90)
