@@ -291,7 +291,7 @@ class Page(Ensemble):
         links = re.findall(r'(?:href|src)="([^"]+)"', text)
         self.assertEqual([link for link in links if not link.startswith(("data:", "runs/", "#"))], [])
         # four peaks, strength, force, volume, angle and width of one window
-        self.assertEqual(len(re.findall(r'<td class="verdict', text)), 10)
+        self.assertEqual(len(re.findall(r'<td class="verdict', text)), 11)
         self.assertIn("two one-sided tests", text)
         self.assertTrue(read(self.folder)["folded"])  # left and right by chance
         images = re.findall(r'<img src="data:[^"]+" alt="([^"]{20,})"', text)
