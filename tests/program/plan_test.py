@@ -110,7 +110,7 @@ class Interruption(Plan):
 class Refused(Plan):
     def test_wrong_words_name_what_is_wrong(self):
         for scene, words, texts in [
-                (GRAINS, ["--accuracy", "2%", "--for", "peak"], ["'peak'", "peak_stress_ratio, peak_outline"]),
+                (GRAINS, ["--accuracy", "2%", "--for", "peak"], ["'peak'", "peak_stress_ratio, peak_friction"]),
                 (GRAINS, ["--accuracy", "2%", "--set", "sample/grians=3"], ["sample/grians", "sample/grains"]),
                 (GRAINS, ["--accuracy", "2%", "--set", "discrete/method=penalty"],
                  ["discrete/method = penalty", "nscd"]),
