@@ -1,4 +1,4 @@
-# diptych: the files of a calibration: wrong curves, spreadsheets, standard parameters of a scene
+# diptych: the files of a calibration, standard parameters of a scene, and when no interval holds
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Only reads files; nothing runs."""
 
@@ -12,6 +12,7 @@ from conftest import QUICK, SOURCE
 
 import diptych
 from diptych.campaigns.calibration.calibration_file import read_calibration, read_curve
+from diptych.campaigns.calibration.findings import doubts
 from diptych.campaigns.calibration.observations import read_target
 from diptych.campaigns.calibration.reading import checked
 from diptych.campaigns.calibration.standard import PARAMETERS, standard_calibration
@@ -143,3 +144,14 @@ def test_a_curve_without_deviations_gets_the_usual_scatter(tmp_path):
         c = read_calibration(str(tmp_path / "c.json"))
         assert (c.noise.volume_start, c.noise.volume_growth, c.noise.stress_level) == (start, growth, None)
         assert len(c.remarks) == 1 and "no volumetric_strain_deviation" in c.remarks[0]
+
+
+@pytest.mark.parametrize("changes, converged, failed, why", [
+    ({}, True, 9, ""),
+    ({"is_outside": True}, True, 0, "the best point lies outside its own posterior in cohesion"),
+    ({"share_known": 1.5}, True, 0, "the posterior is wider than the prior in cohesion"),
+    ({}, True, 10, "10 of 18 runs at draws of the posterior failed"),
+    ({}, False, 0, "the search has not converged")])
+def test_intervals_that_are_none_are_replaced_by_a_sentence(changes, converged, failed, why):
+    p = {"key": "cohesion", "targets": [], "is_outside": False, "share_known": 1.0, **changes}
+    assert doubts([p], converged, {"failed": failed, "more_runs": 18}) == (why and f"No intervals: {why}.")

@@ -10,6 +10,7 @@ from types import SimpleNamespace
 import numpy as np
 import pandas as pd
 import pytest
+from calibration_file_test import CURVE
 
 import diptych
 from diptych import scenes
@@ -17,7 +18,7 @@ from diptych.campaigns.calibration import noise
 from diptych.campaigns.calibration.calibration import calibrate, empty_record
 from diptych.campaigns.runs.coordinates import Coordinates, Parameter
 from diptych.campaigns.calibration.calibration_file import Calibration, Target, read_curve
-from diptych.campaigns.calibration.findings import doubts, predictions, summary, write_calibration
+from diptych.campaigns.calibration.findings import predictions, summary, write_calibration
 from diptych.campaigns.calibration.grains import mean_of
 from diptych.campaigns.calibration.noise import Data, Noise, Observable
 from diptych.campaigns.calibration.profiles import PROFILE, STRIPS
@@ -230,17 +231,6 @@ def test_intervals_hold():
     assert sum(held) >= 41 and np.mean(share) < 0.4  # of 48
 
 
-@pytest.mark.parametrize("changes, converged, failed, why", [
-    ({}, True, 9, ""),
-    ({"is_outside": True}, True, 0, "the best point lies outside its own posterior in cohesion"),
-    ({"share_known": 1.5}, True, 0, "the posterior is wider than the prior in cohesion"),
-    ({}, True, 10, "10 of 18 runs at draws of the posterior failed"),
-    ({}, False, 0, "the search has not converged")])
-def test_intervals_that_are_none_are_replaced_by_a_sentence(changes, converged, failed, why):
-    p = {"key": "cohesion", "targets": [], "is_outside": False, "share_known": 1.0, **changes}
-    assert doubts([p], converged, {"failed": failed, "more_runs": 18}) == (why and f"No intervals: {why}.")
-
-
 def test_a_search_that_does_not_converge_gives_no_interval(tmp_path):
     """One Jacobian is too few for six parameters and exact data. A posterior of an earlier run does not stay."""
     c = calibration(**EXACT)
@@ -288,14 +278,6 @@ def test_given_deviations_of_a_curve_decide(peak, volume, verdicts):
     found = predictions(path, (now, now), np.zeros(2))
     assert [one["verdict"] for one in found] == verdicts
     assert found[1]["difference"].high == pytest.approx(volume + 0.003 + 1.96 * 0.0005, rel=1e-4)
-
-
-CURVE = """# drained biaxial test
-axial_strain,stress_ratio,stress_ratio_deviation,volumetric_strain
-0,0,0.01,0
-0.01,0.3,0.01,-0.002
-0.02,0.4,0.02,-0.004
-"""
 
 
 def test_a_measured_curve_gives_means_over_bins_and_its_own_deviations(tmp_path):
