@@ -178,9 +178,12 @@ class GrainsPlan:
         samples, pairs, cpu_s = self._numbers(fine)
         used = cpu_s < limit
         if samples:
-            of_one = f"takes {limit / WORTH_TWO_LEVELS:.3g} CPU s" if one[1] else "does not reach the accuracy"
-            self._note(f"two levels: discrete/accuracy = {COARSEST_ACCURACY} on {samples} samples and {fine} on "
-                       f"{pairs} of them, {cpu_s:.3g} CPU s; {'used' if used else 'not used'}, one level {of_one}")
+            cost = limit / WORTH_TWO_LEVELS  # of one level; infinite if it does not reach the accuracy
+            self._note(f"two levels are used: {samples} samples at discrete/accuracy = {COARSEST_ACCURACY} and {pairs} "
+                       f"of them at {fine} take {cpu_s:.3g} CPU s; one level "
+                       + (f"takes {cost:.3g} CPU s" if one[1] else "does not reach the accuracy") if used else
+                       f"two levels would save {percent(max(0.0, 1 - cpu_s / cost))} of the CPU time, so one level is "
+                       "used")
         return (fine, samples, pairs) if used else None
 
     def _taken(self) -> list[float]:
