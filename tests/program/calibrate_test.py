@@ -21,7 +21,7 @@ def calibration(**changes):
     """A file that a test can afford: two parameters, two samples, one start."""
     asked = {
         "targets": [{"name": "fitted", "scene": QUICK, "set": TINY, "seeds": "1-2"},
-                    {"name": "unseen", "scene": QUICK, "set": TINY, "seeds": "3", "use": "predict"}],
+                    {"name": "unseen", "scene": QUICK, "set": TINY, "seeds": "3-3", "use": "predict"}],
         "quantities": ["stress_ratio", "volumetric_strain"], "bins": [0.002, 0.005, 0.01, 0.015, 0.02],
         "parameters": [{"key": "friction_angle_peak", "start": 21, "low": 14, "high": 40},
                        {"key": "dilatancy_angle_peak", "start": 0.4, "low": 0, "high": 1}],

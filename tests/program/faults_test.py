@@ -83,7 +83,7 @@ class Inputs(Folder):
         study = {"scene": QUICK, "command": "discrete", "reference": {"discrete/step": 0.1},
                  "axes": [{"key": "discrete/step", "values": [0.4]}],
                  "quantities": [{"column": "volumetric_strain", "at": 0.005}]}
-        calibration = {"targets": [{"name": "a", "scene": QUICK, "seeds": "1"}], "quantities": ["stress_ratio"],
+        calibration = {"targets": [{"name": "a", "scene": QUICK, "seeds": "1-1"}], "quantities": ["stress_ratio"],
                        "bins": [0.005],
                        "parameters": [{"key": "friction_angle_peak", "start": 21, "low": 14, "high": 40}]}
         inputs = {"mine.prm": content(QUICK).decode(), "study.json": json.dumps(study),

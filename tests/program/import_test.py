@@ -107,7 +107,7 @@ class Import(Case):
 
     def test_calibration_and_study_take_imported_samples(self):
         self.done("import", "lammps", *LAMMPS, "--output", self.path("mine"), "--quiet")
-        calibration = {"targets": [{"name": "lammps", "scene": "mine/scene.prm", "seeds": "1",
+        calibration = {"targets": [{"name": "lammps", "scene": "mine/scene.prm", "seeds": "1-1",
                                     "set": {"continuum/element_size": 4}}],
                        "quantities": ["stress_ratio"], "bins": [0.0101, 0.0201, 0.03001],
                        "noise": {"stress_level": 0.02, "stress_shape": 0.02},

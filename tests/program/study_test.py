@@ -31,7 +31,7 @@ STUDY = {
 N_RUNS = 14
 ROOM = 60000  # bytes that a file may have: what a full disk does
 # Long enough to be interrupted in.
-LONG = {**STUDY, "seeds": 1, "set": {**STUDY["set"], "sample/grains": 400, "loading/axial_strain": 0.05},
+LONG = {**STUDY, "seeds": "1-1", "set": {**STUDY["set"], "sample/grains": 400, "loading/axial_strain": 0.05},
         "axes": [{"key": "discrete/step", "values": [0.1, 0.07]}]}
 
 
@@ -173,7 +173,7 @@ class Points(Study):
 class Failures(Study):
     def test_points_that_fail_are_kept_with_their_words(self):
         """One that does not converge, one whose settings contradict each other; the third is right."""
-        study = {**STUDY, "seeds": 1, "axes": [{"name": "case", "points": [
+        study = {**STUDY, "seeds": "1-1", "axes": [{"name": "case", "points": [
             {"label": "plain", "set": {}},
             {"label": "no sweeps", "set": {"discrete/tolerance": 1e-13, "discrete/max_sweeps": 20}},
             {"label": "half a stage", "set": {"loading/stage_strain": 0.004}}]}]}
@@ -212,7 +212,7 @@ class Failures(Study):
         self.expect_few_lost_and_run_again(process, 2, "failed with exit code 4")
 
     def test_a_window_beyond_the_loading_is_pointed_out_and_not_judged(self):
-        study = {**STUDY, "seeds": 1, "axes": [{"key": "discrete/step", "values": [0.2]}],
+        study = {**STUDY, "seeds": "1-1", "axes": [{"key": "discrete/step", "values": [0.2]}],
                  "quantities": [{"name": "far", "strength": [0.5, 0.9], "limit": {"relative": 0.05}}]}
         self.run_study(study, told=["no value of 'far'"])
         self.assertEqual(self.classes(), {"unjudged"})

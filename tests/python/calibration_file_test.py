@@ -50,7 +50,7 @@ def test_a_file_with_a_curve_is_read(tmp_path, capfd):
     assert os.path.samefile(c.targets[0].curve, tmp_path / "lab.csv") and c.targets[0].seeds == []
     told = capfd.readouterr().err
     assert "no row lies in the bin from 0.012 to 0.018" in told and told.count("warning") == 1
-    (tmp_path / "c.json").write_text(text % (QUICK, ', "seeds": "1"'))
+    (tmp_path / "c.json").write_text(text % (QUICK, ', "seeds": "1-1"'))
     with pytest.raises(diptych.SceneError, match="replaces grains"):
         read_calibration(str(tmp_path / "c.json"))
 

@@ -230,7 +230,7 @@ def test_seeds_are_samples_and_replace_the_word_in_file_names(read):
     points = read(seeds="3-5")
     assert [run.scene.dict()["sample"]["seed"] for run in points[1].runs] == [3, 4, 5]
     (read.folder / "grains_7.csv").write_text("x,y,r\n0,0.5,0.5\n1,0.5,0.5\n")
-    scene = read(seeds=7, set={"sample/file": "grains_{seed}.csv"})[1].runs[0].scene
+    scene = read(seeds="7-7", set={"sample/file": "grains_{seed}.csv"})[1].runs[0].scene
     assert scene.dict()["sample"]["file"] == str(read.folder / "grains_7.csv")
 
 
@@ -242,7 +242,8 @@ def test_contradictory_settings_refuse_only_their_point(read):
 
 @pytest.mark.parametrize("changes, words", [
     ({"scene": "none.prm"}, ["line 2", "none.prm"]), ({"seed": 3}, ["seed: unknown key", "'seeds'"]),
-    ({"seeds": "5-3"}, ["5-3", "ascend"]), ({"command": "runn"}, ["line 3", "runn", "material-point"]),
+    ({"seeds": "5-3"}, ["5-3", "ascend"]), ({"seeds": 3}, ["line 3", "3-3"]),
+    ({"command": "runn"}, ["line 3", "runn", "material-point"]),
     ({"axes": [{"key": "discrete/friction", "values": [0.1, -1]}]}, ["discrete/friction = '-1'", "a number from"]),
     ({"axes": [{"key": "discrete/step", "values": [0.1, 0.1]}]}, ["'0.1'"]),
     ({"axes": [{"key": "discrete/method", "values": ["nscd"], "converges": True}]}, ["converges", "nscd"]),

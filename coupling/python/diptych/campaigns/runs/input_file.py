@@ -54,12 +54,12 @@ def _refuse_seeds(why: str) -> NoReturn:
     raise SceneError("--seeds" + why)
 
 
-def seeds_of_line(text: str) -> list[int]:
-    """The seeds of --seeds. Refuses a number, which could be one seed or a number of samples."""
+def seeds_of_line(text: str, refuse: Callable[[str], NoReturn] = _refuse_seeds) -> list[int]:
+    """The seeds that a user gives. Refuses a number, which could be one seed or a number of samples."""
     if text.isdigit():
-        _refuse_seeds(f" {text} could be one seed or a number of samples; write 1-{text} for {text} samples, "
-                      f"{text}-{text} for the sample with seed {text}")
-    return read_seeds(text)
+        refuse(f" {text} could be one seed or a number of samples; write 1-{text} for {text} samples, "
+               f"{text}-{text} for the sample with seed {text}")
+    return read_seeds(text, refuse)
 
 
 def read_seeds(text: str, refuse: Callable[[str], NoReturn] = _refuse_seeds) -> list[int]:
@@ -205,8 +205,8 @@ class Part:
         return word
 
     def seeds(self, key: str) -> "list[int]":
-        """As on the command line: "1-8", "1,3,5-7" or a number. Empty if it is missing."""
-        return read_seeds(value_text(self.value[key]), lambda why: self.refuse(why, key)) if self.has(key) else []
+        """As on the command line: "1-8" or "1,3,5-7". Empty if it is missing."""
+        return seeds_of_line(value_text(self.value[key]), lambda why: self.refuse(why, key)) if self.has(key) else []
 
     def settings(self, key: str) -> "list[Setting]":
         """{"section/key": value, ...}, each checked. Empty if it is missing."""
