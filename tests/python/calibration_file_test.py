@@ -11,11 +11,14 @@ import pytest
 from conftest import QUICK, SOURCE
 
 import diptych
-from diptych.campaigns.calibration.calibration_file import read_calibration, read_curve
-from diptych.campaigns.calibration.findings import doubts
-from diptych.campaigns.calibration.observations import read_target
-from diptych.campaigns.calibration.reading import checked
+from diptych.campaigns.calibration.calibration import empty_record
+from diptych.campaigns.calibration.calibration_file import Target, read_calibration, read_curve
+from diptych.campaigns.calibration.findings import doubts, predictions
+from diptych.campaigns.calibration.noise import Data, Observable
+from diptych.campaigns.calibration.observations import Observation, Path, read_target
+from diptych.campaigns.calibration.reading import checked, with_data
 from diptych.campaigns.calibration.standard import PARAMETERS, standard_calibration
+from diptych.campaigns.runs.coordinates import Coordinates, Parameter
 from diptych.campaigns.runs.input_file import Setting
 
 CURVE = """# drained biaxial test
@@ -148,10 +151,28 @@ def test_a_curve_without_deviations_gets_the_usual_scatter(tmp_path):
 
 @pytest.mark.parametrize("changes, converged, failed, why", [
     ({}, True, 9, ""),
-    ({"is_outside": True}, True, 0, "the best point lies outside its own posterior in cohesion"),
+    ({"is_outside": True}, True, 0, "the point of the search lies outside the posterior in cohesion"),
     ({"share_known": 1.5}, True, 0, "the posterior is wider than the prior in cohesion"),
     ({}, True, 10, "10 of 18 runs at draws of the posterior failed"),
     ({}, False, 0, "the search has not converged")])
 def test_intervals_that_are_none_are_replaced_by_a_sentence(changes, converged, failed, why):
     p = {"key": "cohesion", "targets": [], "is_outside": False, "share_known": 1.0, **changes}
     assert doubts([p], converged, {"failed": failed, "more_runs": 18}) == (why and f"No intervals: {why}.")
+
+
+@pytest.mark.parametrize("widths, keeps", [([np.nan, np.nan], True), ([1.1, np.nan], True), ([1.1, 1.3], False)])
+def test_a_length_without_a_width_of_a_band_is_not_fitted(widths, keeps):
+    """Nor does its prediction count as fitted."""
+    both = [Parameter(key=key, coordinate="logarithm", start=3, low=1, high=8)
+            for key in ("internal_length", "youngs_modulus")]
+    data = Data(observables=[Observable(kind="ln_width", low=0, high=0.03)], values=[[one] for one in widths])
+    path = Path(target=Target(name="a", scene="", settings=[]), scene=diptych.scenes.read({}), data=data,
+                samples=[Observation(values=values) for values in data.values], left_out=[""])
+    record = empty_record("c")
+    fitted = with_data(Coordinates(both, {"internal_length": 2.0}), [path], record)
+    assert [p.key for p in fitted.parameters] == ["internal_length", "youngs_modulus"][keeps:]
+    assert ["keeps the scene's value 2 d" in one for one in record["findings"]] == [True] * keeps
+    assert predictions(path, path.samples[:1] * 2, np.zeros(1))[0]["use"] == ("not fitted" if keeps else "fitted")
+    if keeps:
+        with pytest.raises(diptych.NotConverged, match="no parameter is left"):
+            with_data(Coordinates(both[:1], {"internal_length": 2.0}), [path], record)

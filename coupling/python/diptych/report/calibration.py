@@ -9,11 +9,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.integrate import trapezoid
 
-from .._diptych import key_quantities
 from ..arrays import ends_text, rms
 from ..errors import InputError
 from ..files import read_json
-from .charts.style import CONTINUUM, FAINT, GRAINS, INK, ruled, signed, svg
+from .charts.style import CONTINUUM, FAINT, GRAINS, INK, legend_above, ruled, signed, svg
 from .data.numbers import loading_variable_of
 from .page.writing import write
 
@@ -22,9 +21,6 @@ CURVES = {"stress_ratio": ("stress_ratio", "stress ratio t/s", 1),
 KINDS = {"stress_ratio": "t/s", "volumetric_strain": "volume", "ln_width": "ln width",
          "rotation_profile": "rotation profile"}
 MARKS = {"stress_ratio": "o", "volumetric_strain": "s", "ln_width": "D", "rotation_profile": "^"}
-QUANTITIES = {**{one["key"]: one["name"] for one in key_quantities()},
-              "volumetric_strain": "volumetric strain, last bin",
-              "width_10_90": "width 10–90, last window, d", "angle_deg": "inclination, last window, degrees"}
 COORDINATES = {"value": "", "logarithm": "", "share_of": "share of ", "drop_from": "drop from ",
                "above_least": "above the least value: "}
 SHORT = {"share_of": ", share", "drop_from": ", drop", "above_least": ", above least"}
@@ -34,8 +30,8 @@ def draw(folder):
     calibration, paths = load(folder), []
     for path in calibration.paths:
         shown = [curve(path, kind, calibration.model) for kind in CURVES if _known(path, kind, "mean")]
-        has_misfit = path["use"] == "fit" and not calibration.record["no_intervals"]
-        paths.append((path, shown + [residuals(path)] + ([discrepancy(path)] if has_misfit else [])))
+        shown += [residuals(path), None if calibration.record["no_intervals"] else discrepancy(path)]
+        paths.append((path, [picture for picture in shown if picture]))
     write(folder, "calibration.html", record=calibration.record, data=calibration.data, paths=paths,
           parameters=parameters(calibration), predictions=predictions(calibration), misfits=misfits(calibration),
           minima=minima(calibration), cost=cost(calibration),
@@ -46,11 +42,11 @@ def load(folder):
     """record: calibration.json; cost: calibration_cost.json; model: "continuum" or "grains"; data: "measured" or
     "grains". Raises InputError if the calibration did not finish."""
     path = os.path.join(folder, "calibration.json")
-    record = read_json(path, 1)
+    record = read_json(path, 2)
     if record["status"] != "finished":
         raise InputError(f"{path}: the calibration is not finished ({record['status']})")
     for one in record["paths"]:
-        across = one["across"] = loading_variable_of(one.get("walk", "axial_strain"))
+        across = one["across"] = loading_variable_of(one["walk"])
         for observable in one["observables"]:
             observable["x"] = 0.5 * across.factor * (observable["from"] + observable["to"])  # middle of its bin
     return SimpleNamespace(record=record, cost=read_json(os.path.join(folder, "calibration_cost.json")),
@@ -83,7 +79,7 @@ def curve(path, kind, model):
     figure = Figure(figsize=(4.5, 3.1))
     axes = ruled(figure.add_axes([0.15, 0.16, 0.825, 0.8]))
     label = draw_curve(axes, path, kind, model)
-    axes.legend(loc="lower right" if kind == "stress_ratio" else "best")
+    legend_above(axes, fontsize=7.5)
     return svg(figure, f"{label} of {path['name']}: data with their scatter, {model} before and after calibration.")
 
 
@@ -134,7 +130,7 @@ def residuals(path):
                 axes.plot(*zip(*points), mark, color=INK, markersize=5, markerfacecolor=INK if counts else "white",
                           label=KINDS[kind] + ("" if counts else ", not fitted"))
     axes.set(xlabel=path["across"].label, ylabel="difference / deviation")
-    axes.legend(loc="best")
+    legend_above(axes)
     return svg(figure, f"Residuals of {path['name']} for each bin, over the standard deviation of the means.")
 
 
@@ -212,7 +208,7 @@ def parameters(calibration):
     for p in calibration.parameters:
         ratio = COORDINATES[p["coordinate"]]
         number = text(p["number"], 3) if ratio else ""
-        known = [f"{text(p['number_low'], 3)} … {text(p['number_high'], 3)}", f"{100 * p['share_known']:.0f} %",
+        known = [f"{text(p['value_low'], 3)} … {text(p['value_high'], 3)}", f"{100 * p['share_known']:.0f} %",
                  "yes" if p["is_identified"] else "not identified"]
         interval, left, is_known = ["none"] * 3 if calibration.record["no_intervals"] else known
         of = p["of"] + ": " if p["of"] else ""
@@ -228,8 +224,8 @@ def predictions(calibration):
         for one in path["predictions"]:
             difference = one["difference"]
             ends = ends_text(difference["low"], difference["high"], lambda end: text(end, 2))
-            rows.append([f"{path['name']} ({one.get('use', path['use'])})",
-                         QUANTITIES[one["quantity"]], *(text(one[of]) for of in ("data", "before", "after")),
+            rows.append([f"{path['name']} ({one['use']})",
+                         one["name"], *(text(one[of], 3) for of in ("data", "before", "after")),
                          text(difference["value"], 2) + ends, text(one["margin"], 2), one["verdict"]])
     return {"head": ["path", "", calibration.data, "before", "calibrated", "difference [95 %]", "margin", "verdict"],
             "rows": rows}
@@ -256,10 +252,11 @@ def _rms(values):
 
 
 def minima(calibration):
-    rows = [[f"start {k + 1}" + (" (best)" if m["is_best"] else ""), text(m["chi2"], 3), text(m.get("total"), 3),
-             str(m["runs"]), *[text(n, 3) for n in m["numbers"]]]
-            for k, m in enumerate(calibration.record["minima"])]
-    return {"head": ["", "χ² of the data", "with prior", "runs", *map(label, calibration.parameters)], "rows": rows}
+    found = calibration.record["minima"]
+    rows = [["χ² of the data", *(text(m["chi2"], 3) for m in found)],
+            ["χ² with prior", *(text(m["total"], 3) for m in found)], ["runs", *(str(m["runs"]) for m in found)],
+            *([label(p), *(text(m["numbers"][k], 3) for m in found)] for k, p in enumerate(calibration.parameters))]
+    return {"head": ["", *(f"start {k + 1}" + " (best)" * m["is_best"] for k, m in enumerate(found))], "rows": rows}
 
 
 def cost(calibration):

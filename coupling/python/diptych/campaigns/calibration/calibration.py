@@ -20,7 +20,7 @@ from .calibration_runs import CalibrationRuns
 from .findings import posterior_table, predict, report, summary, write_calibration
 from .grains import GrainRuns
 from .posterior import confirmed, sample_posterior
-from .reading import check_data, checked, inputs_of, standard_contents
+from .reading import check_data, checked, inputs_of, standard_contents, with_data
 from .trials import Trials, search
 
 describe("calibration.json", """\
@@ -51,7 +51,7 @@ noise/: scatter of one sample
     degrees_of_freedom: number of samples minus number of paths
 no_intervals (text): why no interval is given; empty if the intervals hold
 has_converged (yes or no): true if a search has converged, on the coarse mesh or on the samples' own
-findings (list): identified parameters, the others, the discrepancy; or why no interval is given
+findings (list): status, largest misfit, and the values that were kept
 words (list): remarks on data, runs and search
 parameters/: fitted parameters
     key (text): key of the section continuum, or discrete/KEY
@@ -61,14 +61,16 @@ parameters/: fitted parameters
     low [as the coordinate says]: lower bound
     high [as the coordinate says]: upper bound
     start [as the coordinate says]: start of the first search
-    number [as the coordinate says]: value of the coordinate at the best point of the search
+    number [as the coordinate says]: value of the coordinate at the most probable point, or that of the search
     number_low [as the coordinate says]: lower end of the 95 % interval of the posterior
     number_median [as the coordinate says]: median of the posterior
     number_high [as the coordinate says]: upper end of the same interval
-    value [as the key says]: value of the key at the best point of the search
+    value [as the key says]: value of the key at that point
+    value_low [as the key says]: lower end of the 95 % interval of the value
+    value_high [as the key says]: upper end of the same interval
     share_known: deviation of the posterior / of the prior (a quarter of the range, cut at the bounds)
     is_identified (yes or no): true if the data leave less than two thirds of the prior deviation
-    is_outside (yes or no): true if the best point of the search lies outside the interval of the posterior
+    is_outside (yes or no): true if the point of the search lies outside the posterior (5 % of all searches by chance)
     is_cut (yes or no): true if the interval ends at a bound
     draws (list) [as the coordinate says]: draws of the posterior; posterior.csv holds the values of the keys
 correlation (list): correlation of the parameters in their coordinates, by the posterior
@@ -130,6 +132,7 @@ paths/: fitted and predicted paths
         quantity (text): peak_stress_ratio, peak_friction_angle_deg, peak_outline_stress_ratio, \
             peak_core_stress_ratio, peak_nominal_stress_ratio, friction_angle_deg, platen_force_pd, \
             volumetric_strain (last bin), width_10_90 (last window, mean diameters) or angle_deg
+        name (text): its name on the page
         use (text): fitted, not fitted (the fit used only other kinds of observables of this path) or predicted
         data [as the quantity says]: mean of the grains
         before [as the quantity says]: value of the continuum before the calibration
@@ -161,7 +164,7 @@ total_cpu_s [s]: CPU time of this command with its workers, sampling included
 
 def empty_record(title: str, model: str = "continuum") -> dict[str, Any]:
     """calibration.json before the search. model: "grains" if their keys are fitted."""
-    return {"format": 1, "title": title, "model": model, "status": "started",
+    return {"format": 2, "title": title, "model": model, "status": "started",
             "settings": [], "own": [], "chi2_before": np.nan, "chi2_coarse": np.nan, "chi2": np.nan, "n_observables": 0,
             "coarse_runs": 0, "fine_runs": 0, "failed_runs": 0, "other_runs": 0, "noise": {},
             "no_intervals": "", "has_converged": False, "findings": [], "words": [],
@@ -199,7 +202,9 @@ def run_calibration(line: argparse.Namespace, options: Options) -> None:
             check_data(calibration, paths, runs, record)
             if not calibration.of_grains:
                 coordinates.others["solid_fraction_start"] = runs.densest(paths)
-            posterior = calibrate(Trials(calibration, coordinates, paths, runs.evaluate, record))
+            coordinates = with_data(coordinates, paths, record)
+            posterior = calibrate(Trials(calibration, coordinates, paths, runs.evaluate, record,
+                                         tell=lambda words: say(options, words)))
         except (Stopped, NotConverged) as error:
             record["status"], ended = error.why if isinstance(error, Stopped) else str(error), error
         cost = {"continuum_cpu_s": runs.cpu_s["continuum"], "grains_cpu_s": runs.cpu_s["discrete"],

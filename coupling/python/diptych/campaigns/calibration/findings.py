@@ -3,6 +3,7 @@
 """calibration.json holds a dict: its keys are listed here, their meanings in README_calibration.md."""
 
 import os
+from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 
@@ -28,20 +29,26 @@ WIDEST = 1.3  # deviations of posterior / prior; two valleys in one posterior ca
 CUT = 0.04  # to a bound, in the unit cube: an interval ends there
 LARGEST_SHARE = 2 / 3  # of the prior deviation that an identified parameter keeps
 STRENGTHS = [key for key, one in QUANTITIES.items() if one["margin"] == QUANTITIES[PEAK]["margin"]]
+NAMES = {**{key: one["name"] for key, one in QUANTITIES.items()}, "volumetric_strain": "volumetric strain, last bin",
+         "width_10_90": "width 10–90, last window, d", "angle_deg": "inclination, last window, degrees"}
 COLUMNS = ("kind", "from", "to", "count", "mean", "deviation", "deviation_of_mean", "before", "after",
            "parameter_deviation", "half_step", "counts", "discrepancy", "discrepancy_deviation")
 
 
-def parameter_records(coordinates: Coordinates, draws: Array, best: Array) -> list[dict[str, Any]]:
-    """Values of the best point, medians and 95 % intervals of the draws; numbers are those of the coordinates."""
-    inner = np.quantile(draws, [0.025, 0.5, 0.975], axis=0)
+def parameter_records(coordinates: Coordinates, draws: Array, best: Array, searched: Array) -> list[dict[str, Any]]:
+    """Values of the best point, medians and 95 % intervals of the draws; numbers are those of the coordinates.
+    searched: the point of the search. One in 20 such points lies outside by chance in any parameter."""
+    inner, beyond = np.quantile(draws, [0.025, 0.5, 0.975], axis=0), 0.025 / len(best)
+    ends = np.quantile(draws, [beyond, 1 - beyond], axis=0)
+    of_values = np.quantile([coordinates.values(one) for one in draws], [0.025, 0.975], axis=0)
     low, median, high, at_best = (coordinates.numbers(one) for one in (*inner, best))
     numbers = np.transpose([coordinates.numbers(one) for one in draws])
     prior = scipy.stats.truncnorm(-coordinates.start / PRIOR, (1 - coordinates.start) / PRIOR, scale=PRIOR).std()
     share = draws.std(0, ddof=1) / prior
     return [{"key": p.key, "targets": list(p.targets), "coordinate": p.coordinate, "of": p.other, "low": p.low,
              "high": p.high, "start": p.start, "number": at_best[k], "number_low": low[k], "number_median": median[k],
-             "number_high": high[k], "value": value, "is_outside": bool(not inner[0, k] <= best[k] <= inner[2, k]),
+             "number_high": high[k], "value": value, "value_low": of_values[0, k], "value_high": of_values[1, k],
+             "is_outside": bool(not ends[0, k] <= searched[k] <= ends[1, k]),
              "share_known": share[k], "is_identified": bool(share[k] < LARGEST_SHARE),
              "is_cut": bool(inner[0, k] < CUT or inner[2, k] > 1 - CUT), "draws": numbers[k]}
             for k, (p, value) in enumerate(zip(coordinates.parameters, coordinates.values(best)))]
@@ -57,7 +64,7 @@ def doubts(parameters: Sequence[dict[str, Any]], has_converged: bool, emulator: 
     outside, wide = ([name_of(p) for p in parameters if of(p)] for of in (
         lambda p: p["is_outside"], lambda p: p["share_known"] > WIDEST))
     reasons = [] if has_converged else ["the search has not converged"]
-    reasons += [f"the best point lies outside its own posterior in {', '.join(outside)}"] if outside else []
+    reasons += [f"the point of the search lies outside the posterior in {', '.join(outside)}"] if outside else []
     reasons += [f"the posterior is wider than the prior in {', '.join(wide)}"] if wide else []
     if 2 * emulator["failed"] > emulator["more_runs"]:
         reasons += [f"{emulator['failed']} of {emulator['more_runs']} runs at draws of the posterior failed"]
@@ -65,13 +72,22 @@ def doubts(parameters: Sequence[dict[str, Any]], has_converged: bool, emulator: 
 
 
 def finding_words(record: dict[str, Any]) -> list[str]:
-    """Three lines: the identified parameters, the others, the misfit of the model."""
-    known = [name_of(p) for p in record["parameters"] if p["is_identified"] and not p["is_cut"]]
-    others = [name_of(p) + (" (not identified)" if not p["is_identified"] else " (its interval ends at a bound)")
-              for p in record["parameters"] if not p["is_identified"] or p["is_cut"]]
-    return [f"identified: {', '.join(known) or 'no parameter'}",
-            f"at a bound or not identified: {', '.join(others) or 'no parameter'}",
-            discrepancy_words(record["discrepancy"], record["model"])]
+    """Three lines: status, largest misfit, and the values that were kept. record["findings"]: why others were not."""
+    found = [(abs(one["difference"].value) / one["margin"], one, path) for path in record["paths"]
+             for one in path["predictions"] if np.isfinite(one["difference"].value)]
+    counts = Counter(one["verdict"] for path in record["paths"] for one in path["predictions"])
+    misfit = "largest misfit: no number could be compared"
+    if found:
+        size, one, path = max(found, key=lambda entry: entry[0])
+        misfit = (f"largest misfit: {path['name']} ({one['use']}): {one['name']}: {one['after']:.4g} instead of "
+                  f"{one['data']:.4g}, {size:.2g} times the margin, {one['verdict']}; all comparisons: "
+                  + ", ".join(f"{count} {verdict}" for verdict, count in counts.items()))
+    values = [name_of(p) + (" (not identified)" if not p["is_identified"] else " (its interval ends at a bound)"
+                            if p["is_cut"] else "") for p in record["parameters"]]
+    kept = ", ".join(map(name_of, record["parameters"]) if record["no_intervals"] else values)
+    return [f"{record['no_intervals'] or 'Converged.'} chi^2 of {record['n_observables']} observables: "
+            f"{_chi2(record['chi2_before'])} before, {_chi2(record['chi2'])} calibrated",
+            misfit, "; ".join([f"kept in calibrated.prm: {kept}", *record["findings"]])]
 
 
 def discrepancy_record(noise: Noise, draws: Draws, paths: int) -> dict[str, Any]:
@@ -136,9 +152,9 @@ def predictions(path: Path, runs: Sequence[Observation], deviations: Array) -> l
             deviation = deviations[k] * (1 / peak if quantity in STRENGTHS else now / mean if quantity == "width_10_90"
                                          else 1)
             test = widened(test, deviation)
-        use = ("predicted" if not path.target.is_fitted else
-               "fitted" if k is not None and not path.left_out[k] else "not fitted")
-        found.append({"quantity": quantity, "use": use, "data": mean,
+        counts = k is not None and not path.left_out[k] and np.isfinite(path.data.mean[k])
+        found.append({"quantity": quantity, "name": NAMES[quantity], "data": mean,
+                      "use": "predicted" if not path.target.is_fitted else "fitted" if counts else "not fitted",
                       "before": earlier, "after": now, "difference": test.difference, "margin": margins[margin],
                       "verdict": test.verdict(margins[margin]), "parameter_deviation": deviation})
 
@@ -201,7 +217,7 @@ def with_scatter(key: str, curves: Array) -> dict[str, Array]:
 def report(trials: Trials, best: Fit, searches: Sequence[Fit], draws: Draws) -> None:
     """searches: on the samples' own mesh and on the coarse mesh, or the only one."""
     record = trials.record
-    record["parameters"] = parameter_records(trials.coordinates, draws.points, best.point)
+    record["parameters"] = parameter_records(trials.coordinates, draws.points, best.point, searches[0].point)
     record["correlation"] = np.corrcoef(draws.points, rowvar=False).reshape(2 * (len(trials.coordinates),))
     record["discrepancy"] = discrepancy_record(trials.noise, draws, len(trials.fitted))
     meshes = [("on the samples' own mesh ", "fine_jacobians"), ("on the coarse mesh ", "jacobians")]
@@ -210,9 +226,10 @@ def report(trials: Trials, best: Fit, searches: Sequence[Fit], draws: Draws) -> 
     record["no_intervals"] = doubts(record["parameters"], not searches[0].note, record["emulator"])
     if record["no_intervals"]:
         for p in record["parameters"]:
-            p |= {"number_low": np.nan, "number_median": np.nan, "number_high": np.nan, "is_identified": False,
-                  "draws": []}
-    record["findings"] = [record["no_intervals"]] if record["no_intervals"] else finding_words(record)
+            p |= dict.fromkeys(("number_low", "number_median", "number_high", "value_low", "value_high"), np.nan)
+            p |= {"is_identified": False, "draws": []}
+    else:
+        record["words"].append(discrepancy_words(record["discrepancy"], record["model"]))
     record["words"] += [f"{mesh}{fit.note}; allow more Jacobians by `{key}`"
                         for (mesh, key), fit in zip(meshes, searches) if fit.note]
     record["words"] += trials.failure_words()
@@ -245,6 +262,7 @@ def predict(trials: Trials, best: Array, jacobian: Array, draws: Draws) -> None:
             trials.record[key] = chi2
         trials.record["words"] += [f"{words} '{path.target.name}' did not finish: {one.failure}"
                                    for path, one in zip(trials.paths, runs) if one.failure]
+    trials.record["findings"] = finding_words(trials.record)
 
 
 def _jacobian_on(trials: Trials, path: Path, best: Array, jacobian: Array) -> Array:
@@ -272,24 +290,16 @@ def _chi2(value: float) -> str:
 
 
 def summary(record: dict[str, Any], cost: dict[str, float]) -> str:
-    """The result for the terminal."""
+    """The result for the terminal: findings first, then values, remarks and cost."""
+    lines = [f"{record['title']}: {record['findings'][0]}", *("  " + words for words in record["findings"][1:])]
+    for p in record["parameters"]:
+        share = f" ({p['coordinate']} {p['of']} {p['number']:.3g})" if p["of"] else ""
+        lines.append(f"  {name_of(p)} = {p['value']:.4g}{ends_text(p['value_low'], p['value_high'])}{share}")
     runs = (f"{record['coarse_runs']} coarse and {record['fine_runs']} fine runs, " if record["model"] == "continuum"
             else f"{record['coarse_runs']} runs of all seeds, ")
-    lines = [f"{record['title']}: chi^2 of {record['n_observables']} observables {_chi2(record['chi2_before'])} -> "
-             f"{_chi2(record['chi2'])}; {runs}{record['other_runs']} of predictions, "
-             + f"{cost['total_cpu_s']:.3g} CPU s with all workers (grains {cost['grains_cpu_s']:.3g}, continuum "
-             f"{cost['continuum_cpu_s']:.3g})"]
-    for p in record["parameters"]:
-        share = f" {p['coordinate']} {p['of']} {p['number']:.3g}" if p["of"] else ""
-        lines.append(f"  {p['key']} = {p['value']:.4g}{share}{ends_text(p['number_low'], p['number_high'])}"
-                     f"{'' if p['is_identified'] or record['no_intervals'] else ', not identified'}")
-    for path in record["paths"]:
-        for one in path["predictions"]:
-            data, before, after = (f"{x:.4g}" if np.isfinite(x) else "-"
-                                   for x in (one["data"], one["before"], one["after"]))
-            lines.append(f"  {path['name']} ({one['use']}): {one['quantity']} {data}, before {before}, "
-                         f"after {after}: {one['verdict']}")
-    return "\n".join(lines + ["  " + words for words in [*record["findings"], *record["words"]]])
+    return "\n".join([*lines, *("  " + words for words in record["words"]),
+                      f"  {runs}{record['other_runs']} of predictions, {cost['total_cpu_s']:.3g} CPU s with all "
+                      f"workers (grains {cost['grains_cpu_s']:.3g}, continuum {cost['continuum_cpu_s']:.3g})"])
 
 
 def _origin(record: dict[str, Any]) -> str:

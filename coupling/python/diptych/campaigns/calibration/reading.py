@@ -11,7 +11,7 @@ import pandas as pd
 
 from ... import _diptych
 from ...compiled import continuum, demand_continuum
-from ...errors import SceneError
+from ...errors import NotConverged, SceneError
 from ..runs.coordinates import Coordinates
 from ..runs.engine import complain
 from ..runs.input_file import settings_of
@@ -129,6 +129,23 @@ def check_data(calibration: Calibration, paths: Sequence[Path], runs: Calibratio
         if PROFILE in calibration.kinds:
             path.left_out = [why or ("the profile shows it" if one.kind == "ln_width" else "")
                              for one, why in zip(path.data.observables, path.left_out)]
+
+
+def with_data(coordinates: Coordinates, paths: Sequence[Path], record: dict[str, Any]) -> Coordinates:
+    """Without an internal length whose targets ask for a width of a band and have none: nothing would tell it."""
+    kept = []
+    for p in coordinates.parameters:
+        counts = [np.isfinite(mean) and not why for path in paths if path.target.is_fitted and p.is_of(path.target.name)
+                  for one, mean, why in zip(path.data.observables, path.data.mean, path.left_out)
+                  if one.kind in OF_BANDS]
+        if p.key != "internal_length" or not counts or any(counts):
+            kept.append(p)
+        else:
+            value = coordinates.others[p.key]
+            record["findings"].append(f"{p.key} keeps the scene's value {value:g} d: too few samples have a band")
+    if not kept:
+        raise NotConverged(f"no parameter is left to fit: {'; '.join(record['findings'])}")
+    return Coordinates(kept, coordinates.others)
 
 
 def inputs_of(calibration: Calibration) -> list[tuple[str, str]]:

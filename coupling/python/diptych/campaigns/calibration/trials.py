@@ -33,9 +33,9 @@ class Trials:
     """Runs of the model. `record` always holds the best point so far. Raises NotConverged without data."""
 
     def __init__(self, calibration: Calibration, coordinates: Coordinates, paths: Sequence[Path], run: RunModel,
-                 record: dict[str, Any]) -> None:
+                 record: dict[str, Any], *, tell: Callable[[str], None] = lambda words: None) -> None:
         self.calibration, self.coordinates, self.paths = calibration, coordinates, paths
-        self.run, self.record = run, record
+        self.run, self.record, self.tell = run, record, tell
         self.fitted = [path for path in paths if path.target.is_fitted]
         alone = len(self.fitted) == 1 and len(self.fitted[0].samples) == 1
         self.noise = noise_of([path.of_noise for path in (paths if alone else self.fitted)], calibration.noise)
@@ -104,6 +104,7 @@ def search(trials: Trials) -> tuple[Fit, Fit]:
         return coarse, coarse
     known = None if coarse.note else coarse.jacobian  # that of a search which has not converged may hide a slope
     fine = least_squares(trials.residuals(True), coarse.point, trials.calibration.fine_jacobians, known)
+    trials.tell(f"search on the samples' own mesh: chi^2 {fine.chi2:.4g}; next: posterior and predictions")
     if np.isfinite(fine.chi2):
         return fine, coarse
     trials.record["words"].append("the best point of the coarse mesh did not finish on the samples' own mesh; the "
@@ -119,6 +120,7 @@ def _fit_coarse(trials: Trials) -> Fit:
         start = spread_point(c.seed + k, len(trials.coordinates)) if k else trials.coordinates.start
         fit = least_squares(residuals, start, c.start_jacobians if k else c.jacobians, difference=trials.difference)
         fits.append(fit)
+        trials.tell(f"search from start {k + 1}: chi^2 {fit.chi2:.4g}{f'; {fit.note}' if fit.note else ''}")
         record["minima"].append({"start": trials.coordinates.numbers(start), "runs": fit.evaluations, "is_best": False,
                                  "words": fit.note, **_minimum(trials, fit)})
     found = int(np.argmin([fit.chi2 for fit in fits]))
@@ -128,13 +130,15 @@ def _fit_coarse(trials: Trials) -> Fit:
     best = fits[found]
     if found > 0:  # so far with few Jacobians
         best = least_squares(residuals, best.point, c.jacobians, difference=trials.difference)
+        trials.tell(f"search from the best of them: chi^2 {best.chi2:.4g}")
     record["minima"][found] |= {"is_best": True, **_minimum(trials, best)}
     for k, fit in enumerate(fits):
         if k != found and np.isfinite(fit.chi2) and np.abs(fit.point - best.point).max() > SAME_MINIMUM:
             why = ("the data hardly distinguish the two" if fit.chi2 < best.chi2 + HARDLY_WORSE
-                   else "a worse fit; other sets of parameters may fit as well")
-            record["words"].append(f"start {k + 1} ended at another point, with chi^2 (prior included) {fit.chi2:.3g} "
-                                   f"instead of {best.chi2:.3g}: {why}")
+                   else "it did not converge; more `start_jacobians` show whether the result depends on the start"
+                   if fit.note else "a worse minimum; the result may depend on the start")
+            record["words"].append(f"start {k + 1} ended elsewhere, with chi^2 {fit.chi2:.3g} instead of "
+                                   f"{best.chi2:.3g} (prior included): {why}")
     record["chi2_coarse"] = trials.chi2(best.residual)
     return best
 
