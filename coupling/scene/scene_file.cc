@@ -52,6 +52,9 @@ namespace diptych::coupling
             refusal.allowed = key.allowed + " [" + key.unit + "]";
             if (entry.value.find(',') != std::string::npos)
               refusal.hint = "decimals have a point, and only lists have commas";
+            const std::size_t sign = entry.value.find_last_not_of("% ") + 1;
+            if (const auto n = read_number(entry.value.substr(0, sign), {-1e12, 1e12}); n && sign < entry.value.size())
+              refusal.hint = entry.value + " is " + text_of(*n / 100);
           }
       throw SceneError(refusal, "is not allowed");
     }

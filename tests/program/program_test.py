@@ -251,6 +251,7 @@ class CommandLine(Folder):
             self.assertIn("moreau_quick: fine", result.stdout.splitlines()[-1])
             self.assertEqual(result.stderr, "")
         self.expect(2, ["run", QUICK, "--check", *setting(loading_axial_strain=3)], "loading/axial_strain=3", "0.03")
+        self.expect(2, ["run", QUICK, "--check", *setting(loading_axial_strain="3 %")], "'3 %'", "3 % is 0.03")
 
     def test_completion_offers_commands_options_keys_and_values(self):
         script = write(os.path.join(self.work, "completion"), diptych("completion", "bash").stdout)
