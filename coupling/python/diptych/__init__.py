@@ -15,11 +15,11 @@ import sys
 
 try:
     from ._diptych import Contacts, ContinuumSnapshot, DiscreteSnapshot, __version__
+    from .arrays import Band, BandReport, History, Interval, Mesh, Record, StressMap
 except ImportError as error:
     raise ImportError(f"diptych does not load in {sys.executable}: {error}. Use the Python of the build (Debian: "
                       "/usr/bin/python3).") \
         from error
-from .arrays import Band, BandReport, History, Interval, Mesh, Record, StressMap
 from .errors import NotConverged, SceneError, SceneWarning, Stopped
 from .laws import biaxial, integrate, principal
 from .operators import (contacts, displacement_gradient, find_bands, grid, increment, map_stress, platen_friction,
