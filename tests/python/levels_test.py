@@ -117,7 +117,8 @@ def test_an_ensemble_gets_rows_in_the_limit():
     record = {"verdicts": [verdict], "summary": [first],
               "validation": [{"key": "peak_stress_ratio", "parts": {"mesh": np.nan, "load_step": 0.0},
                               "u_input": np.nan}],
-              "continuum_runs": {"values": []}}
+              "continuum_runs": {"values": []},
+              "checks": [{"key": "discrete_summary/" + name} for name in ("impact_share", "energy_residual")]}
     limit = x - (x - y) / (1 - RATIO)
     rows = {"cheap": 0.05, "quantities": [{"key": "peak_stress_ratio", "quantity": "peak t/s", "unit": "-",
                                             "ratio": RATIO, "fine": y.tolist()}]}
@@ -125,6 +126,7 @@ def test_an_ensemble_gets_rows_in_the_limit():
     verdict["margin"] = 1.1 * max(-ends.low, ends.high)  # the order widens the interval by less
     add_summary(record, rows)
     row = record["summary"][-1]
+    assert [one["key"] for one in record["checks"]] == ["discrete_summary/energy_residual"]
     assert record["summary"][0]["quantity"] == "peak t/s (accuracy 0.05)"
     assert row["quantity"] == "peak t/s, limit of short steps" and row["verdict"].startswith("equivalent within")
     record["validation"][0]["parts"]["mesh"] = verdict["margin"] * TRUTH

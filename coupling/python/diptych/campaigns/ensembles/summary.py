@@ -55,7 +55,7 @@ summary/: the numbers that a user asks for first, with the rows of the summary o
     continuum (interval) [as unit says]: mean of the continuum over the samples
     difference (interval) [as unit says]: mean of continuum minus grains, sample by sample
     verdict (text): equivalent, different or cannot tell, with the margin; or not in both panels
-checks/: limits within which the results of a member are reliable
+checks/: limits within which the results of a member are reliable; with --levels without that of the impacts
     key (text): place of the checked number in comparison.json
     name (text): name of the checked number
     limit: largest magnitude at which the results are reliable
