@@ -52,8 +52,9 @@ class Results:
         intervals where one sample gives them) and verdict. The verdict of the last row, "checks", counts the limits
         that the run breaks; compare() lists them. Raises FileNotFoundError without a comparison."""
         import pandas
+        from .summaries import Summary
 
-        return pandas.read_csv(os.path.join(self.folder, "summary.csv"), index_col="quantity")
+        return Summary(pandas.read_csv(os.path.join(self.folder, "summary.csv"), index_col="quantity"))
 
     def plot(self, column: str = "stress_ratio", ax: Axes | None = None) -> Axes:
         """Draws a column of the histories over the loading variable, for each panel that has it."""

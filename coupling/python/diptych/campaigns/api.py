@@ -22,6 +22,7 @@ from ..errors import NotConverged, SceneError, Stopped
 from ..files import member_folders, read_ensemble
 from ..results import Results, load
 from ..scenes import SceneLike, changes, read, text_of
+from ..summaries import Summary
 from .commands import do
 from .runs.engine import NOT_CONVERGED, WRONG_INPUT, environment, program, stop_signals
 from .runs.folders import read_json
@@ -89,7 +90,7 @@ class Campaign(CampaignResult):
         table = pd.json_normalize(self.numbers["summary"], sep="_")
         table = table.rename(columns=lambda name: name.removesuffix("_value"))
         numbers = [of + end for of in ("grains", "continuum", "difference") for end in ("", "_low", "_high")]
-        return table.set_index("quantity")[["unit", *numbers, "verdict"]].astype(dict.fromkeys(numbers, float))
+        return Summary(table.set_index("quantity")[["unit", *numbers, "verdict"]].astype(dict.fromkeys(numbers, float)))
 
     @property
     def effects(self) -> pd.DataFrame:
