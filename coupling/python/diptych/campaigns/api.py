@@ -256,9 +256,13 @@ def run(scene: SceneLike, output: PathLike = "", **options: Any) -> Results:
             if _diptych.stop_requested():
                 process.terminate()
         errors.seek(0)
+        text = errors.read().strip().removeprefix("diptych: ")
+        if process.returncode == WRONG_INPUT:
+            raise SceneError(text)
+        if process.returncode and _diptych.stop_requested():  # without a text: a signal killed it as it started
+            raise Stopped(text or f"run: stopped on request; {folder} keeps what was written, and resume=True goes on")
         if process.returncode:
-            kind = {WRONG_INPUT: SceneError, NOT_CONVERGED: Stopped if _diptych.stop_requested() else NotConverged}
-            raise kind.get(process.returncode, RuntimeError)(errors.read().strip().removeprefix("diptych: "))
+            raise (NotConverged if process.returncode == NOT_CONVERGED else RuntimeError)(text)
     return load(folder)
 
 
