@@ -264,15 +264,17 @@ namespace diptych::coupling
       return keys;
     }
 
-    // Keys without effect for frames of another code, because the discrete panel computes nothing.
+    // Keys without effect for frames of another code, because the discrete panel computes nothing. The frictions choose
+    // defaults of the continuum.
     void add_unread_of_imported(const Scene &scene, std::vector<Unused> &keys)
     {
       if (scene.discrete.method.method != discrete::Method::imported)
         return;
-      const std::set<std::string> read = {"sample/mean_diameter", "sample/density",   "sample/seed",
-                                          "discrete/method",      "discrete/file",    "discrete/lateral",
-                                          "discrete/side_motion", "loading/pressure", "loading/mode",
-                                          "loading/strain_rate",  "loading/stages",   "loading/axial_strain"};
+      const std::set<std::string> read = {
+        "sample/mean_diameter", "sample/density",           "sample/seed",          "discrete/method",
+        "discrete/file",        "discrete/lateral",         "discrete/side_motion", "loading/pressure",
+        "loading/mode",         "loading/strain_rate",      "loading/stages",       "loading/axial_strain",
+        "discrete/friction",    "discrete/rolling_friction"};
       for (const KeyDescription &key : keys_of(scene))
         if ((key.section == "sample" || key.section == "discrete" || key.section == "loading") &&
             read.count(key.full_name()) == 0)

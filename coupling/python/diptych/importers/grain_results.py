@@ -16,8 +16,8 @@ from .periods import is_cell
 from .touching import NORMALS, SIDES, Instant, dot, length, total
 
 GROWTH = 1e-9  # least growth of the loading variable between two frames
-LEAST_FRICTION = 0.05  # of the walls; frames at rest show less between smooth walls
-LEAST_FORCE = 0.1  # mean normal forces of the contacts with walls; the ratio of smaller ones is round-off
+LEAST_FRICTION = 0.05  # frames at rest show less between smooth walls
+LEAST_FORCE = 0.1  # mean normal forces of such contacts; the ratio of smaller ones is round-off
 MOST_DIAMETERS = 1e5  # between the lower and the upper wall
 
 
@@ -167,31 +167,45 @@ def _side_pressure(arrival: Arrival, results: Any) -> float:
                                     "a horizontal stress above 0; give --pressure P", "wall_file")
 
 
-def _wall_friction(arrival: Arrival) -> float:
-    """The largest ratio T/N of the tangential and normal force of a contact with a wall; without such contacts that of
-    the sums on a wall. It is the friction of the walls if one contact slides, else less. nan: no forces of walls."""
+def _friction(arrival: Arrival, of_walls: bool) -> float:
+    """The largest ratio T/N of the tangential and normal force of a contact of two grains or with a wall; without
+    contacts with walls that of the sums on a wall. It is the friction if one contact slides, else less. nan: no
+    forces."""
     n, found = len(arrival.id), []
     for now in arrival.frames:
         c = now.contacts
-        on_wall = c["j"] >= n
-        force, normal = (c["force"][on_wall], c["normal"][on_wall]) if on_wall.any() else (now.told_force, NORMALS)
+        these = (c["j"] >= n) == of_walls
+        force, normal = c["force"][these], c["normal"][these]
+        if of_walls and not these.any():
+            force, normal = now.told_force, NORMALS
         push = dot(force, normal)
         pressed = push > 0  # false for nan
         if pressed.any():
             pressed &= push > LEAST_FORCE * push[pressed].mean()
             found += list((length(force - push[:, None] * normal) / push)[pressed])
-    return max(found, default=math.nan)
+    return float(f"{max(found, default=math.nan):.3g}")
+
+
+def _grain_friction(arrival: Arrival) -> dict[str, Any]:
+    """The key of the friction between grains where the forces show one."""
+    friction = _friction(arrival, of_walls=False)
+    if not friction > LEAST_FRICTION:
+        return {}
+    arrival.remarks.append(f"the forces between grains show friction: T/N up to {friction:g}; the scene takes it as "
+                           "discrete/friction")
+    return {"friction": friction}
 
 
 def _platens(arrival: Arrival, lateral: str) -> dict[str, Any]:
     """Keys of the continuum's walls in a compression, from the forces of the walls where they are known."""
     if lateral == "periodic":  # rough platens would hold the corners that the period takes along
         return {"platens": "smooth"}
-    friction = _wall_friction(arrival)
+    friction = _friction(arrival, of_walls=True)
     if friction > LEAST_FRICTION and lateral == "rigid_walls":
-        arrival.remarks.append(f"the forces on the walls show friction: T/N up to {friction:.3g}; the scene takes "
-                               "continuum/platens = frictional with this platen_friction on all walls")
-        return {"platens": "frictional", "platen_friction": float(f"{friction:.3g}"), "platen_slip_length": 0}
+        arrival.remarks.append(f"the forces on the walls show friction: T/N up to {friction:g}; the scene takes "
+                               "continuum/platens = frictional with this platen_friction on all walls, full from the "
+                               "first slip (platen_slip_length = 0)")
+        return {"platens": "frictional", "platen_friction": friction, "platen_slip_length": 0}
     platens = "rough" if lateral == "end_grains" and not friction <= LEAST_FRICTION else "smooth"
     if math.isnan(friction):
         arrival.remarks.append(f"no forces on walls are in the files: the scene takes continuum/platens = {platens}")
@@ -213,7 +227,8 @@ def scene_of(arrival: Arrival, results: Any, pressure: float | None) -> str:
                            **({"strain_rate": rows["progress"][-1] / time} if time > 0 and math.isfinite(time) else {})}
     sections["discrete"] = {"method": "imported", "file": "discrete.h5",
                             "lateral": "rigid_walls" if has_sides else
-                            "periodic" if results.snapshots[0].cell_width else "end_grains"}
+                            "periodic" if results.snapshots[0].cell_width else "end_grains",
+                            **_grain_friction(arrival)}
     lateral = sections["discrete"]["lateral"]
     if lateral == "end_grains":
         arrival.remarks.append("no side walls are in the files: the scene takes discrete/lateral = end_grains, free "

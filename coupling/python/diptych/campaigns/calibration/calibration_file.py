@@ -158,7 +158,7 @@ def _results(part: Part) -> tuple[list[str], list[int]]:
         identity, imported = dict(scene.identity("sample")), scene.dict()["discrete"]["method"] == "imported"
         seeds.append(scene.dict()["sample"]["seed"])
         samples.append(str(scene.dict()["discrete"]["file"] if imported else seeds[-1]))
-        for key in ("sample/seed", *(("discrete/file", "loading/pressure") if imported else ())):
+        for key in ("sample/seed", *(("discrete/file", "discrete/friction", "loading/pressure") if imported else ())):
             del identity[key]
         first = first or identity
         for key in identity:
