@@ -7,6 +7,7 @@ import json
 import math
 import os
 import signal
+import subprocess
 import threading
 import time
 
@@ -295,6 +296,11 @@ def test_run_is_the_command_and_can_be_stopped(tmp_path, monkeypatch):
             time.sleep(0.01)
         os.kill(os.getpid(), signal.SIGINT)
 
+    begin = subprocess.Popen
+    with monkeypatch.context() as changed, pytest.raises(diptych.Stopped, match="stopped on request"):
+        changed.setattr(subprocess, "Popen",
+                        lambda *words, **ways: (begin(*words, **ways), os.kill(os.getpid(), signal.SIGTERM))[0])
+        diptych.run(SMALL, "out")
     threading.Thread(target=stop).start()
     with pytest.raises(diptych.Stopped, match="--resume"):
         diptych.run(SMALL, "out")
