@@ -154,7 +154,7 @@ def test_positions_alone_give_strain_and_bands_but_no_stress(tmp_path):
     assert refused.returncode == 2 and "need --mean-diameter D, their distance" in refused.stderr
     said = program(*words[1:], "--mean-diameter", "1")
     for text in ("no radii are in the files", "positions alone give strain and bands, but no stress", "missing: stress",
-                 "no stress and no scene"):
+                 "no stress and no scene", "missing: radii: solid fractions are those of discs"):
         assert text in said
     with open(tmp_path / "out" / "homogenised.json") as file:
         record = json.load(file)

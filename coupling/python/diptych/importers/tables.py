@@ -130,6 +130,7 @@ def grains_of(table: Table, options: Options, position: np.ndarray | None = None
             raise refused(table.path, f"lacks a column {' or '.join(RADIUS + DIAMETER)}; its columns are "
                           f"{', '.join(table.columns)}. Points without radii need --mean-diameter D, their distance")
         diameter = np.full(len(table.rows), options.mean_diameter)
+        options.used.add("mean_diameter")  # as radii
         options.note("no radii are in the files: every point counts as a disc of --mean-diameter, also "
                      "in the solid fraction")
     radius = table.numbers(*RADIUS) if diameter is None or table.find(*RADIUS) is not None else diameter / 2

@@ -185,9 +185,13 @@ def run_homogenise(line: argparse.Namespace, options: Options) -> None:
             _diptych.require_usable(folder, False, True)
             locked.set_aside([("the folder with the grains", line.target),
                               *(("the file", file) for file in line.files)])
+        given = import_options(line)
         if line.files:
-            import_files(line.target, import_options(line), grains, options)
+            import_files(line.target, given, grains, options)
         found = homogenise(grains, line.grid)
+        if "mean_diameter" in given.used:
+            found.missing.append({"quantity": "radii", "reason": "solid fractions are those of discs of "
+                                  "--mean-diameter"})
         write_text(os.path.join(folder, "homogenised.csv"), found.table().to_csv(index_label="frame"))
         _write_fields(folder, found)
         record = {"format": 1, "source": os.path.abspath(grains), "walk": found.walk, "grid_d": found.grid,
