@@ -130,8 +130,10 @@ namespace diptych::coupling
       return "";
     std::string text = "mean sxx / P from 0.3 % strain:";
     for (const auto &[name, n] : {std::pair{" grains ", &c.discrete.numbers}, {", continuum ", &c.continuum.numbers}})
-      text += name + number(n->mean_sxx / pressure) + " (sides " + number(n->sides_sxx / pressure) + ", platens " +
-              number(n->platens_sxx / pressure) + ")";
+      text += name + number(n->mean_sxx / pressure) +
+              (std::isnan(n->sides_sxx)
+                 ? "" // imported grains
+                 : " (sides " + number(n->sides_sxx / pressure) + ", platens " + number(n->platens_sxx / pressure) + ")");
     return "\n" + text;
   }
 
