@@ -52,18 +52,21 @@ class Import(Case):
         page = content(self.path("both", "report.html")).decode()
         self.assertIn("Grains imported from lammps", page)
         self.assertIn("Not in the files, and left out below: rotations", page)
-        self.done("compare", self.path("both"), "--quiet")
+        told = self.done("compare", self.path("both"))
+        self.assertRegex(told, r"grains [\d.]+, continuum [\d.]+ \(sides [\d.]+, platens")
         self.done("report", self.path("both"), "--quiet")
 
-    def test_friction_of_the_walls_is_measured_and_guesses_are_told(self):
-        """The walls of in.biaxial have friction 0.3; without their forces their friction is unknown."""
+    def test_frictions_are_measured_and_guesses_are_told(self):
+        """Walls of in.biaxial have friction 0.3, grains 0.5; without forces of walls their friction is unknown."""
         told = self.done("import", "lammps", *LAMMPS, "--output", self.path("mine"))
         for text in ("T/N up to 0.3; the scene takes continuum/platens = frictional", "not fitted to these grains",
-                     "loading/pressure = 999.998, from the force on the right wall / height in frame step 120000"):
+                     "loading/pressure = 999.998, from the force on the right wall / height in frame step 120000",
+                     "T/N up to 0.5; the scene takes it as discrete/friction"):
             self.assertIn(text, told)
         scene = content(self.path("mine", "scene.prm")).decode()
-        for text in ("platens = frictional", "platen_friction = 0.3", "platen_slip_length = 0"):
+        for text in ("platens = frictional", "platen_friction = 0.3", "platen_slip_length = 0", "set friction = 0.5"):
             self.assertIn(text, scene)
+        self.assertNotIn("not used", self.expect(0, ["run", self.path("mine", "scene.prm"), "--check"]).stderr)
         told = self.done("import", "lammps", *files("lammps/[cg]*.dump"), "--walls-touch", "--output",
                          self.path("guess"))
         for text in ("no side walls are in the files: the scene takes discrete/lateral = end_grains",
