@@ -143,7 +143,8 @@ namespace diptych::coupling
       PhaseCost cost           = timer.stop();
       cost.cpu_s               = sum_over_processes(cost.cpu_s);
       on_first_process([&] {
-        record_phases(scene.output.directory, {scene.name, {scene.sample.seed}, line.text}, {cost});
+        record_phases(scene.output.directory, {scene.name, {scene.sample.seed}, line.text},
+                      {resume ? with_earlier_sessions(scene.output.directory, cost) : cost});
         record_facts(scene.output.directory, part.name, report);
         say_result(line, scene, part, report,
                    resume ? discrete::read_rows<continuum::HistoryRow>(continuum_csv(part.directory)) : recorded.results.rows);

@@ -155,11 +155,11 @@ namespace diptych::coupling
     void record(const CommandLine      &line,
                 const Scene            &scene,
                 const discrete::Report &report,
-                const PhaseTimer       &timer,
+                PhaseCost               loading,
                 const bool              prepared_before)
     {
-      PhaseCost loading = timer.stop(), preparation = loading;
-      preparation.name  = "preparation";
+      PhaseCost preparation = loading;
+      preparation.name      = "preparation";
       preparation.cpu_s = preparation.wall_s = report.preparation_cpu_s;
       if (!prepared_before)
         {
@@ -243,7 +243,8 @@ namespace diptych::coupling
     report.finished              = report.status == discrete::Status::finished;
     report.kinetic_energy_bursts = bursts(rows);
     report.warnings              = doubts(rows, report, scene);
-    record(line, scene, report, timer, before);
+    const PhaseCost loading      = timer.stop();
+    record(line, scene, report, checkpoint ? with_earlier_sessions(directory, loading) : loading, before);
     say_result(line, scene, rows);
     recorded.warnings += reference_text(report);
     tell_doubts(report.warnings);

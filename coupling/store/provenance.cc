@@ -288,6 +288,18 @@ namespace diptych::coupling
     write_record(directory, record);
   }
 
+  PhaseCost with_earlier_sessions(const std::string &directory, PhaseCost cost)
+  {
+    for (const PhaseCost &earlier : read_run_facts(directory).phases)
+      if (earlier.name == cost.name)
+        {
+          cost.wall_s += earlier.wall_s;
+          cost.cpu_s += earlier.cpu_s;
+          cost.peak_memory_mb = std::max(cost.peak_memory_mb, earlier.peak_memory_mb);
+        }
+    return cost;
+  }
+
   void record_facts(const std::string &directory, const discrete::Report &report)
   {
     put_facts(directory, "discrete", report);

@@ -38,6 +38,8 @@ namespace diptych::coupling
   // Adds phases to provenance.json. Replaces a phase of the same name and keeps all other entries. Throws std::runtime_error if
   // the file cannot be written, std::invalid_argument if it is damaged.
   void record_phases(const std::string &directory, const RunOrigin &origin, const std::vector<PhaseCost> &phases);
+  // The cost of a phase that goes on from a checkpoint, with that of its earlier sessions in provenance.json.
+  PhaseCost with_earlier_sessions(const std::string &directory, PhaseCost cost);
 
   // Records the facts of one part ("discrete", "continuum" or "continuum_coarse") and the checksums of its files.
   void record_facts(const std::string &directory, const discrete::Report &report);
