@@ -175,8 +175,11 @@ class CompleteFolder(unittest.TestCase):
         self.assertEqual(links, re.findall(r'<h2[^>]* id="(part-\d+)">(.*?)</h2>', self.text))
         self.assertGreater(len(links), 15)
 
-    def test_a_diffuse_zone_has_no_inclination(self):
-        self.assertRegex(self.words, r'angle_deg</th><td>−45.0° \[[^<]*</td><td>−45.0°</td><td>diffuse</td>')
+    def test_a_diffuse_zone_has_neither_an_inclination_nor_a_line(self):
+        self.assertRegex(self.words, r'angle_deg</th><td>−45.0° \[[^<]*</td><td>−45.0°</td><td>diffuse zone</td>')
+        self.assertIn("Continuum, diffuse zone", self.words)
+        window = next(one for one in self.maps["increments"] if one["kind"] == "window")
+        self.assertEqual([band[0] for band in window["bands"]["continuum"]], [-45, None])
 
     def test_the_page_needs_no_other_file(self):
         self.assertIsNone(re.search(r' (?:src|href)="(?!data:|#)', self.text))

@@ -206,6 +206,13 @@ def test_only_members_with_a_band_count_for_it():
         "window 0-0.04 discrete": "one band in 1 of 3, two bands in 1, none in 1"}
 
 
+def test_a_diffuse_zone_is_no_band_and_its_angle_is_called_diffuse():
+    record = ensemble_of(comparison(1, [dict(band(-44, 18), diffuse=True)], [band(-45, 18)]))
+    verdict = named(record["verdicts"], "quantity")["window 0-0.04 band angle_deg"]
+    assert (verdict["n"], verdict["diffuse"], statistics.words_of(verdict)) == (0, 1, "diffuse")
+    assert named(record["bands"])["window 0-0.04 discrete"]["none"] == 1
+
+
 def test_mirror_images_of_a_band_are_folded_together():
     """Chance decides between left and right: bands at 55 and -55 degrees are the same kind, and their jumps get one
     sign."""

@@ -160,7 +160,7 @@ def _band(band: Band, field: Any) -> dict[str, Any]:
     angles = {name: band.interval[name] for name in ("angle_deg", "jump", "dilation_deg")}
     lengths = {name + "_d": Interval(*(end / d for end in band.interval[name])) for name in ("width_10_90", "offset")}
     return {**angles, **lengths, "r_squared": band.r_squared, "no_packs_because": band.no_packs_because,
-            "middle": band.line(0.0)[0].tolist(),
+            "diffuse": band.diffuse, "middle": band.line(0.0)[0].tolist(),
             "profile": {"distance_d": (middles / d).tolist(), "displacement": cut.mean.tolist()}}
 
 

@@ -14,6 +14,7 @@ from .charts import resolution
 from .charts.style import GRAINS, INK, NO_VALUE, chart, limit_below, signed, svg, with_intervals
 from .data.files import read_provenance, require
 from .data.numbers import loading_variable_of, plain, scaled
+from .data.panels import DIFFUSE_ZONE
 from .page.writing import write
 from .tables.wording import number, rounded
 
@@ -109,7 +110,7 @@ def _profiles(result):
 
 
 def _bands_text(increment):
-    n = len(increment["bands"])
+    n = sum(not band.get("diffuse") for band in increment["bands"])
     return f"{n} band{'s' if n > 1 else ''} (solid: middle, dashed: 10–90 % width)" if n else increment["band_verdict"]
 
 
@@ -128,7 +129,7 @@ def _map(result, values, colours, label, caption, *, increment=None):
     cells.get_cmap().set_bad(NO_VALUE)
     cells.set_clim(*limits)
     axes.add_collection(cells)
-    for band in increment["bands"] if increment else []:
+    for band in [band for band in increment["bands"] if not band.get("diffuse")] if increment else []:
         _draw_band(axes, band, result.record["mean_diameter"], 2 * np.hypot(*size))
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
     axes.axis("off")
@@ -185,7 +186,8 @@ def _band_curve(result, key, label):
     figure, axes = chart(result, label)
     across = result.loading_variable.factor
     for rank, fill in ((0, GRAINS), (1, "white")):
-        rows = [one for one in result.increments if len(one["bands"]) > rank]
+        rows = [one for one in result.increments if len(one["bands"]) > rank
+                and not (key == "angle_deg" and one["bands"][rank].get("diffuse"))]
         at, numbers = [across * one["to"] for one in rows], [one["bands"][rank][key] for one in rows]
         with_intervals(axes, at, numbers, fmt="o", markersize=4.5, color=GRAINS, markerfacecolor=fill)
     if key == "angle_deg":
@@ -220,7 +222,8 @@ def _increments(result):
         place = f"{across.number(one['from'])}–{across.number(one['to'])}"
         strain = ["missing" if one[key] is None else rounded(100 * one[key], "", 3) for key in STRAIN]
         for band in one["bands"] or [None]:
-            values = [rounded(band[key], "", 2 if key == "jump" else 1) for key in BAND if band]
+            values = [DIFFUSE_ZONE if key == "angle_deg" and band.get("diffuse") else
+                      rounded(band[key], "", 2 if key == "jump" else 1) for key in BAND if band]
             values = values or [one["band_verdict"]]
             rows.append([place, *strain, *values, *[""] * (len(BAND) - len(values))])
             place, strain = "", [""] * len(strain)

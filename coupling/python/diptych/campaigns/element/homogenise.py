@@ -60,6 +60,7 @@ width_10_90_d (interval) [mean diameters]: width that holds 80 % of the jump
 offset_d (interval) [mean diameters]: distance of the band from the middle of the sample, along its normal
 r_squared: share of the displacements' variance that the profile explains
 no_packs_because (text): why the band does not separate two packs; empty: it does
+diffuse (yes or no): true for a zone wider than a third of the sample, which the page does not draw
 """
 
 describe("homogenised.json", """\

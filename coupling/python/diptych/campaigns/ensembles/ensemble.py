@@ -79,6 +79,7 @@ def _verdicts(margins: dict[str, float], members: Sequence[Member], quantities: 
         verdicts.append({"key": key, "window": window, "quantity": name,
                          "unit": "-" if kind == "relative" else unit, "margin": margin, "relative": kind == "relative",
                          "difference": found.difference, "difference_90": found.difference_90, "n": found.n,
+                         "diffuse": sum(not member.diffuse.isdisjoint(names) for member in members),
                          "verdict": verdict, "discrete": first, "continuum": second})
     return verdicts, rows
 

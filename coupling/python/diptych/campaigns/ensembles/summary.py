@@ -54,7 +54,7 @@ summary/: the numbers that a user asks for first, with the rows of the summary o
     grains (interval) [as unit says]: mean of the grains over the samples
     continuum (interval) [as unit says]: mean of the continuum over the samples
     difference (interval) [as unit says]: mean of continuum minus grains, sample by sample
-    verdict (text): equivalent, different or cannot tell, with the margin; or not in both panels
+    verdict (text): equivalent, different or cannot tell, with the margin; or diffuse; or not in both panels
 checks/: limits within which the results of a member are reliable; with --levels without that of the impacts
     key (text): place of the checked number in comparison.json
     name (text): name of the checked number
@@ -101,6 +101,7 @@ verdicts/: verdicts on the differences of the panels
     difference (interval) [as in unit]: mean difference; the interval holds all known parts of u_val
     difference_90 (interval) [as in unit]: mean difference with its 90 % interval, on which the verdict equivalent rests
     n: number of pairs
+    diffuse: number of members without an angle, because the zone is diffuse
     verdict (text): equivalent, different or cannot tell
     discrete (list) [as in unit]: values of the grains, in the order of done
     continuum (list) [as in unit]: values of the continuum, in the order of done

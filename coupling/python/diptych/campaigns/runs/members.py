@@ -41,12 +41,14 @@ def described(name: str) -> tuple[str, str, bool] | None:
 @dataclass(kw_only=True)
 class Member:
     """numbers: name -> (value, unit, True for the angle of a line); windows: "window 0-0.01"; bands: "window 0-0.01
-    discrete" -> their number. folded: mirror images of a band count as one."""
+    discrete" -> their number. diffuse: angles of diffuse zones, which are no numbers. folded: mirror images of a band
+    count as one."""
 
     folded: bool = False
     numbers: dict[str, tuple[float, str, bool]] = field(default_factory=dict)
     windows: list[str] = field(default_factory=list)
     bands: dict[str, int] = field(default_factory=dict)
+    diffuse: set[str] = field(default_factory=set)
 
     def value(self, name: str) -> float:
         """NaN if the comparison has no such number."""
@@ -68,13 +70,14 @@ class Member:
 
     def _collect_list(self, entries: list[Any], place: str, name: str, key: str) -> None:
         if key == "bands":
-            self.bands[name] = len(entries)
+            self.bands[name] = sum(not band.get("diffuse") for band in entries)
             for band in entries[:1]:
                 self.collect(band, place, f"{name} band")
                 if self.folded:
                     self._fold(f"{name} band")
                 if band.get("diffuse"):  # its angle enters no mean and no verdict
                     self.numbers.pop(f"{name} band angle_deg", None)
+                    self.diffuse.add(f"{name} band angle_deg")
             return
         for entry in entries if entries and isinstance(entries[0], dict) else ():
             own = entry.get("name") or entry.get("label") or (f"{entry['of']}-{entry['and']}" if "of" in entry else "")

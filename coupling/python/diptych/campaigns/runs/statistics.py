@@ -198,4 +198,4 @@ def words_of(verdict: dict[str, Any]) -> str:
     margin = f"{100 * verdict['margin']:g} %" if verdict["relative"] else f"{verdict['margin']:g}"
     words = {"equivalent": f"equivalent within {margin}", "different": f"different by more than {margin}",
              "cannot tell": f"cannot tell (margin {margin})"}[verdict["verdict"]]
-    return words if verdict["n"] else "not in both panels"
+    return words if verdict["n"] else "diffuse" if verdict.get("diffuse") else "not in both panels"

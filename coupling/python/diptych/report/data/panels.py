@@ -3,6 +3,7 @@
 
 PANEL_NAMES = {"discrete": "Grains", "continuum": "Continuum"}
 DIFFUSE = "diffuse: no band"
+DIFFUSE_ZONE = "diffuse zone"
 # key of "theory" -> name and formula of the line
 THEORY = {"coulomb_deg": ("Coulomb", "45° + φ/2"), "arthur_deg": ("Arthur", "45° + (φ + ψ)/4"),
           "roscoe_deg": ("Roscoe", "45° + ψ/2")}

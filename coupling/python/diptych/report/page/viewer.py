@@ -57,7 +57,8 @@ def _frame(increment, store):
             "cells": store.add(corners(increment, "cells")), "grid": store.add(corners(increment, "grid")),
             "centre": short(increment.centre),
             "outline": [short(state[side]) for side in ("outline/left", "outline/right") if len(state.get(side, ()))],
-            "bands": {panel: [[short(plain(band.get(key)))
+            # a diffuse zone has no angle, so the map draws no line
+            "bands": {panel: [[None if key == "angle_deg" and band.get("diffuse") else short(plain(band.get(key)))
                                for key in ("angle_deg", "offset_d", "width_10_90_d", "jump")]
                               for band in increment.bands(panel)] for panel in PANEL_NAMES}}
 

@@ -4,7 +4,7 @@
 print)."""
 
 from ..data.numbers import interval, plain
-from ..data.panels import DIFFUSE, PANEL_NAMES, THEORY
+from ..data.panels import DIFFUSE, DIFFUSE_ZONE, PANEL_NAMES, THEORY
 from .wording import MESH_SET, number, rounded, shown
 
 BAND_KEYS = ("angle_deg", "width_10_90_d", "half_width_d", "offset_d", "jump", "dilation_deg", "r_squared",
@@ -17,7 +17,8 @@ def bands(result, increment):
     for panel, heading in PANEL_NAMES.items():
         found = increment.bands(panel)
         for k, band in enumerate(found or [DIFFUSE]):
-            columns.append((f"{heading}, band {k + 1}" if len(found) > 1 else heading, band))
+            name = DIFFUSE_ZONE if found and band.get("diffuse") else f"band {k + 1}" if len(found) > 1 else ""
+            columns.append((f"{heading}, {name}" if name else heading, band))
     place = increment.place("discrete/bands")
     rows = [[result.numbers.meaning(f"{place}/{key}")]
             + [_band_cell(result, band, f"{place}/{key}") for _, band in columns]
@@ -36,7 +37,7 @@ def _band_cell(result, band, place):
     if isinstance(band, str):
         return band if key == BAND_KEYS[0] else "–"
     if key == BAND_KEYS[0] and band.get("diffuse"):
-        return "diffuse"
+        return DIFFUSE_ZONE
     return shown(result.numbers, place, band.get(key))
 
 

@@ -42,7 +42,8 @@ def verdict_rows(results):
             "text": text_of(results, verdict), "relative": verdict["relative"],
             "difference": _signed(verdict["difference"]["value"], unit, decimals, ending(unit)),
             "interval": _ends(verdict["difference_90"], unit, decimals),
-            "margin": "± " + number(margin) + ending(unit), "n": verdict["n"], "verdict": verdict["verdict"]})
+            "margin": "± " + number(margin) + ending(unit), "n": verdict["n"],
+            "verdict": "diffuse" if verdict.get("diffuse") and not verdict["n"] else verdict["verdict"]})
     return rows
 
 
