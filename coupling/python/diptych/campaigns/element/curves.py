@@ -25,8 +25,9 @@ QUANTITIES = {"stress_ratio": "-", "mean_stress": "P", "volumetric_strain": "-",
 
 @dataclass(kw_only=True)
 class Curves:
-    """progress (parts): the middle of each. grains: name -> (sample, parts). law: name -> (parts). ends: name ->
-    (samples and law) in the last row, NaN if a run ended before the path, and "peak" of t/s."""
+    """progress (parts): the middle of each. grains: name -> (sample, parts). law: name -> (parts).
+
+    ends: name -> (samples and law) in the last row; "peak": that of t/s. NaN if a run ended before the path."""
 
     progress: np.ndarray
     grains: dict[str, np.ndarray]
@@ -63,7 +64,7 @@ def _derived(found: dict[str, Any], pressure: float) -> dict[str, Any]:
 
 
 def observed(scene: Any, tables: Sequence[pd.DataFrame], law: pd.DataFrame | None) -> Curves:
-    """Curves along the path of the scene: of the samples' histories, and of the law's (none if it took no step)."""
+    """Curves of the samples and of the law along the path of the scene. law: None if it took no step."""
     edges, pressure = path_bins(scene, BINS), scene.dict()["loading"]["pressure"]
     curves, ends = [], []
     for table in (*tables, *([] if law is None else [law])):

@@ -63,8 +63,9 @@ def peak_of_running_mean(table: pd.DataFrame, name: str, width: float) -> float:
 
 
 def peak_on_path(scene: Any, table: pd.DataFrame) -> float:
-    """The largest mean of t/s over comparison/averaging_strain of strain along the prescribed path of an element test,
-    whose progress may count rows; NaN before the first full width."""
+    """The largest mean of t/s over comparison/averaging_strain of strain along the path of an element test.
+
+    The progress of the path may count rows. NaN before the first full width."""
     strain = np.interp(table["progress"], *scene.path_shape())
     return peak_of_running_mean(table.assign(progress=strain), "stress_ratio", scene.averaging_width())
 

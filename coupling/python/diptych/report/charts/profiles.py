@@ -38,8 +38,9 @@ def pair(increment):
 
 
 def regularisation(couples, turns=(None, None)):
-    """A sentence if the couple stress of the continuum is not that of the grains. couples, turns: numbers of grains and
-    continuum or None."""
+    """A sentence if the couple stress of the continuum is not that of the grains.
+
+    couples, turns: numbers of grains and continuum or None."""
     if None in couples or not abs(couples[1]) > MOST_ALIKE * abs(couples[0]):
         return ""
     more = "" if None in turns else f", rotation − spin {turns[0]:.2g} and {turns[1]:.2g} rad"

@@ -36,8 +36,7 @@ def draw(folder):
 
 
 def _frame(result, stage, limits_of_axes, scale):
-    """Grains as discs on the left, the continuum on the right; both coloured by the shear strain that the stage
-    adds."""
+    """Grains as discs on the left, the continuum on the right. The colour is the shear strain that the stage adds."""
     x0, x1, y0, y1 = limits_of_axes
     width = 4.0
     height = width * (y1 - y0) / (x1 - x0)

@@ -145,8 +145,8 @@ def limits(quantity, place, increments, result):
 
     Limits are medians over the increments of the 2nd and 98th percentiles, so that no single instant sets the scale,
     and means over the panels. A strain increment is scaled by its range of progress, and the percentile of the grains
-    counts. A band of one element then saturates, which the arrow of the bar shows, and does not hide the wider band of
-    the grains. Without a band, the grains scatter about the strain of the continuum, and keep their colours.
+    counts. A band of one element then saturates: the arrow of the bar shows it. The wider band of the grains stays
+    visible. Without a band, the grains scatter about the strain of the continuum, and keep their colours.
     """
     if not _offered(quantity, place, increments, result):
         return None
