@@ -1,16 +1,18 @@
 # diptych: tables of the numbers of a whole run
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
-from ..data.numbers import plain
+from ..data.numbers import interval, plain
 from .wording import NULLS, ORDER, number, shown_unit, suffix, typeset
 
 LEFT_OUT = ("law", "parameters_from")  # shown elsewhere on the page
 
 
 def first(record):
-    """The numbers that a user asks for first, from comparison.json or ensemble.json."""
+    """The numbers that a user asks for first, from comparison.json or ensemble.json. A difference without an interval
+    has no verdict."""
     rows = [[typeset(row["quantity"])] + ["–" if plain(row[of]) is None else number(row[of], suffix(row["unit"]), 3)
-                                          for of in ("grains", "continuum", "difference")] + [row["verdict"]]
+                                          for of in ("grains", "continuum", "difference")]
+            + [row["verdict"] if plain(row["difference"]) is None or interval(row["difference"]) else "–"]
             for row in record.get("summary", [])]
     return {"head": ["", "grains", "continuum", "difference [95 %]", "verdict"], "rows": rows}
 

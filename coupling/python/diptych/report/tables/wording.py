@@ -113,7 +113,7 @@ def number(value, unit="", digits=4):
     if size and (size < 1e-3 or size >= 1e12):
         mantissa, exponent = f"{value:.1e}".split("e")
         raised = str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
-        return f"{mantissa} × 10{raised}".replace("-", "−") + unit
+        return f"{mantissa}{UNBROKEN}×{UNBROKEN}10{raised}".replace("-", "−") + unit
     return f"{value:.{digits}g}".replace("-", "−") + unit
 
 
