@@ -44,6 +44,7 @@ namespace diptych::coupling
   // The only list of checks; terminal, summary.csv, comparison.json and page show it. A number that is unknown has no check.
   std::vector<Check> checks_of(const discrete::Options &grains, const ComparisonOptions &options, const Comparison &c);
 
-  std::string count_of(const std::vector<Check> &checks); // "2 of 12 checks fail"
-  std::string text_of(const std::vector<Check> &checks);  // the same and a line per broken check, for a terminal
+  std::string count_of_checks(std::size_t broken, std::size_t all); // "2 of 12 checks fail", "all 12 checks hold"
+  std::string count_of(const std::vector<Check> &checks);
+  std::string text_of(const std::vector<Check> &checks); // the same and a line per broken check, for a terminal
 } // namespace diptych::coupling

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "continuum/laws/law_checks.h"
+#include "coupling/comparison/checks.h"
 #include "coupling/program/commands.h"
 #include "coupling/scene/scene_file.h"
 
@@ -71,7 +72,7 @@ namespace diptych::coupling
     std::cout.flush();
     const auto failed = std::count_if(checks.begin(), checks.end(), [](const auto &check) { return !check.holds(); });
     if (failed > 0)
-      std::cerr << "check-law: " << failed << " of " << checks.size() << " checks fail" << std::endl;
+      std::cerr << "check-law: " << count_of_checks(std::size_t(failed), checks.size()) << std::endl;
     return failed > 0 ? wrong_input : done;
   }
 } // namespace diptych::coupling

@@ -50,6 +50,7 @@ namespace diptych::python
     m.attr("EARLY_STRAIN") = coupling::early_strain;
     m.def("key_quantities", &quantities);
     m.def("origin_of_law", &coupling::origin_of_law);
+    m.def("count_of_checks", &coupling::count_of_checks);
     m.def("panel_values", [](const coupling::Scene &scene, const std::map<std::string, Numbers> &columns) {
       return coupling::panel_values(coupling::basis_of(scene), table_of(columns));
     });

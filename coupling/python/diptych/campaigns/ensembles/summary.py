@@ -10,6 +10,7 @@ from typing import Any
 
 import pandas as pd
 
+from ... import _diptych
 from ...entries import describe
 from ..runs.engine import columns_text
 from ..runs.key_numbers import QUANTITIES
@@ -191,8 +192,7 @@ def text_of_checks(checks: Sequence[dict[str, Any]]) -> str:
     broken = [one for one in checks if one["broken"]]
     lines = [f"{one['name']}, limit {one['limit']:.2g}, in {len(one['broken'])} of {one['n']} samples: {one['reason']}"
              for one in broken]
-    count = f"{len(broken)} of {len(checks)} checks fail" if broken else f"all {len(checks)} checks hold"
-    return "\n  ".join([count, *lines])
+    return "\n  ".join([_diptych.count_of_checks(len(broken), len(checks)), *lines])
 
 
 def table_of(record: Mapping[str, Any]) -> pd.DataFrame:

@@ -6,6 +6,7 @@ import re
 
 import jinja2
 
+from ... import _diptych
 from ...files import part_of
 
 TEMPLATES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "templates")
@@ -27,6 +28,7 @@ def write(folder, template, **values):
     """Fills in a template of templates/ and writes it to report.html of the folder."""
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True)
+    environment.globals |= {name: getattr(_diptych, name) for name in ("origin_of_law", "count_of_checks")}
     text = with_contents(environment.get_template(template).render(values))
     with part_of(os.path.join(folder, "report.html")) as part, open(part, "w", encoding="utf-8") as stream:
         stream.write(text)
