@@ -7,8 +7,6 @@
 #include <cstdio>
 #include <sstream>
 
-#include <unistd.h>
-
 #include "coupling/comparison/band_difference.h"
 
 namespace diptych::coupling
@@ -149,10 +147,9 @@ namespace diptych::coupling
 
   std::string origin_of_law(const std::string &parameters_from)
   {
-    if (!parameters_from.empty())
-      return "parameters of the continuum: " + parameters_from;
-    const std::string text = "The parameters of the continuum were not fitted to these grains. To fit them: diptych calibrate "
-                             "SCENE --seeds 1-4";
-    return isatty(STDOUT_FILENO) != 0 ? "\033[1m" + text + "\033[0m" : text;
+    return "parameters of the continuum: " + (parameters_from.empty()
+                                                ? "set by the scene, which does not say to which grains they were fitted "
+                                                  "(comparison/parameters_from; diptych calibrate fits them)"
+                                                : parameters_from);
   }
 } // namespace diptych::coupling

@@ -67,6 +67,6 @@ namespace diptych::coupling
   // frictional.
   std::string platens_text_of(const PlatenFriction &grains, const continuum::Options &o);
 
-  // Where the parameters of the continuum come from; bold on a terminal if they are not fitted.
+  // Where the parameters of the continuum come from, for terminals and pages.
   std::string origin_of_law(const std::string &parameters_from);
 } // namespace diptych::coupling

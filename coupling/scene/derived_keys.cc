@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <sstream>
 #include <tuple>
 #include <vector>
 
@@ -156,33 +157,54 @@ namespace diptych::coupling
       return law.platen_friction == 0 ? continuum::Platens::smooth : continuum::Platens::frictional;
     }
 
-    // True if the default law was calibrated on such grains: frictions, grading, preparation, number, shape, sides, speed.
-    bool default_law_suits(const Scene &scene)
+    // True if the default law was calibrated on grains of this preparation, grading, method, sides and loading.
+    bool default_law_is_of_such_a_test(const Scene &scene)
     {
       const discrete::SampleOptions &o = scene.sample;
-      const continuum::Options      &c = scene.continuum;
-      const double                   f = scene.discrete.law.friction, n = discrete::expected_grains(o);
-      const bool                     is_dense = o.file.empty() && o.preparation_friction == 0 && o.target_solid_fraction == 0 &&
-                            o.radius_distribution == discrete::RadiusKind::uniform_by_number && o.radius_min >= 0.25 &&
-                            o.radius_min <= 0.35 && n >= 1000 && n <= 2500 && o.width_over_height >= 0.5 &&
-                            o.width_over_height <= 1;
-      const bool is_like = f >= calibrated[0].front().friction && f <= calibrated[0].back().friction &&
-                           scene.discrete.law.rolling_friction <= calibrated.back()[0].rolling_friction &&
-                           scene.discrete.method.method == discrete::Method::nscd &&
-                           scene.discrete.lateral.lateral != discrete::Lateral::none &&
-                           (scene.loading.mode == discrete::LoadingMode::descent ||
-                            scene.loading.mode == discrete::LoadingMode::path) &&
-                           inertial_number(scene) <= largest_quasi_static;
-      return is_dense && is_like && c.mesh.kind == continuum::MeshOption::Kind::outline &&
-             c.element_size <= 2 * c.material.internal_length;
+      return o.file.empty() && o.preparation_friction == 0 && o.target_solid_fraction == 0 &&
+             o.radius_distribution == discrete::RadiusKind::uniform_by_number &&
+             scene.discrete.method.method == discrete::Method::nscd &&
+             scene.discrete.lateral.lateral != discrete::Lateral::none &&
+             (scene.loading.mode == discrete::LoadingMode::descent || scene.loading.mode == discrete::LoadingMode::path) &&
+             scene.continuum.mesh.kind == continuum::MeshOption::Kind::outline;
     }
 
-    // Empty if nobody fitted the law to such grains.
+    // The first number beyond the range of the calibrations of the default law, with this range; empty if there is none.
+    std::string beyond_calibrations(const Scene &scene)
+    {
+      const discrete::SampleOptions &o    = scene.sample;
+      const auto                    &laws = calibrated[0];
+      struct Range
+      {
+        const char *key;
+        double      value, low, high;
+      };
+      for (const auto &[key, value, low, high] :
+           {Range{"discrete/friction", scene.discrete.law.friction, laws.front().friction, laws.back().friction},
+            Range{"discrete/rolling_friction", scene.discrete.law.rolling_friction, 0, calibrated.back()[0].rolling_friction},
+            Range{"sample/grains", discrete::expected_grains(o), 1000, 2500},
+            Range{"sample/radius_min", o.radius_min, 0.25, 0.35}, Range{"sample/width_over_height", o.width_over_height, 0.5, 1},
+            Range{"loading/inertial_number", inertial_number(scene), 0, largest_quasi_static},
+            Range{"continuum/element_size", scene.continuum.element_size, 0, 2 * scene.continuum.material.internal_length}})
+        if (!(value >= low && value <= high))
+          {
+            std::ostringstream text;
+            text << key << ' ' << value << " lies outside the calibrated " << low << " to " << high;
+            return text.str();
+          }
+      return "";
+    }
+
+    // Empty if the scene sets the law.
     std::string origin(const Scene &scene, const Given &given)
     {
-      return has_own_law(scene.continuum, given) || !default_law_suits(scene)
-               ? ""
-               : "defaults, calibrated on dense samples of 1500 discs with friction 0.2 to 0.8 (benchmarks/calibration/defaults)";
+      if (has_own_law(scene.continuum, given))
+        return "";
+      const bool        is_such = default_law_is_of_such_a_test(scene);
+      const std::string beyond  = is_such ? beyond_calibrations(scene) : "";
+      if (is_such && beyond.empty())
+        return "defaults, calibrated on dense samples of 1500 discs with friction 0.2 to 0.8 (benchmarks/calibration/defaults)";
+      return "defaults, not fitted to these grains" + (beyond.empty() ? "" : ": " + beyond) + "; diptych calibrate fits them";
     }
 
     struct DerivedKey
@@ -263,7 +285,8 @@ namespace diptych::coupling
        [](Scene &s, const Given &) { s.comparison.window_edges = window_edges(s.loading); }},
       {"comparison/coarse_element_size", "twice continuum/element_size",
        [](Scene &s, const Given &) { s.comparison.coarse_element_size = std::clamp(2 * s.continuum.element_size, 0.1, 100.); }},
-      {"comparison/parameters_from", "the origin of the default law if it was calibrated on such grains, otherwise nothing",
+      {"comparison/parameters_from",
+       "the origin of the default law, and its range where the grains lie outside; another law: nothing",
        [](Scene &s, const Given &given) { s.comparison.parameters_from = origin(s, given); }}};
 
     // Accuracy of the strength at kn/P = 1e4: explicit springs, and implicit ones with the step of that accuracy

@@ -42,7 +42,7 @@ class Element(Folder):
         angle = numpy.degrees(numpy.arcsin(numbers["peak stress_ratio"]["law"]))
         self.assertAlmostEqual(numbers["friction angle of the peak"]["law"], angle)
         self.assertIn(f"{angle:.4g}", printed)
-        self.assertIn("not fitted to these grains", printed)
+        self.assertIn("does not say to which grains they were fitted", printed)
         self.assertEqual(record["walk"], "axial_strain")
         self.assertTrue(os.path.exists(self.path("report.html")))
         os.remove(self.path("report.html"))

@@ -29,7 +29,7 @@ scene (text): name of the scene
 revision (text): revision of the program
 command (text): command line
 bins: parts of the path over which the curves are averaged
-parameters_from (text): origin of the law's parameters; empty: they were not fitted to such grains
+parameters_from (text): origin of the law's parameters; empty: the scene sets the law and says nothing
 warning (text): reason why the law cannot follow the path; empty: none is known
 seeds (list): requested samples
 done (list): samples with results

@@ -80,7 +80,7 @@ borders/: borders beyond which a method fails by theory
     coefficient: coefficient of the border
     exponent: exponent of the border
 origins/: origins of the law's parameters; empty if only grains ran
-    parameters_from (text): origin; empty: they were not fitted to such grains
+    parameters_from (text): origin; empty: the scene sets the law and says nothing
     where (text): points that have it; empty: all
 points/: all points, references first
     family (text): family of the point; references have none
