@@ -1,5 +1,6 @@
 # diptych: interrupted runs of the grains go on with the same bits
 # SPDX-License-Identifier: LGPL-2.1-or-later
+import json
 import os
 import random
 import signal
@@ -7,7 +8,8 @@ import time
 
 import h5py
 
-from running import bits, content, finished, Folder, half_files, listing, LONG, QUICK, setting, SMALL, start, temporary
+from running import (bits, content, finished, Folder, half_files, listing, LONG, QUICK, read_json, setting, SMALL,
+                     start, temporary, write)
 
 
 class Resume(Folder):
@@ -77,8 +79,13 @@ class Resume(Folder):
                 self.resume(*words, code=2, told=[text])
         with open(path, "wb") as file:
             file.write(whole)
+        record = read_json(self.folder, "provenance.json")
+        next(phase for phase in record["phases"] if phase["name"] == "discrete")["cpu_s"] = 1000
+        write(self.path("provenance.json"), json.dumps(record))
         self.resume()
         self.expect_same_results()
+        costs = {phase["name"]: phase["cpu_s"] for phase in read_json(self.folder, "provenance.json")["phases"]}
+        self.assertGreater(costs["discrete"], 1000, "the cost of the earlier session counts")
 
     def test_a_run_that_did_not_converge_in_its_last_stage_is_not_finished(self):
         """Springs with steps far too long blow up soon. In a loading of one stage the prepared sample and the last
