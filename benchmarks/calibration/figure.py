@@ -10,16 +10,16 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from diptych.report import calibration as page
-from diptych.report.charts import style
+from diptych.report.charts.by_matplotlib import ruled, styled
 
 
+@styled()
 def draw(calibration, to):
-    style.set_up()
     figure = Figure(figsize=(3.3 * len(calibration.paths), 5.2), layout="constrained")
     axes = figure.subplots(2, len(calibration.paths), squeeze=False)
     for k, path in enumerate(calibration.paths):
         for row, kind in enumerate(page.CURVES):
-            page.draw_curve(style.ruled(axes[row][k]), path, kind, calibration.model)
+            page.draw_curve(ruled(axes[row][k]), path, kind, calibration.model)
         fitted = any(one["counts"] and one["kind"] in page.CURVES for one in path["observables"])
         use = "predicted" if path["use"] == "predict" else "fitted" if fitted else "band width fitted"
         axes[0][k].set_title(f"{path['name']}, {use}", fontsize=9)

@@ -12,7 +12,7 @@ import textwrap
 
 from diptych.report import sensitivity
 from diptych.report import study as charts
-from diptych.report.charts import style
+from diptych.report.charts.by_matplotlib import styled
 from diptych.report.studies import CLASSES, load
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -43,6 +43,7 @@ def panels(study, names, with_maps):
     return found
 
 
+@styled()
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder")
@@ -52,7 +53,6 @@ def main():
     parser.add_argument("--no-maps", action="store_true", help="no maps of classes")
     options = parser.parse_args()
     study = load(options.folder)
-    style.set_up()
     names = [q["name"] for q in study.quantities
              if q["limit"]] if options.quantities is None else options.quantities.split(",")
     parts = panels(study, names, not options.no_maps)

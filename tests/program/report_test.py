@@ -16,8 +16,10 @@ import numpy as np
 import diptych.report
 import report_folder
 from diptych.report import calibration, ensemble, studies
-from diptych.report.charts import style, trends
+from diptych.report.charts import by_matplotlib, trends
+from diptych.report.charts.drawing import Axis, Figure
 from diptych.report.charts.strips import _turn
+from diptych.report.charts.style import thin
 from diptych.report.data.numbers import Descriptions, LOADING_VARIABLES, Units
 from diptych.report.data.result import Increment
 from diptych.report.page.result_page import end_of, opens_at
@@ -255,7 +257,7 @@ class Formulas(unittest.TestCase):
     def test_a_thinned_history_keeps_its_spike(self):
         values = np.zeros(10000)
         values[4321] = 7.0
-        x, y = style.thin(np.arange(10000.0), values, 100)
+        x, y = thin(np.arange(10000.0), values, 100)
         self.assertLessEqual(len(x), 100)
         self.assertEqual(y[x == 4321.0], 7.0)
 
@@ -302,17 +304,49 @@ class Formulas(unittest.TestCase):
         stage = types.SimpleNamespace(end=0.01, shown_end=1.0, bands=lambda panel: [{"to_minor_stress_deg": 40.0}])
         result = types.SimpleNamespace(stages=[stage], loading_variable=LOADING_VARIABLES["axial_strain"],
                                        part=lambda name: dict(coulomb_deg=58.8, arthur_deg=55.1, roscoe_deg=51.5))
-        style.set_up()
-        kept = lambda figure, alt: figure  # noqa: E731
-        with mock.patch.object(ensemble, "svg", kept), mock.patch.object(trends, "svg", kept):
-            charts = [ensemble.dots(verdict, dict.fromkeys(("discrete", "continuum")), long),
-                      ensemble.differences([(long, verdict)]),
-                      trends._inclination(result)[0]]
-        for figure in charts:
-            box = figure.get_tightbbox()
-            self.assertTrue(box.x0 >= 0 and box.y0 >= 0 and (box.max <= figure.get_size_inches()).all(), box)
-        axes = charts[-1].axes[0]
-        self.assertGreater(axes.get_legend().get_window_extent().x0, axes.bbox.x0)
+        with mock.patch.object(by_matplotlib, "svg", lambda figure, alt: figure), by_matplotlib.styled():
+            for figure in (ensemble.dots(verdict, dict.fromkeys(("discrete", "continuum")), long),
+                           ensemble.differences([(long, verdict)])):
+                box = figure.get_tightbbox()
+                self.assertTrue(box.x0 >= 0 and box.y0 >= 0 and (box.max <= figure.get_size_inches()).all(), box)
+        picture = trends._inclination(result)[0]
+        svg = base64.b64decode(picture.uri.partition(",")[2]).decode()
+        width, height = 0.75 * picture.width, 0.75 * picture.height
+        frame_top = float(re.search(r'<rect x="[^"]*" y="([^"]*)"', svg).group(1))
+        for x, y, size, anchor, words in re.findall(
+                r'<text x="([^"]*)" y="([^"]*)" font-size="([^"]*)" text-anchor="([^"]*)">([^<]*)<', svg):
+            ends = [float(x) + side * 0.5 * float(size) * len(words)
+                    for side in {"start": (0, 1), "middle": (-0.5, 0.5), "end": (-1, 0)}[anchor]]
+            self.assertTrue(0 <= ends[0] and ends[1] <= width and float(size) <= float(y) <= height, words)
+            if words.startswith(("Coulomb", "Arthur", "Roscoe", "Grains")):
+                self.assertLess(float(y), frame_top)  # the legend lies on no data
+
+    def test_a_chart_puts_values_where_its_axes_say(self):
+        figure = Figure((1, 1), [[0.25, 0.25, 0.5, 0.5]])  # 72 points; axes from 18 to 54
+        axes, = figure.axes
+        axes.set(xlim=(0, 4), ylim=(1, 100))
+        axes.y.is_log = True
+        axes.plot([0, 4, np.nan, 1, 2], [1, 10, 10, 100, 0], color="red")
+        axes.axhline(10, color="blue")
+        axes.fill_between([0, 1, 2, 3, 4], [1, 1, np.nan, 1, 1], [10] * 5, color="green")
+        text, *size = figure.svg()
+        paths = {colour: path for path, colour in
+                 re.findall(r'<path d="([^"]*)" (?:fill="none" stroke|fill)="(\w+)"', text)}
+        self.assertEqual(size, [72, 72])
+        # 0 lies below a logarithmic axis; the frame cuts it off
+        self.assertEqual(paths["red"], f"M18.0 54.0 54.0 36.0M27.0 18.0 36.0 {18 + 36 * 10:.1f}")
+        self.assertEqual(paths["blue"], "M-306.0 36.0 378.0 36.0")
+        self.assertEqual(paths["green"], "M18.0 54.0 27.0 54.0 27.0 36.0 18.0 36.0Z"
+                                         "M45.0 54.0 54.0 54.0 54.0 36.0 45.0 36.0Z")
+        self.assertEqual(re.findall(">([^<]+)</text>", text), ["0", "1", "100"])
+
+    def test_numbers_of_an_axis_are_round_and_within_its_limits(self):
+        for ends, most, words in (((0, 1), 4, "0.00 0.25 0.50 0.75 1.00"), ((-0.31, 0.3), 4, "−0.2 0.0 0.2"),
+                                  ((0, 36000), 4, "0 10000 20000 30000"), ((0, 0.0021), 5, "0.0000 0.0005 0.0010 0.0015 "
+                                                                           "0.0020")):
+            axis = Axis()
+            axis.given = ends
+            self.assertEqual(" ".join(text for _, text in axis.numbers(most)), words)
 
     def test_the_page_opens_on_the_last_window_or_stage(self):
         windows, stages = ([types.SimpleNamespace(kind=kind, end=end) for end in ends]
@@ -322,8 +356,8 @@ class Formulas(unittest.TestCase):
         self.assertIs(opens_at(stages, 0.02), stages[2])  # the same instant in a part without windows
 
     def test_no_module_reaches_against_the_arrows(self):
-        # page -> charts, tables -> data; charts.style is the one module of the charts that others share
-        allowed = {"data": {"data"}, "charts": {"data", "charts.style"}, "tables": {"data", "tables"},
+        # page -> charts, tables -> data; a chart uses the modules of the charts that draw
+        allowed = {"data": {"data"}, "charts": {"data", "charts.style", "charts.drawing"}, "tables": {"data", "tables"},
                    "page": {"data", "charts", "tables", "page"}}
         for folder, targets in allowed.items():
             for path in glob.glob(os.path.join(os.path.dirname(diptych.report.__file__), folder, "*.py")):

@@ -23,7 +23,7 @@ for folder in ("..", "../../rigid_limit"):
 import lammps  # noqa: E402
 import rigid_limit  # noqa: E402
 from diptych.report import study as charts  # noqa: E402
-from diptych.report.charts import style  # noqa: E402
+from diptych.report.charts.by_matplotlib import styled  # noqa: E402
 from diptych.report.studies import load  # noqa: E402
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: E402
@@ -80,6 +80,7 @@ def errors(study, folder, inertial, stiffness, runs_it):
     return found, numpy.mean([seconds for _, seconds in runs])
 
 
+@styled()
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder")
@@ -89,7 +90,6 @@ def main():
     if options.run and not shutil.which("lmp"):
         sys.exit("lmp is not installed (Debian package lammps); without --run its stored results are taken")
     study = load(options.folder)
-    style.set_up()
     known = [value for value in rigid_limit.STIFFNESSES if f"{value:.2e}".replace("e-0", "e-") in study.record["title"]]
     if len(known) != 1 or len(study.record["seeds"]) not in STUDENT:
         sys.exit(f"{options.folder}: no study of step_tolerance: its title names no inertial number of "

@@ -27,12 +27,7 @@ def draw(what, folder, *next_folder):
     """
     module, inputs = DRAWINGS[what]
     try:
-        import matplotlib
-
-        drawing = importlib.import_module("." + module, __name__)
-        with matplotlib.rc_context():  # the style of the user comes back
-            importlib.import_module(".charts.style", __name__).set_up()
-            drawing.draw(folder, *next_folder)
+        importlib.import_module("." + module, __name__).draw(folder, *next_folder)
     except InputError:
         raise
     except ImportError as error:

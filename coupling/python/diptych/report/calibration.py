@@ -12,7 +12,8 @@ from scipy.integrate import trapezoid
 from ..arrays import ends_text, rms
 from ..errors import InputError
 from ..files import read_json
-from .charts.style import CONTINUUM, FAINT, GRAINS, INK, legend_above, ruled, signed, svg
+from .charts.by_matplotlib import legend_above, ruled, styled, svg
+from .charts.style import CONTINUUM, FAINT, GRAINS, INK, signed
 from .data.numbers import loading_variable_of
 from .page.writing import write
 
@@ -26,6 +27,7 @@ COORDINATES = {"value": "", "logarithm": "", "share_of": "share of ", "drop_from
 SHORT = {"share_of": ", share", "drop_from": ", drop", "above_least": ", above least"}
 
 
+@styled()
 def draw(folder):
     calibration, paths = load(folder), []
     for path in calibration.paths:

@@ -9,7 +9,8 @@ from matplotlib.ticker import FixedLocator, NullLocator
 from matplotlib.transforms import ScaledTranslation
 
 from . import studies as tables
-from .charts.style import CONTINUUM, DASHES, FAINT, GRAINS, INK, LINE_COLOURS, legend_above, place_labels, ruled, svg
+from .charts.by_matplotlib import legend_above, place_labels, ruled, svg
+from .charts.style import CONTINUUM, DASHES, FAINT, GRAINS, INK, LINE_COLOURS
 from .page.writing import write
 from .studies import PANEL_WORDS, unit_of
 from .tables.wording import number, suffix, typeset

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from ..files import read_json
-from .charts.style import CONTINUUM, GRAINS, INK, PANEL_LINES, THIRD, chart, legend_above, limit_below, svg
+from .charts.style import CONTINUUM, GRAINS, PANEL_LINES, THIRD, chart, limit_below, svg
 from .data.files import read_csv
 from .data.numbers import loading_variable_of
 from .page.writing import write
@@ -53,14 +53,14 @@ def _chart(element, name, factor, label, caption):
     across, n = element.loading_variable.factor * element.curves["progress"], len(element.record["done"])
     mean, error = (factor * element.curves[f"grains_{name}{end}"] for end in ("", "_error"))
     for width, opacity in ((np.sqrt(n), 0.15), (1, 0.35)):
-        axes.fill_between(across, mean - width * error, mean + width * error, color=GRAINS, alpha=opacity, linewidth=0)
+        axes.fill_between(across, mean - width * error, mean + width * error, color=GRAINS, alpha=opacity)
     axes.plot(across, mean, color=GRAINS, label=f"grains, {n} sample{'s' if n > 1 else ''}")
     law = element.curves.get(f"law_{name}")
     if law is not None:
         axes.plot(across, factor * law, color=CONTINUUM, linestyle=PANEL_LINES["continuum"], label="law")
     limit_below(axes, name == "volumetric_strain")
-    axes.set_xlim(left=0)
-    legend_above(axes)
+    axes.set(xlim=(0, None))
+    axes.legend()
     return svg(figure, f"{label} along the path, grains and law."), caption
 
 
@@ -78,9 +78,9 @@ def _loops(element):
                          (law, {"color": CONTINUUM, "linestyle": PANEL_LINES["continuum"], "label": "law"})):
             if of(name) is not None:
                 axes.plot(factor * of(name), value(of), **look)
-        axes.axhline(0, color=INK, linewidth=0.6)
-        axes.set_xlabel(words)
-        legend_above(axes)
+        axes.axhline(0, linewidth=0.6)
+        axes.set(xlabel=words)
+        axes.legend()
         found.append((svg(figure, f"{label} over {words}, grains and law."),
                       f"{label[0].upper()}{label[1:].removesuffix(' (%)')} over {words.removesuffix(' (%)')}."))
     return found
@@ -93,9 +93,8 @@ def _directions(element):
         if name in element.curves:
             axes.plot(element.loading_variable.factor * element.curves["progress"],
                       (element.curves[name] + 30) % 180 - 30, mark, color=colour, markersize=2.5, label=label)
-    axes.set(ylim=(-30, 150), yticks=range(-30, 151, 30))
-    axes.set_xlim(left=0)
-    legend_above(axes)
+    axes.set(xlim=(0, None), ylim=(-30, 150), yticks=range(-30, 151, 30))
+    axes.legend()
     return (svg(figure, "Directions along the path, grains and law."),
             "Directions from the horizontal: of the larger principal stress, and of most contact normals. They mean "
             "nothing where t/s or the anisotropy vanish.")

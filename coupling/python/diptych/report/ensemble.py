@@ -9,8 +9,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ..files import member_folders, read_ensemble, read_json, stage_name, window_name
-from .charts import profiles
-from .charts.style import FAINT, INK, PANEL_COLOURS, PANEL_LINES, PANEL_MARKS, chart, legend_above, ruled, svg
+from .charts import by_matplotlib, profiles
+from .charts.by_matplotlib import ruled, styled
+from .charts.style import FAINT, INK, PANEL_COLOURS, PANEL_LINES, PANEL_MARKS, chart, svg
 from .data.files import open_arrays, read_provenance, read_text, scene_value
 from .data.numbers import Descriptions, LoadingVariable, loading_variable_of
 from .data.panels import PANEL_NAMES
@@ -22,6 +23,7 @@ VERDICT_MARKS = {"equivalent": "o", "different": "s", "cannot tell": "D"}
 BAND = 0.25  # opacity
 
 
+@styled()
 def draw(folder):
     results = load(folder)
     rows = tables.verdict_rows(results)
@@ -137,7 +139,7 @@ def differences(rows):
              ylim=(len(rows) - 0.4, -0.6), xlabel="(continuum − grains) / margin")
     axes.set_xlim(*_limits(rows))
     axes.tick_params(axis="y", length=0)
-    return svg(figure,
+    return by_matplotlib.svg(figure,
                "Difference of the panels in units of its margin, with 90 % and 95 % intervals, one row per quantity: "
                + "; ".join(f"{label}: {verdict['verdict']}" for label, verdict in rows) + ".")
 
@@ -176,7 +178,7 @@ def dots(verdict, quantities, label, scale=1.0):
              ylabel=textwrap.fill(label, 32))
     ruled(axes)
     axes.grid(False, axis="x")
-    return svg(figure, f"{label}: every seed in both panels, pairs joined, with the mean and its 95 % interval.")
+    return by_matplotlib.svg(figure, f"{label}: every seed in both panels, pairs joined, with the mean and its 95 % interval.")
 
 
 def _curve(results, name, label, scale=1.0):
@@ -187,16 +189,13 @@ def _curve(results, name, label, scale=1.0):
         if curve is None or not np.size(curve["members"]):
             continue
         across, members = results.loading_variable.factor * results.progress, curve["members"][:tables.MOST_CURVES]
-        axes.plot(across, scale * members.T, color=colour, linewidth=0.5, alpha=min(0.5, 8 / len(members)))
-        known = np.isfinite(curve["low"]) & np.isfinite(curve["high"])
-        axes.fill_between(across, scale * curve["low"], scale * curve["high"], where=known, color=colour, alpha=BAND,
-                          linewidth=0)
+        for member in members:
+            axes.plot(across, scale * member, color=colour, linewidth=0.5, alpha=min(0.5, 8 / len(members)))
+        axes.fill_between(across, scale * curve["low"], scale * curve["high"], color=colour, alpha=BAND)
         axes.plot(across, scale * curve["mean"], color=colour, linewidth=1.8, linestyle=PANEL_LINES[panel],
                   label=PANEL_NAMES[panel])
-    if not axes.lines:
+    if axes.is_empty:
         return None
-    axes.set_xlim(left=0)
-    if name == "stress_ratio":
-        axes.set_ylim(bottom=0)
-    legend_above(axes)
+    axes.set(xlim=(0, None), ylim=(0 if name == "stress_ratio" else None, None))
+    axes.legend()
     return svg(figure, f"{label} of every seed, their mean and its 95 % interval, both panels.")

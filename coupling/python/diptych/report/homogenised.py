@@ -10,8 +10,8 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
 from ..files import read_json
-from .charts import resolution
-from .charts.style import GRAINS, INK, NO_VALUE, chart, limit_below, signed, svg, with_intervals
+from .charts import by_matplotlib, resolution
+from .charts.style import GRAINS, INK, NO_VALUE, chart, limit_below, svg, with_intervals
 from .data.files import read_provenance, require
 from .data.numbers import loading_variable_of, plain, scaled
 from .data.panels import DIFFUSE_ZONE
@@ -39,6 +39,7 @@ BAND = {"angle_deg": ("inclination", "degrees [95 %]"), "width_10_90_d": ("width
 STRAIN = {"strain_xx": "ε xx", "strain_yy": "ε yy", "strain_xy": "ε xy"}
 
 
+@by_matplotlib.styled()
 def draw(folder):
     result = _load(folder)
     write(folder, "homogenised.html", record=result.record, name=os.path.basename(os.path.abspath(folder)),
@@ -100,10 +101,10 @@ def _profiles(result):
         for band in [band for band in (one["bands"][:1] if one else ()) if "profile" in band]:
             profile, half = band["profile"], 0.5 * band["width_10_90_d"]["value"]
             figure, axes = chart(result, "displacement along the band / travel")
-            axes.axvspan(-half, half, color=GRAINS, alpha=0.15, linewidth=0)
+            axes.axvspan(-half, half, color=GRAINS, alpha=0.15)
             axes.plot(profile["distance_d"], [np.nan if y is None else y for y in profile["displacement"]], "o-",
                       color=GRAINS, markersize=3.5)
-            axes.set_xlabel("distance from the middle of the band / d")
+            axes.set(xlabel="distance from the middle of the band / d")
             caption = f"Profile from {across.number(one['from'])} to {across.text(one['to'])}; shaded: 10–90 % width."
             found.append((svg(figure, caption), caption))
     return found
@@ -138,7 +139,7 @@ def _map(result, values, colours, label, caption, *, increment=None):
                           orientation="horizontal", extend="both")
     bar.set_label(label)
     bar.ax.locator_params(nbins=4)
-    return svg(figure, f"Map: {caption}"), caption
+    return by_matplotlib.svg(figure, f"Map: {caption}"), caption
 
 
 def _draw_band(axes, band, diameter, length):
@@ -191,10 +192,9 @@ def _band_curve(result, key, label):
         at, numbers = [across * one["to"] for one in rows], [one["bands"][rank][key] for one in rows]
         with_intervals(axes, at, numbers, fmt="o", markersize=4.5, color=GRAINS, markerfacecolor=fill)
     if key == "angle_deg":
-        axes.set_ylim(-90, 90)
-        axes.set_yticks(range(-90, 91, 30), [signed(f"{k}") for k in range(-90, 91, 30)])
+        axes.set(ylim=(-90, 90), yticks=range(-90, 91, 30))
     else:
-        axes.set_ylim(bottom=0)
+        axes.set(ylim=(0, None))
     return (svg(figure, f"{label} over {result.loading_variable.word}."),
             f"{label[0].upper() + label[1:]}, at the end of each increment. Filled: the stronger band; "
             "open: the other one.")

@@ -4,7 +4,8 @@
 from matplotlib.figure import Figure
 
 from . import studies as tables
-from .charts.style import CONTINUUM, GRAINS, ruled, svg
+from .charts.by_matplotlib import ruled, svg
+from .charts.style import CONTINUUM, GRAINS
 from .page.writing import write
 from .tables.wording import number, rounded, suffix, typeset
 

@@ -10,7 +10,8 @@ from matplotlib.ticker import LogLocator
 
 from . import effects, sensitivity
 from . import studies as tables
-from .charts.style import FAINT, INK, LINE_COLOURS, place_labels, ruled, signed, svg
+from .charts.by_matplotlib import place_labels, ruled, styled, svg
+from .charts.style import FAINT, INK, LINE_COLOURS, signed
 from .page.writing import write
 from .studies import CLASSES, PANEL_WORDS, load
 
@@ -20,6 +21,7 @@ FEW = 50  # ranges below this ratio have ticks between the decades
 LEAST_ERROR = 1e-6  # smaller differences count as zero
 
 
+@styled()
 def draw(folder):
     study = load(folder)
     curves = [{"title": f"{PANEL_WORDS[panel]}, {words}", "progress": _numbers(progress),

@@ -4,7 +4,8 @@
 
 import numpy as np
 
-from .style import INK, PANEL_COLOURS, Pair, frame, signed, svg
+from .drawing import Figure
+from .style import INK, PANEL_COLOURS, Pair, signed, svg
 from ...arrays import ends_text
 from ..data.numbers import interval, plain
 from ..data.panels import PANEL_NAMES
@@ -48,19 +49,18 @@ def _columns(circle):
 
 
 def _panel(increment, panel, columns, spans):
-    figure, both = frame("circular", (4.5, 3.9), [[0.14, 0.555 - 0.435 * k, 0.835, 0.375] for k in range(len(PARTS))])
-    for k, ((part, label), axes) in enumerate(zip(PARTS, both)):
+    figure = Figure((4.5, 3.9), [[0.14, 0.555 - 0.435 * k, 0.835, 0.375] for k in range(len(PARTS))])
+    for (part, label), axes in zip(PARTS, figure.axes):
         axes.errorbar(columns["angles_deg"], columns[part], columns[part + "_error"], fmt="o", markersize=3,
                       elinewidth=0.8, color=PANEL_COLOURS[panel], label="across the diameter")
-        axes.plot(columns["angles_deg"], columns["predicted_" + part], color=INK, linewidth=1.3,
-                  label="from the mean stress")
+        axes.plot(columns["angles_deg"], columns["predicted_" + part], linewidth=1.3, label="from the mean stress")
         axes.set(ylabel=label, xlim=(0, 180), ylim=spans[part], xticks=range(0, 181, 30))
-        axes.tick_params(labelbottom=k == 1)
-        if k == 0:
-            axes.set_title(PANEL_NAMES[panel], loc="left", fontweight="bold")
-            axes.set_title(_difference(columns["relative_l2"]), loc="right", fontsize=8.5)
-            axes.legend(loc="best", handlelength=1.6)
-    axes.set_xlabel("direction of the diameter (degrees)")
+    first, last = figure.axes
+    first.title(PANEL_NAMES[panel])
+    first.title(_difference(columns["relative_l2"]), "right")
+    first.legend()
+    first.x.has_numbers = False
+    last.set(xlabel="direction of the diameter (degrees)")
     alt = (f"{PANEL_NAMES[panel]}: mean traction across the diameters of the circular probe, measured and predicted, "
            f"{increment.title}; {_difference(columns['relative_l2'])}.")
     return svg(figure, alt)

@@ -4,10 +4,10 @@
 in P d (unit thickness)."""
 
 import numpy as np
-from matplotlib.figure import Figure
 
+from .drawing import Figure
 from .style import (CONTINUUM, FAINT, GRAINS, INK, PANEL_COLOURS, PANEL_LINES, PANEL_MARKS, ROUND_OFF, THIRD, chart,
-                    decades, legend_above, logarithmic, ruled, svg, thin, with_intervals)
+                    decades, svg, thin, with_intervals)
 from ..data.numbers import plain, scaled
 from ..data.panels import PANEL_NAMES
 
@@ -53,12 +53,12 @@ def _both(result, columns, scale, label, caption):
         drawn.append(PANEL_NAMES[panel])
     if not drawn:
         return None, caption
-    axes.set_xlim(left=0)
+    axes.set(xlim=(0, None))
     if every == "stress_ratio":
-        axes.set_ylim(bottom=0)
-    elif np.ptp(axes.get_ylim()) < ROUND_OFF:
-        axes.set_ylim(-ROUND_OFF, ROUND_OFF)
-    legend_above(axes)
+        axes.set(ylim=(0, None))
+    elif np.ptp(axes.y.limits()) < ROUND_OFF:
+        axes.set(ylim=(-ROUND_OFF, ROUND_OFF))
+    axes.legend()
     return svg(figure, f"{label} against the loading: {', '.join(drawn)}."), caption
 
 
@@ -78,8 +78,8 @@ def _platens(result):
                 drawn += 1
     if not drawn:
         return None, caption
-    axes.set_xlim(left=0)
-    legend_above(axes)
+    axes.set(xlim=(0, None))
+    axes.legend()
     return svg(figure, "Vertical platen forces against the loading, both panels, lower and upper platen."), caption
 
 
@@ -92,10 +92,9 @@ def _positive(result, name):
 def _over_decades(result, label, progress, values, shown):
     """(figure, axes) with a thin line of the grains over a logarithmic axis; shown: values within the limits."""
     figure, axes = chart(result, label)
-    logarithmic(axes)
+    axes.y.is_log = True
     axes.plot(*thin(progress, values), color=PANEL_COLOURS["discrete"], linewidth=0.6)
-    axes.set_xlim(left=0)
-    axes.set_ylim(decades(shown))
+    axes.set(xlim=(0, None), ylim=decades(shown))
     return figure, axes
 
 
@@ -108,8 +107,8 @@ def _platen_difference(result):
         return None, caption
     figure, axes = _over_decades(result, "difference of platen forces (%)", progress, 100 * difference,
                                  np.append(100 * difference, 1.0))
-    axes.axhline(1, color=INK, linewidth=1, linestyle="--")
-    axes.annotate("1 %", (0.99, 1), xycoords=("axes fraction", "data"), ha="right", va="bottom")
+    axes.axhline(1, linestyle="--", label="1 %")
+    axes.legend()
     return svg(figure, "Relative difference of the vertical platen forces against the loading, log scale."), caption
 
 
@@ -123,11 +122,10 @@ def _energies(result):
             found = result.history(panel, name)
             if found is not None and (found[1] != 0).any():
                 axes.plot(*thin(found[0], found[1] / unit), color=colour, linestyle=dashes, label=label)
-    if not axes.lines:
+    if axes.is_empty:
         return None, caption
-    axes.set_xlim(left=0)
-    axes.set_ylim(bottom=0)
-    legend_above(axes, 1, handlelength=3)
+    axes.set(xlim=(0, None), ylim=(0, None))
+    axes.legend()
     return svg(figure, "Work and dissipation of grains and continuum against the loading."), caption
 
 
@@ -140,9 +138,9 @@ def _kinetic_energy(result):
     figure, axes = _over_decades(result, "kinetic energy / (M|V|²/4)", progress, ratio, ratio)
     check = result.check("discrete_summary/kinetic_energy_ratio_median")
     if median := plain(check.get("value")):
-        axes.axhline(median, color=INK, linewidth=1, label=f"median {median:.3g}")
-        axes.axhline(check["limit"], color=FAINT, linewidth=1, linestyle="--", label=f"its limit {check['limit']:g}")
-    legend_above(axes)
+        axes.axhline(median, label=f"median {median:.3g}")
+        axes.axhline(check["limit"], color=FAINT, linestyle="--", label=f"its limit {check['limit']:g}")
+    axes.legend()
     words = f"; median {median:.3g}" if median else ""
     return svg(figure, f"Kinetic energy ratio against the loading, logarithmic{words}."), caption
 
@@ -153,14 +151,12 @@ def solver(result):
                "relative), computed outside the solver.")
     if any(result.history("discrete", name) is None for name in ("sweeps", "residual")):
         return None, caption
-    figure = Figure(figsize=(4.5, 3.1))
-    for k, name in enumerate(("sweeps", "residual")):
-        axes = ruled(figure.add_axes([0.15, 0.6 - 0.43 * k, 0.825, 0.36]))
+    figure = Figure((4.5, 3.1), [[0.15, 0.6 - 0.43 * k, 0.825, 0.36] for k in range(2)])
+    for name, axes in zip(("sweeps", "residual"), figure.axes):
         progress, values = _positive(result, name)
+        axes.y.is_log = True
         axes.plot(*thin(progress, values), color=PANEL_COLOURS["discrete"], linewidth=0.6)
-        axes.set(ylabel=name, ylim=decades(values))
-        logarithmic(axes)
-        axes.set_xlim(left=0)
-        axes.tick_params(labelbottom=k == 1)
-    axes.set_xlabel(result.loading_variable.label)
+        axes.set(ylabel=name, xlim=(0, None), ylim=decades(values))
+    figure.axes[0].x.has_numbers = False
+    axes.set(xlabel=result.loading_variable.label)
     return svg(figure, "Sweeps and residual of the contact solver against the loading, logarithmic."), caption

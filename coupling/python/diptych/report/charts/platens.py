@@ -3,9 +3,8 @@
 """Shear over normal stress and slip in parts of the platens, means over all stages; from comparison.h5."""
 
 import numpy as np
-from matplotlib.figure import Figure
 
-from .style import GRAINS, PANEL_COLOURS, PANEL_LINES, PANEL_MARKS, legend_above, place_labels, ruled, svg
+from .style import GRAINS, PANEL_COLOURS, PANEL_LINES, PANEL_MARKS, framed, svg
 from ..data.numbers import plain
 from ..data.panels import PANEL_NAMES
 
@@ -30,10 +29,7 @@ def _law(result):
 
 
 def _over(panels, name, label, words, law=None):
-    figure = Figure(figsize=(4.5, 3.1))
-    axes = ruled(figure.add_axes([0.15, 0.5 / 3.1, 0.825, 1 - 0.6 / 3.1]))
-    axes.set(xlabel=label, ylabel=RATIO)
-    place_labels(axes, 0.035, 0.2 / 3.1)
+    figure, axes = framed(label, RATIO)
     for panel, arrays in panels.items():
         order = np.argsort(arrays[name])
         axes.plot(arrays[name][order], arrays["stress_ratio"][order], color=PANEL_COLOURS[panel],
@@ -41,8 +37,8 @@ def _over(panels, name, label, words, law=None):
                   label=PANEL_NAMES[panel])
     caption = f"Friction {words}: parts of both platens, means over all stages."
     if law:
-        slip = np.linspace(*axes.get_xlim(), 100)
+        slip = np.linspace(*axes.x.limits(), 100)
         axes.plot(slip, law[0] * np.tanh(slip / (law[0] * law[1])), color=GRAINS, linewidth=0.8)
         caption += f" Line: {law[0]:.2g} tanh(slip / ({law[0]:.2g} × {law[1]:.3g} d)), fitted to these grains alone."
-    legend_above(axes)
+    axes.legend()
     return svg(figure, f"{RATIO} of both panels {words}."), caption

@@ -3,10 +3,9 @@
 """Moreau 1997, section 3: the radius of each sector grows with its number of contact normals."""
 
 import numpy as np
-from matplotlib.collections import PatchCollection
-from matplotlib.patches import Circle, Wedge
 
-from .style import GRAINS, INK, frame, svg
+from .drawing import Figure
+from .style import GRAINS, svg
 from ..data.numbers import plain
 
 SECTORS = 24
@@ -23,24 +22,23 @@ def roses(increment):
 
 
 def _rose(increment, probe, share, reach):
-    figure, (axes,) = frame("rose", (2.3, 2.75), [[0.0, 0.08, 1.0, 2.3 / 2.75]])
-    axes.set_aspect("equal")
-    step = 360 / SECTORS
-    axes.add_collection(PatchCollection([Wedge((0, 0), s, step * i, step * (i + 1)) for i, s in enumerate(share)],
-                                        facecolor=GRAINS, edgecolor="white", linewidth=0.5, alpha=0.75))
-    axes.add_patch(Circle((0, 0), 1, fill=False, color=INK, linewidth=0.8, linestyle=":"))
+    figure = Figure((2.3, 2.3), [[0, 0, 1, 1]])
+    axes, = figure.axes
+    axes.has_frame = False
+    edges = np.radians(np.linspace(0, 360, SECTORS + 1))
+    for radius, low, high in zip(share, edges, edges[1:]):
+        arc = np.linspace(low, high, 6)
+        axes.fill(radius * np.append(0, np.cos(arc)), radius * np.append(0, np.sin(arc)), color=GRAINS, alpha=0.75,
+                  edge="white")
+    around = np.linspace(0, 2 * np.pi, 73)
+    axes.plot(np.cos(around), np.sin(around), linewidth=0.8, linestyle=":")
     for name, line, label in (("direction_deg", "-", "major stress"), ("fabric_direction_deg", "--", "fabric")):
         angle = plain(probe.get(name))
         if angle is not None:
             arm = reach * np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle))])
-            axes.plot([-arm[0], arm[0]], [-arm[1], arm[1]], color=INK, linestyle=line, linewidth=1.2, label=label)
+            axes.plot([-arm[0], arm[0]], [-arm[1], arm[1]], linestyle=line, linewidth=1.2, label=label)
     axes.set(xlim=(-1.08 * reach, 1.08 * reach), ylim=(-1.08 * reach, 1.08 * reach))
-    axes.axis("off")
     name = probe.get("name", "")
-    figure.texts.clear()
-    figure.legends.clear()
-    figure.text(0.5, 0.99, f"{name}, {probe.get('contacts', '?')} contacts", fontsize=9.5, ha="center", va="top")
-    handles, labels = axes.get_legend_handles_labels()
-    if handles:
-        figure.legend(handles, labels, loc="lower center", ncol=2, fontsize=8.5, borderpad=0.1)
+    axes.title(f"{name}, {probe.get('contacts', '?')} contacts", "center")
+    axes.legend()
     return svg(figure, f"Rose of contact normals in {SECTORS} sectors, probe {name} of the grains, {increment.title}.")

@@ -4,7 +4,8 @@
 
 import numpy as np
 
-from .style import FAINT, INK, PANEL_COLOURS, Pair, frame, signed, svg
+from .drawing import Figure
+from .style import FAINT, PANEL_COLOURS, Pair, signed, svg
 from ...arrays import ends_text, short
 from ..data.numbers import interval, plain
 from ..data.panels import PANEL_NAMES
@@ -75,29 +76,24 @@ def _limits(curves):
 
 def _panel(panel, curves, numbers, limits, title):
     boxes = [[0.175, 1 - (0.5 + (k + 1) * 1.66 + k * 0.32) / HEIGHT, 0.805, 1.66 / HEIGHT] for k in range(len(ROWS))]
-    figure, every = frame("profiles", (4.5, HEIGHT), boxes)
+    figure = Figure((4.5, HEIGHT), boxes)
     x, colour = curves["distance"], PANEL_COLOURS[panel]
-    for (name, (label, key, word)), axes in zip(ROWS.items(), every):
+    for (name, (label, key, word)), axes in zip(ROWS.items(), figure.axes):
         value, low, high = curves[name].T
         if name == "relative_rotation":
-            axes.plot(x, curves["spin"][:, 0], color=INK, linewidth=0.9, linestyle=(0, (4, 2)),
-                      label="spin")
+            axes.plot(x, curves["spin"][:, 0], linewidth=0.9, linestyle=(0, (4, 2)), label="spin")
         if np.isfinite(value).any():
-            known = np.isfinite(low) & np.isfinite(high)
-            axes.fill_between(x, low, high, where=known, color=colour, alpha=0.25, linewidth=0)
+            axes.fill_between(x, low, high, color=colour, alpha=0.25)
             axes.plot(x, value, color=colour, marker=".", markersize=3.5, linewidth=1.2,
                       label=_label(name, numbers.get(key), word))
         else:
-            axes.text(0.5, 0.5, NONE.get(name, CLASSICAL), transform=axes.transAxes, ha="center", color=INK)
+            axes.text(0.5, 0.5, NONE.get(name, CLASSICAL))
         axes.axvline(0, color=FAINT, linewidth=0.7)
         axes.set(ylabel=label, xlim=(x.min() - 0.5, x.max() + 0.5), ylim=limits[name])
-        axes.yaxis.set_label_coords(-0.17, 0.5)
-        axes.tick_params(labelbottom=axes is every[-1])
-        if axes.get_legend_handles_labels()[0]:
-            axes.legend(loc="lower left", bbox_to_anchor=(-0.2, 1), ncol=2, handlelength=1.2, fontsize=8,
-                        borderaxespad=0.1, borderpad=0.1, columnspacing=1)
-    every[0].set_title(PANEL_NAMES[panel], loc="left", fontweight="bold", pad=18)
-    every[-1].set_xlabel("distance from the band / d")
+        axes.x.has_numbers = axes is figure.axes[-1]
+        axes.legend()
+    figure.axes[0].title(PANEL_NAMES[panel])
+    axes.set(xlabel="distance from the band / d")
     return svg(figure, f"{PANEL_NAMES[panel]}: rotation minus spin, couple stress, solid fraction and fluctuation of "
                f"velocity over the distance from the band, with 95 % intervals, {title}.")
 

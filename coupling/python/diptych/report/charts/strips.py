@@ -4,7 +4,8 @@
 
 import numpy as np
 
-from .style import INK, PANEL_COLOURS, Pair, frame, signed, svg
+from .drawing import Figure
+from .style import INK, PANEL_COLOURS, Pair, signed, svg
 from ...arrays import ends_text
 from ..data.numbers import interval, plain
 from ..data.panels import DIFFUSE, PANEL_NAMES
@@ -21,7 +22,7 @@ def pair(increment):
     lowest = min(min(0.0, np.nanmin(mean)) for _, mean, _ in profiles.values())
     highest = max(max(1.0, np.nanmax(mean)) for _, mean, _ in profiles.values())
     reach = max(np.abs(edges).max() for edges, _, _ in profiles.values())
-    box = (-reach, reach, lowest - 0.12, highest + 0.35)
+    box = (-reach, reach, lowest - 0.12, highest + 0.12)
     angles = {panel: strips["angle_deg"] for panel, strips in stored.items()}
     pictures = [_panel(increment, panel, profiles[panel], box, angles[panel]) for panel in PANEL_NAMES]
     words = [f"{PANEL_NAMES[panel].lower()} {signed(f'{angle:.1f}°')}" for panel, angle in angles.items()]
@@ -31,10 +32,9 @@ def pair(increment):
 def _panel(increment, panel, profile, box, angle):
     edges, mean, deviation = profile
     middle, colour = (edges[1:] + edges[:-1]) / 2, PANEL_COLOURS[panel]
-    figure, (axes,) = frame("strips", (4.5, 3.3), [[0.14, 0.15, 0.84, 0.76]])
-    axes.grid(False)
-    axes.stairs(np.nan_to_num(mean), edges, fill=True, color=colour, alpha=0.35, linewidth=0,
-                label="mean of each strip")
+    figure = Figure((4.5, 3.1), [[0.14, 0.16, 0.84, 0.8]])
+    axes, = figure.axes
+    axes.stairs(np.nan_to_num(mean), edges, fill=True, color=colour, alpha=0.35, label="mean of each strip")
     across = np.tile([box[2], box[3], np.nan], len(edges))
     axes.plot(np.repeat(edges, 3), across, color="white", linewidth=0.8)  # strips apart
     axes.errorbar(middle, mean, deviation, fmt="none", ecolor=colour, elinewidth=1, capsize=2,
@@ -47,12 +47,12 @@ def _panel(increment, panel, profile, box, angle):
     for band in parallel:
         _draw_fit(axes, band, box, straight if band is bands[0] else (None, None))
     if not parallel:
-        axes.plot([], [], " ", label="no band parallel to the strips" if bands else DIFFUSE)
+        axes.plot([], [], linestyle="", label="no band parallel to the strips" if bands else DIFFUSE)
     axes.set(xlim=box[:2], ylim=box[2:], xlabel="distance along the normal of the strips / d",
              ylabel="displacement increment / |ΔU|")
-    axes.set_title(PANEL_NAMES[panel], loc="left", fontweight="bold")
-    axes.axhline(0, color=INK, linewidth=0.6)
-    axes.legend(loc="upper left", handlelength=1.6)
+    axes.title(PANEL_NAMES[panel])
+    axes.axhline(0, linewidth=0.6)
+    axes.legend()
     alt = f"{PANEL_NAMES[panel]}: mean longitudinal displacement increment of {len(mean)} strips, {increment.title}" + (
         ", with the fitted tanh." if parallel else "; no band parallel to them.")
     return svg(figure, alt)
@@ -71,6 +71,5 @@ def _draw_fit(axes, band, box, background):
     label = f"10–90 % width {width:.1f} d" + signed(ends_text(*ends, "{:.1f}".format))
     if None not in background:
         x = np.linspace(box[0], box[1], 150)
-        axes.plot(x, background[0] + background[1] * x + jump / 2 * np.tanh((x - offset) / delta), color=INK,
-                  label="fit")
-    axes.axvspan(offset - width / 2, offset + width / 2, color=INK, alpha=0.08, linewidth=0, label=label)
+        axes.plot(x, background[0] + background[1] * x + jump / 2 * np.tanh((x - offset) / delta), label="fit")
+    axes.axvspan(offset - width / 2, offset + width / 2, alpha=0.08, label=label)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Every figure is over the loading, for both panels, with the 95 % intervals of the comparison."""
 
-from .style import FAINT, INK, PANEL_COLOURS, PANEL_MARKS, THIRD, chart, legend_above, svg, with_intervals
+from .style import FAINT, INK, PANEL_COLOURS, PANEL_MARKS, THIRD, chart, svg, with_intervals
 from ..data.numbers import plain, scaled
 from ..data.panels import PANEL_NAMES, THEORY
 
@@ -27,7 +27,7 @@ def _points(axes, result, numbers):
         x = [s.shown_end * (1 + 0.004 * (2 * k - 1)) for s in result.stages]
         drawn |= with_intervals(axes, x, [numbers(s, panel) for s in result.stages], fmt=PANEL_MARKS[panel],
                                 markersize=4.5, color=PANEL_COLOURS[panel], label=PANEL_NAMES[panel])
-    axes.set_xlim(0, 1.04 * result.loading_variable.factor * max((s.end for s in result.stages), default=1.0))
+    axes.set(xlim=(0, 1.04 * result.loading_variable.factor * max((s.end for s in result.stages), default=1.0)))
     return drawn
 
 
@@ -41,8 +41,8 @@ def _inclination(result):
     for key, (name, _) in THEORY.items():
         angle = plain(result.part("theory").get(key))
         if angle is not None:
-            axes.axhline(angle, color=INK, linewidth=1, linestyle=DASHES[key], label=f"{name} {angle:.1f}°")
-    legend_above(axes)
+            axes.axhline(angle, linestyle=DASHES[key], label=f"{name} {angle:.1f}°")
+    axes.legend()
     return svg(figure, "Angle between band and minor principal stress against the loading, with theory lines."), caption
 
 
@@ -51,8 +51,8 @@ def _width(result):
     figure, axes = chart(result, "10–90 % width of the band (d)")
     if not _points(axes, result, lambda stage, panel: strongest_band(stage, panel).get("width_10_90_d")):
         return None, caption
-    axes.set_ylim(bottom=0)
-    legend_above(axes)
+    axes.set(ylim=(0, None))
+    axes.legend()
     return svg(figure, "10–90 % width of the first band against the loading, both panels."), caption
 
 
@@ -70,8 +70,8 @@ def _dissipation(result):
     area = [(at, 100 * share) for at, share in shares if share is not None]
     if area:
         axes.plot(*zip(*area), color=FAINT, linestyle="--", linewidth=1.2, label="share of the area")
-    axes.set_ylim(0, 100)
-    legend_above(axes, 3)
+    axes.set(ylim=(0, 100))
+    axes.legend(3)
     return svg(figure, "Share of dissipation inside the band of the grains against the loading, both panels."), caption
 
 
@@ -89,10 +89,9 @@ def _stress_difference(result):
             points = [(x, 100 * plain(row.get(key))) for x, row in found if plain(row.get(key)) is not None]
             if points:
                 axes.plot(*zip(*points), color=colour, linestyle=dashes, linewidth=1.3, label=words,
-                          marker="o" if dashes == "-" else None, markersize=3.5)
-    if not axes.lines:
+                          marker="o" if dashes == "-" else "", markersize=3.5)
+    if axes.is_empty:
         return None, caption
-    axes.set_xlim(left=0)
-    axes.set_ylim(bottom=0)
-    legend_above(axes, 3)
+    axes.set(xlim=(0, None), ylim=(0, None))
+    axes.legend(3)
     return svg(figure, "Relative difference of the stress against the loading at three sizes of cell."), caption

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from ...files import part_of
+from ..charts.by_matplotlib import styled
 from ..data.panels import PANEL_NAMES
 from ..data.result import load
 from .quantities import QUANTITIES, box, limits
@@ -21,6 +22,7 @@ SECONDS, LAST_SECONDS = 0.5, 2.0
 SHEAR = QUANTITIES[0]
 
 
+@styled()
 def draw(folder):
     """Writes movie.gif: one frame per stage, or 40 evenly spaced stages of more."""
     result = load(folder, folder)
