@@ -189,10 +189,11 @@ def _arrays(group, units, described):
 
     def take(path, item):
         if isinstance(item, h5py.Dataset):
-            texts = [item.attrs.get(name, "") for name in ("unit", "meaning", "title")]
-            found = Description(*(text.decode() if isinstance(text, bytes) else str(text) for text in texts))
-            described.setdefault(path, found)
-            size = units.size(found.unit)
+            if path not in described:
+                texts = [item.attrs.get(name, "") for name in ("unit", "meaning", "title")]
+                described[path] = Description(*(text.decode() if isinstance(text, bytes) else str(text)
+                                                for text in texts))
+            size = units.size(described[path].unit)
             arrays[path] = item[()] if size == 1.0 else np.asarray(item[()], dtype=float) / size
 
     group.visititems(take)

@@ -158,8 +158,9 @@ def limits(quantity, place, increments, result):
         if sets:
             # One percentile per panel: both weigh the same for any number of grains or cells.
             used = sets[:1] if quantity.per_progress and quantity.from_zero else sets
-            lows.append(np.mean([np.percentile(values, 2) for values in used]))
-            highs.append(np.mean([np.percentile(values, 98) for values in used]))
+            low, high = np.mean([np.percentile(values, (2, 98)) for values in used], axis=0)
+            lows.append(low)
+            highs.append(high)
     if not highs:
         return None
     high = float(np.median(highs))
