@@ -5,7 +5,7 @@
 import numpy as np
 
 from .drawing import Figure
-from .style import INK, PANEL_COLOURS, Pair, signed, svg
+from .style import PANEL_COLOURS, Pair, signed, svg
 from ...arrays import ends_text
 from ..data.numbers import interval, plain
 from ..data.panels import PANEL_NAMES
