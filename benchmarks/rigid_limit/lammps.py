@@ -5,8 +5,8 @@ panel.
 
 The left and the lower wall are fixed, the upper one descends from an affine start, the right one is a piston of mass
 sqrt(N) m under P x height with P = 1. All walls are smooth. The springs are those of the method `penalty`: kt = kn/2,
-normal damping that never makes a contact attract, none along the tangent, step 0.2 sqrt(m_min/kn). First the springs
-are pressed without friction for PRELOAD d sqrt(rho/P)."""
+normal damping that never makes a contact attract, none along the tangent, step 0.2 sqrt(m_min/kn) by default. First
+the springs are pressed without friction for PRELOAD d sqrt(rho/P)."""
 import os
 import re
 import subprocess
@@ -118,14 +118,14 @@ def loading_seconds(log):
     return float(loops[-1]) * float(shares[-1]) / 100
 
 
-def run(sample, folder, stiffness, inertial_number, strain, *, friction=0.4, rolling_friction=0.):
+def run(sample, folder, stiffness, inertial_number, strain, *, fraction=0.2, friction=0.4, rolling_friction=0.):
     """(columns by name, CPU seconds of the loading). Columns: axial_strain, t, s [P], volumetric_strain, kinetic_energy
-    [P d^2]. rolling_friction: that of the discrete panel, whose couples are at most this x 2 Re |N|. Throws
+    [P d^2]. fraction: step / sqrt(m_min/kn). rolling_friction: that of the discrete panel, whose couples are at most this x 2 Re |N|. Throws
     RuntimeError if LAMMPS fails."""
     os.makedirs(folder, exist_ok=True)
     position, radius, width, height = read_sample(sample)
     mass = numpy.pi * radius ** 2
-    step, n = 0.2 * numpy.sqrt(mass.min() / stiffness), len(radius)
+    step, n = fraction * numpy.sqrt(mass.min() / stiffness), len(radius)
     write_start(os.path.join(folder, "start.data"), position, radius, width, height)
     values = dict(kn=stiffness, kt=stiffness / 2, gn=f"{2 * DAMPING * numpy.sqrt(2 * stiffness / mass.mean()):.10g}",
                   step=f"{step:.12g}", height=f"{height:.16g}", width=f"{width:.16g}", piston=n + 1, friction=friction,
