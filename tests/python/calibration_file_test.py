@@ -151,7 +151,7 @@ def test_a_curve_without_deviations_gets_the_usual_scatter(tmp_path):
 
 @pytest.mark.parametrize("changes, converged, failed, why", [
     ({}, True, 9, ""),
-    ({"is_outside": True}, True, 0, "the point of the search lies outside the posterior in cohesion"),
+    ({"is_outside": True}, True, 0, "the best point lies outside its own posterior in cohesion"),
     ({"share_known": 1.5}, True, 0, "the posterior is wider than the prior in cohesion"),
     ({}, True, 10, "10 of 18 runs at draws of the posterior failed"),
     ({}, False, 0, "the search has not converged")])

@@ -70,7 +70,7 @@ parameters/: fitted parameters
     value_high [as the key says]: upper end of the same interval
     share_known: deviation of the posterior / of the prior (a quarter of the range, cut at the bounds)
     is_identified (yes or no): true if the data leave less than two thirds of the prior deviation
-    is_outside (yes or no): true if the point of the search lies outside the posterior (5 % of all searches by chance)
+    is_outside (yes or no): true if the best point lies outside the interval
     is_cut (yes or no): true if the interval ends at a bound
     draws (list) [as the coordinate says]: draws of the posterior; posterior.csv holds the values of the keys
 correlation (list): correlation of the parameters in their coordinates, by the posterior

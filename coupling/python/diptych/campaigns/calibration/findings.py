@@ -35,11 +35,9 @@ COLUMNS = ("kind", "from", "to", "count", "mean", "deviation", "deviation_of_mea
            "parameter_deviation", "half_step", "counts", "discrepancy", "discrepancy_deviation")
 
 
-def parameter_records(coordinates: Coordinates, draws: Array, best: Array, searched: Array) -> list[dict[str, Any]]:
-    """Values of the best point, medians and 95 % intervals of the draws; numbers are those of the coordinates.
-    searched: the point of the search. One in 20 such points lies outside by chance in any parameter."""
-    inner, beyond = np.quantile(draws, [0.025, 0.5, 0.975], axis=0), 0.025 / len(best)
-    ends = np.quantile(draws, [beyond, 1 - beyond], axis=0)
+def parameter_records(coordinates: Coordinates, draws: Array, best: Array) -> list[dict[str, Any]]:
+    """Values of the best point, medians and 95 % intervals of the draws; numbers are those of the coordinates."""
+    inner = np.quantile(draws, [0.025, 0.5, 0.975], axis=0)
     of_values = np.quantile([coordinates.values(one) for one in draws], [0.025, 0.975], axis=0)
     low, median, high, at_best = (coordinates.numbers(one) for one in (*inner, best))
     numbers = np.transpose([coordinates.numbers(one) for one in draws])
@@ -48,7 +46,7 @@ def parameter_records(coordinates: Coordinates, draws: Array, best: Array, searc
     return [{"key": p.key, "targets": list(p.targets), "coordinate": p.coordinate, "of": p.other, "low": p.low,
              "high": p.high, "start": p.start, "number": at_best[k], "number_low": low[k], "number_median": median[k],
              "number_high": high[k], "value": value, "value_low": of_values[0, k], "value_high": of_values[1, k],
-             "is_outside": bool(not ends[0, k] <= searched[k] <= ends[1, k]),
+             "is_outside": bool(not inner[0, k] <= best[k] <= inner[2, k]),
              "share_known": share[k], "is_identified": bool(share[k] < LARGEST_SHARE),
              "is_cut": bool(inner[0, k] < CUT or inner[2, k] > 1 - CUT), "draws": numbers[k]}
             for k, (p, value) in enumerate(zip(coordinates.parameters, coordinates.values(best)))]
@@ -64,7 +62,7 @@ def doubts(parameters: Sequence[dict[str, Any]], has_converged: bool, emulator: 
     outside, wide = ([name_of(p) for p in parameters if of(p)] for of in (
         lambda p: p["is_outside"], lambda p: p["share_known"] > WIDEST))
     reasons = [] if has_converged else ["the search has not converged"]
-    reasons += [f"the point of the search lies outside the posterior in {', '.join(outside)}"] if outside else []
+    reasons += [f"the best point lies outside its own posterior in {', '.join(outside)}"] if outside else []
     reasons += [f"the posterior is wider than the prior in {', '.join(wide)}"] if wide else []
     if 2 * emulator["failed"] > emulator["more_runs"]:
         reasons += [f"{emulator['failed']} of {emulator['more_runs']} runs at draws of the posterior failed"]
@@ -217,7 +215,7 @@ def with_scatter(key: str, curves: Array) -> dict[str, Array]:
 def report(trials: Trials, best: Fit, searches: Sequence[Fit], draws: Draws) -> None:
     """searches: on the samples' own mesh and on the coarse mesh, or the only one."""
     record = trials.record
-    record["parameters"] = parameter_records(trials.coordinates, draws.points, best.point, searches[0].point)
+    record["parameters"] = parameter_records(trials.coordinates, draws.points, best.point)
     record["correlation"] = np.corrcoef(draws.points, rowvar=False).reshape(2 * (len(trials.coordinates),))
     record["discrepancy"] = discrepancy_record(trials.noise, draws, len(trials.fitted))
     meshes = [("on the samples' own mesh ", "fine_jacobians"), ("on the coarse mesh ", "jacobians")]
