@@ -41,8 +41,8 @@ def show(table, names):
                   + ", ".join(f"{error:.0%}" for error in errors) + "; its bias +- standard error")
             for method, points in METHODS.items():
                 cells = [cheapest(settings(table, name, quantity, points), error) for error in errors]
-                print(f"  {method:17}", *("-" if one is None else f"{one[0]:.2f} ({one[3]}: {one[1]:+.1%} +- {one[2]:.1%})"
-                                          for one in cells), sep=" | ")
+                texts = ("-" if one is None else "{0:.2f} ({3}: {1:+.1%} +- {2:.1%})".format(*one) for one in cells)
+                print(f"  {method:17}", *texts, sep=" | ")
 
 
 def draw(table, names, path):

@@ -120,8 +120,8 @@ def loading_seconds(log):
 
 def run(sample, folder, stiffness, inertial_number, strain, *, fraction=0.2, friction=0.4, rolling_friction=0.):
     """(columns by name, CPU seconds of the loading). Columns: axial_strain, t, s [P], volumetric_strain, kinetic_energy
-    [P d^2]. fraction: step / sqrt(m_min/kn). rolling_friction: that of the discrete panel, whose couples are at most this x 2 Re |N|. Throws
-    RuntimeError if LAMMPS fails."""
+    [P d^2]. fraction: step / sqrt(m_min/kn). rolling_friction: that of the discrete panel, whose couples are at most
+    this x 2 Re |N|. Throws RuntimeError if LAMMPS fails."""
     os.makedirs(folder, exist_ok=True)
     position, radius, width, height = read_sample(sample)
     mass = numpy.pi * radius ** 2

@@ -68,7 +68,8 @@ def settings(case, point):
             "e_n": ["discrete/step=0.025", *fixed, f"discrete/normal_restitution={value}"],
             "compliant": ["discrete/method=compliant", "discrete/penalty_stiffness=1e4", f"discrete/step={value}",
                           *fixed],
-            "implicit": ["discrete/method=compliant", f"discrete/penalty_stiffness={value}", f"discrete/accuracy={knob}"],
+            "implicit": ["discrete/method=compliant", f"discrete/penalty_stiffness={value}",
+                         f"discrete/accuracy={knob}"],
             "penalty": ["discrete/method=penalty", f"discrete/penalty_stiffness={value}",
                         f"discrete/penalty_step_fraction={knob or 0.2}"]}[name]
 

@@ -178,7 +178,8 @@ def dots(verdict, quantities, label, scale=1.0):
              ylabel=textwrap.fill(label, 32))
     ruled(axes)
     axes.grid(False, axis="x")
-    return by_matplotlib.svg(figure, f"{label}: every seed in both panels, pairs joined, with the mean and its 95 % interval.")
+    return by_matplotlib.svg(figure, f"{label}: every seed in both panels, pairs joined, with the mean and its 95 % "
+                             "interval.")
 
 
 def _curve(results, name, label, scale=1.0):

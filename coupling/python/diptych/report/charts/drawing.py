@@ -223,8 +223,8 @@ class Axes:
                   "right": (left + self.width, "end")}
         for loc, words in self.titles.items():
             x, anchor = places[loc]
-            found += _text(x, up - 6 - ROW * len(rows), words, TITLE if loc == "left" else NUMBER, anchor,
-                           ' font-weight="bold"' if loc == "left" else "")
+            found += _text(x, up - 6 - ROW * len(rows), words, TITLE if loc == "left" else NUMBER, anchor=anchor,
+                           more=' font-weight="bold"' if loc == "left" else "")
         return found
 
 
@@ -281,6 +281,6 @@ def _marks(px, py, shape, *, color=INK, alpha=1, markersize=6, markerfacecolor=N
             f'opacity="{alpha}"/>')
 
 
-def _text(x, y, words, size=NUMBER, anchor="middle", more=""):
+def _text(x, y, words, size=NUMBER, *, anchor="middle", more=""):
     return (f'<text x="{x:.1f}" y="{y:.1f}" font-size="{size}" text-anchor="{anchor}"{more}>{escape(words)}</text>'
             if words else "")
