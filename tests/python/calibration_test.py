@@ -226,9 +226,10 @@ def test_intervals_hold():
     c.noise, truth, held, share = Noise(), truth_of(c, "", TRUTHS), [], []
     for seed in range(8):
         record = calibrated(c, [path_of(c.targets[0], drawn(USUAL, c.observables_of(SCENE), truth, 4, seed))])
-        held += [p["number_low"] < number < p["number_high"] for p, number in zip(record["parameters"], TRUTHS)]
+        held += [p["number_low"] < number < p["number_high"] for p, number in zip(record["parameters"], TRUTHS)
+                 if p["is_identified"]]
         share += [p["share_known"] for p in record["parameters"]]
-    assert sum(held) >= 41 and np.mean(share) < 0.4  # of 48
+    assert len(held) >= 40 and np.mean(held) > 0.85 and np.mean(share) < 0.4  # of 48
 
 
 def test_a_search_that_does_not_converge_gives_no_interval(tmp_path):

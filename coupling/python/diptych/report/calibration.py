@@ -210,9 +210,11 @@ def parameters(calibration):
     for p in calibration.parameters:
         ratio = COORDINATES[p["coordinate"]]
         number = text(p["number"], 3) if ratio else ""
-        known = [f"{text(p['value_low'], 3)} … {text(p['value_high'], 3)}", f"{100 * p['share_known']:.0f} %",
-                 "yes" if p["is_identified"] else "not identified"]
-        interval, left, is_known = ["none"] * 3 if calibration.record["no_intervals"] else known
+        interval, left, is_known = "none", f"{100 * p['share_known']:.0f} %", "not identified"
+        if p["is_identified"]:
+            interval, is_known = f"{text(p['value_low'], 3)} … {text(p['value_high'], 3)}", "yes"
+        if calibration.record["no_intervals"]:
+            left = is_known = "none"
         of = p["of"] + ": " if p["of"] else ""
         rows.append([label(p), text(p["value"]), f"{ratio}{of}{number}" if ratio else "", interval,
                      f"{text(p['low'], 3)} … {text(p['high'], 3)}", left, is_known])

@@ -62,7 +62,7 @@ parameters/: fitted parameters
     high [as the coordinate says]: upper bound
     start [as the coordinate says]: start of the first search
     number [as the coordinate says]: value of the coordinate at the most probable point, or that of the search
-    number_low [as the coordinate says]: lower end of the 95 % interval of the posterior
+    number_low [as the coordinate says]: lower end of the 95 % interval of the posterior; null: not identified
     number_median [as the coordinate says]: median of the posterior
     number_high [as the coordinate says]: upper end of the same interval
     value [as the key says]: value of the key at that point

@@ -36,18 +36,21 @@ COLUMNS = ("kind", "from", "to", "count", "mean", "deviation", "deviation_of_mea
 
 
 def parameter_records(coordinates: Coordinates, draws: Array, best: Array) -> list[dict[str, Any]]:
-    """Values of the best point, medians and 95 % intervals of the draws; numbers are those of the coordinates."""
+    """Values of the best point, medians and 95 % intervals of the draws; numbers are those of the coordinates. A
+    parameter that the data do not identify has no interval."""
     inner = np.quantile(draws, [0.025, 0.5, 0.975], axis=0)
-    of_values = np.quantile([coordinates.values(one) for one in draws], [0.025, 0.975], axis=0)
-    low, median, high, at_best = (coordinates.numbers(one) for one in (*inner, best))
     numbers = np.transpose([coordinates.numbers(one) for one in draws])
     prior = scipy.stats.truncnorm(-coordinates.start / PRIOR, (1 - coordinates.start) / PRIOR, scale=PRIOR).std()
     share = draws.std(0, ddof=1) / prior
+    known = np.where(share < LARGEST_SHARE, 1, np.nan)
+    of_values = np.quantile([coordinates.values(one) for one in draws], [0.025, 0.975], axis=0) * known
+    low, median, high, at_best = (coordinates.numbers(one) for one in (*inner, best))
+    low, high = low * known, high * known
     return [{"key": p.key, "targets": list(p.targets), "coordinate": p.coordinate, "of": p.other, "low": p.low,
              "high": p.high, "start": p.start, "number": at_best[k], "number_low": low[k], "number_median": median[k],
              "number_high": high[k], "value": value, "value_low": of_values[0, k], "value_high": of_values[1, k],
              "is_outside": bool(not inner[0, k] <= best[k] <= inner[2, k]),
-             "share_known": share[k], "is_identified": bool(share[k] < LARGEST_SHARE),
+             "share_known": share[k], "is_identified": bool(known[k] == 1),
              "is_cut": bool(inner[0, k] < CUT or inner[2, k] > 1 - CUT), "draws": numbers[k]}
             for k, (p, value) in enumerate(zip(coordinates.parameters, coordinates.values(best)))]
 
