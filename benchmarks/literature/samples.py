@@ -87,6 +87,7 @@ def solid_fraction(snapshot):
 
 # Radjai et al. 1996. The base moves at 0.025 for 95 units of time and stops at 100.
 RADJAI = {"A": (500, lambda: uniform(3.8, 7.5)), "B": (1200, lambda: uniform(3.8, 7.5)),
+          "C": (4025, lambda: uniform(1.5, 7.5)),
           "D": (1024, lambda: table("radjai_D", (0.65, 1.05, 1.6), (512, 320, 192)))}
 
 
@@ -102,8 +103,8 @@ def radjai(seed, sample):
 
 
 def pooled(seed):
-    """(N/<N>, T/<T>, T/(mu N)) of the relaxed samples A, B and D together."""
-    parts = [forces(radjai(seed, sample)[1])[:2] for sample in "ABD"]
+    """(N/<N>, T/<T>, T/(mu N)) of the relaxed samples together."""
+    parts = [forces(radjai(seed, sample)[1])[:2] for sample in RADJAI]
     return [numpy.concatenate(part) for part in zip(*((n / n.mean(), t / t.mean(), t / (0.2 * n)) for n, t in parts))]
 
 
@@ -251,8 +252,7 @@ def deep_share(seed):
     return deficit[depth > 4 * snapshot.radius.min()].sum() / deficit.sum()
 
 
-@functools.lru_cache(maxsize=None)
-def strength(seed, inertial, strain):
+def strength(seed, inertial, strain=0.6):
     """Shear over normal force on the platen without friction; the first fifth of the strain is left out."""
     rows = run(seed, f"strength_{inertial:g}", "discrete/friction=0", "discrete/platen_friction=0",
                "discrete/accuracy=0.05", "sample/grains=400", f"loading/axial_strain={strain}",
@@ -264,31 +264,31 @@ def strength(seed, inertial, strain):
 
 # Collapse of a column, which is made between smooth walls.
 COLUMNS = (3, 5, 8)  # Height over half width.
-HALF = 7  # Half width [mean diameters].
+HALF = 10  # Half width [mean diameters].
 
 
-@functools.lru_cache(maxsize=None)
 def profile(seed, aspect):
-    """(place, height) of the deposit: area of the discs per width of a bin of one d, over a solid fraction of 0.8."""
+    """(place, height) of the deposit: area of the discs over a solid fraction of 0.8, mean over 3 d, in steps of d."""
     column = biaxial(seed, f"column_{aspect}", f"sample/width={2 * HALF}", f"sample/height={HALF * aspect}", *at_rest())
     first, last = run(seed, f"collapse_{aspect}", f"sample/file={column.folder}/discrete.h5",
                       *in_time(round(7 * (HALF * aspect) ** 0.5)), "discrete/friction=0.5",
                       "discrete/platen_friction=0.5", "discrete/platen_rolling_friction=1",
                       "discrete/lateral=none", "discrete/gravity_y=-1").snapshots
     x = last.position[:, 0] - first.position[:, 0].mean()
-    edges = numpy.arange(numpy.floor(x.min()), numpy.ceil(x.max()) + 1)
-    return edges[:-1] + 0.5, numpy.histogram(x, edges, weights=numpy.pi * last.radius ** 2)[0] / 0.8
+    edges = numpy.arange(numpy.floor(x.min()) - 3, numpy.ceil(x.max()) + 4)
+    height = numpy.histogram(x, edges, weights=numpy.pi * last.radius ** 2)[0] / 0.8
+    return edges[1:-2] + 0.5, numpy.convolve(height, numpy.ones(3) / 3, "valid")
 
 
 def run_out(seed, aspect):
-    """(front - half width) / half width; the front is the last place that a layer of one d covers, mean of sides."""
-    place, height = profile(seed, aspect)
-    return (numpy.ptp(place[height >= 1]) + 1) / (2 * HALF) - 1
+    """(front - half width) / half width, mean of the sides; a front is the first place from the top lower than d."""
+    height = profile(seed, aspect)[1]
+    low, top = numpy.flatnonzero(height < 1), height.argmax()
+    return (low[low > top].min() - low[low < top].max() - 1) / (2 * HALF) - 1
 
 
 def final_height(seed, aspect):
-    """Largest mean height over three d, over the half width."""
-    return numpy.convolve(profile(seed, aspect)[1], numpy.ones(3) / 3, "valid").max() / HALF
+    return profile(seed, aspect)[1].max() / HALF
 
 
 def exponent(seed, measure):
