@@ -47,7 +47,8 @@ CURVES = {
     "strength": lambda: {"": curve((1e-4, 1e-3), [[strength(seed, i) for i in (1e-4, 1e-3)] for seed in SEEDS])},
     "cegeo": lambda: {"": curve(range(16), [[coordination(s) for s in biaxial(seed).snapshots] for seed in SEEDS])},
     "unger": lambda: {"": curve(FRICTIONS, [[ambiguity(seed, mu) for mu in FRICTIONS] for seed in SEEDS])},
-    "collapse": lambda: {f"a = {aspect}": curve(*profile(1, aspect)) for aspect in COLUMNS}}
+    "collapse": lambda: {f"a = {aspect}": curve(place, [height]) for aspect in COLUMNS
+                         for place, height in [profile(1, aspect)]}}
 
 
 
@@ -89,7 +90,7 @@ def draw(parts):
         for (label, (x, mean, error)), colour in zip(part["curves"].items(), COLOURS):
             axis.errorbar(x, mean, 1.96 * numpy.array(error), fmt=line, color=colour, label=label, markersize=4)
             if callable(theirs):
-                axis.plot(*theirs(label), "^--" if line == "-" else "--", color=colour, clip_on=line == "o")
+                axis.plot(*theirs(label), "^" if line == "-" else "--", color=colour, clip_on=line == "o")
         for value in () if callable(theirs) else theirs:
             axis.axhline(value, color="0.4", linestyle="--")
         if source == "radjai":

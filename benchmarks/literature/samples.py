@@ -252,13 +252,13 @@ def deep_share(seed):
     return deficit[depth > 4 * snapshot.radius.min()].sum() / deficit.sum()
 
 
-def strength(seed, inertial, strain=0.6):
-    """Shear over normal force on the platen without friction; the first fifth of the strain is left out."""
+def strength(seed, inertial):
+    """Shear over normal force on the platen without friction, at shear strains of 0.12 to 0.6."""
     rows = run(seed, f"strength_{inertial:g}", "discrete/friction=0", "discrete/platen_friction=0",
-               "discrete/accuracy=0.05", "sample/grains=400", f"loading/axial_strain={strain}",
-               f"loading/inertial_number={inertial / plane_shear.DISC:.6g}", f"loading/stage_strain={strain / 2}",
+               "discrete/accuracy=0.05", "sample/grains=400", "loading/axial_strain=0.6",
+               f"loading/inertial_number={inertial / plane_shear.DISC:.6g}", "loading/stage_strain=0.3",
                scene="../plane_shear/scene.prm").grains
-    late = rows["shear_strain"] > 0.2 * strain
+    late = rows["shear_strain"] > 0.12
     return -rows["upper_fx"][late].mean() / rows["upper_fy"][late].mean()
 
 

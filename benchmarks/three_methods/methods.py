@@ -9,6 +9,7 @@ import sys
 
 import h5py
 import numpy
+from scipy.optimize import brentq
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.dirname(HERE))
@@ -72,7 +73,7 @@ class Sample:
 
 
 def facts(result):
-    """Numbers of a run of the program; None if it stopped early and --reuse found it."""
+    """Numbers of a run of the program; None if it stopped early and was found in --output."""
     with open(os.path.join(result.folder, "provenance.json")) as file:
         record = json.load(file)
     if not record["discrete"]["finished"]:
@@ -89,11 +90,7 @@ def facts(result):
 def damping_of(e_n):
     """Damping ratio of a dashpot whose contact ends when its force is zero (Schwager & Poeschel 2007): with the ratio
     sin a the restitution is exp(-(pi - 2 a) tan a)."""
-    low, high = 0., 0.5 * math.pi
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if math.exp((2 * middle - math.pi) * math.tan(middle)) > e_n else (low, middle)
-    return math.sin(low)
+    return math.sin(brentq(lambda a: math.exp((2 * a - math.pi) * math.tan(a)) - e_n, 0, 1.57, xtol=1e-15))
 
 
 def equal_discs(count, solid_fraction):

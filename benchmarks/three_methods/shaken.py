@@ -3,9 +3,9 @@
 import os
 
 import h5py
-import numpy
-
 import methods
+import numpy
+from matplotlib.figure import Figure
 from methods import claims
 
 SCENE = os.path.join(methods.HERE, "shaken.prm")
@@ -51,24 +51,23 @@ def roll(places, moved):
     return claims.mean_and_error([dy[at].mean() - dy[~at].mean() for dy, at in zip(moved[:, :, 1], at_wall)])
 
 
-def draw(found, path):
+def draw(found):
     """Mean displacement per cycle in squares of 2 d, where discs are in most cycles."""
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as pyplot
-    figure, axes = pyplot.subplots(1, len(found), figsize=(3.3 * len(found), 4.1), constrained_layout=True, sharey=True)
+    figure = Figure(figsize=(10, 7), layout="constrained")
+    axes = figure.subplots(2, len(found) // 2, sharex=True, sharey=True)
     edges = numpy.arange(0, WIDTH + 1, 2)
     middle = numpy.meshgrid(0.5 * (edges[1:] + edges[:-1]), 0.5 * (edges[1:] + edges[:-1]))
-    for axis, ((friction, seed), (places, moved)) in zip(axes, found.items()):
+    for axis, ((friction, seed), (places, moved)) in zip(axes.flat, found.items()):
         number = numpy.histogram2d(*places.reshape(-1, 2).T, bins=(edges, edges))[0]
         number[number < 2 * len(places)] = numpy.nan
         u, v = (numpy.histogram2d(*places.reshape(-1, 2).T, weights=part, bins=(edges, edges))[0] / number
                 for part in moved.reshape(-1, 2).T)
-        axis.quiver(*middle, u.T, v.T, angles="xy", scale_units="xy", scale=0.15, width=0.006)
-        axis.set(title=f"wall friction {friction:g}, sample {seed}", xlabel="x / d", aspect="equal", xlim=(0, WIDTH),
-                 ylim=(0, WIDTH))
-    axes[0].set_ylabel("y / d")
-    figure.savefig(path, dpi=110)
+        arrows = axis.quiver(*middle, u.T, v.T, angles="xy", scale_units="xy", scale=0.15, width=0.006)
+        axis.quiverkey(arrows, 0.7, 0.94, 0.5, "0.5 d per cycle", labelpos="E", fontproperties={"size": 8})
+        axis.set(title=f"wall friction {friction:g}, sample {seed}", aspect="equal", xlim=(0, WIDTH), ylim=(0, WIDTH))
+    figure.supxlabel("x / d")
+    figure.supylabel("y / d")
+    figure.savefig(os.path.join(methods.HERE, "shaken.png"), dpi=90)
 
 
 def roll_of_the_box(options):
@@ -78,7 +77,7 @@ def roll_of_the_box(options):
     shaking = write_shaking(os.path.join(options.output, "shaking.csv"))
     drives = [f"discrete/drive_{wall}_y=velocity {shaking}" for wall in ("lower", "left", "right")]
     for friction in (0.8, 0.):
-        for seed in options.seeds:
+        for seed in options.shaken_seeds:
             grains = write_grains(os.path.join(options.output, f"shaken_{seed}.csv"), seed)
             result = claims.Runs(options, seed, options.output).run(
                 f"shaken_{friction:g}_{seed}", "discrete", SCENE, f"sample/file={grains}", *drives,
@@ -87,6 +86,5 @@ def roll_of_the_box(options):
             mean, error = roll(*found[friction, seed])
             print(f"wall friction {friction:3g}, sample {seed}: {mean:7.3f} +- {error:.3f}, "
                   f"{methods.facts(result)['seconds']:.1f} CPU s", flush=True)
-    if options.figures:
-        draw(found, os.path.join(options.figures, "shaken.png"))
+    draw(found)
     return all(mean + 2 * error < 0 for (friction, _), run in found.items() if friction for mean, error in [roll(*run)])

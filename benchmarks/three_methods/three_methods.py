@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 # diptych: the same discs by three methods: where each of them fails
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""three_methods.py PROGRAM EVENT_DRIVEN [--parts collisions,cooling,plane,shaken] [--seeds 1,2] [--output DIR]
-[--reuse] [--figures DIR] [--quick]
+"""three_methods.py PROGRAM EVENT_DRIVEN [--parts collisions cooling plane shaken] [--output DIR] [--quick]
 
 Event-driven discs (EVENT_DRIVEN: build/release/benchmarks/event_driven_benchmark), contact dynamics and springs
 (PROGRAM) on the same samples: collisions against closed forms, free cooling against Haff's law, the plane of solid
@@ -14,10 +13,10 @@ import os
 import sys
 import tempfile
 
-import numpy
-
 import methods
+import numpy
 import shaken
+from matplotlib.figure import Figure
 from methods import claims
 
 LAWS = ((1., -1., 0.), (0.9, 0.3, 0.2), (0.5, 0.5, 0.8), (0.1, 0., 0.4))  # e_n, e_t, friction
@@ -25,7 +24,7 @@ STEP = 0.1  # of contact dynamics in the tests of collisions
 COOLING, E_COOLING, END_COOLING = 0.1, 0.9, 60.  # solid fraction, restitution, end in mean times between collisions
 # Mean time between two collisions of a disc at the temperature 1, for discs of diameter 1 (Enskog; Henderson 1975).
 UNIT_COOLING = math.pi / (16 * COOLING) * (1 - COOLING) ** 2 / (1 - 7 * COOLING / 16)
-METHODS = ("contact dynamics", "springs")
+METHODS, COLOURS = ("contact dynamics", "springs"), ("#007A5E", "#0072B2", "#D55E00")
 UNITS, COLLISIONS, LIMIT = 20., 200., 0.1  # plane: end, most collisions of a disc in the search for a collapse, error
 DENSE = ("sample/grains=600", "sample/width_over_height=0.3", "loading/duration=0.001", "loading/stage_time=0.001",
          "discrete/step=0.001", "discrete/tolerance=1e-4")
@@ -126,7 +125,7 @@ def cooling(options):
     unit, found, count = UNIT_COOLING, {}, options.discs
     end = END_COOLING * unit
     follows, periodic = law_of_haff(options)
-    for seed in options.seeds:
+    for seed in options.cooling_seeds:
         sample, name = methods.equal_discs(count, COOLING).thermal(options, seed), f"cooling_{seed}"
         runs = {"event-driven": sample.events(options, e_n=E_COOLING, end=end, rows=60)}
         for h in options.cooling_steps:
@@ -142,8 +141,8 @@ def cooling(options):
         energy, error = (claims.mean_and_error([run[key] for run in runs]) for key in ("energy", "error"))
         print(f"{method:26} {energy[0] / count:9.5f} +- {energy[1] / count:.5f} {error[0]:10.1f} +- {error[1]:.1f}"
               f"{runs[0].get('step', math.nan) / unit:12.2g} {numpy.mean([run['seconds'] for run in runs]):9.3f}")
-    if options.figures:
-        draw_cooling(found, periodic, os.path.join(options.figures, "figure.png"))
+    if not options.quick:
+        draw_cooling(found, periodic)
     finest = [claims.mean_and_error([run["error"] for run in runs])[0] for name, runs in found.items() if name.endswith(
         (f"h = {options.cooling_steps[-1]:g}", f"tc = {options.cooling_contacts[-1]:g}"))]
     return follows and len(finest) == 2 and max(map(abs, finest)) < 15
@@ -174,8 +173,7 @@ def point(options, sample, unit, e_n, name):
     # After a collapse the shortest step of contact dynamics is the reference of the others.
     energy = near["energy"] if not near["collapsed"] else steps[0]["energy"] if steps[0] else math.nan
     found = {"collapse": 2 * far["collisions"] / count if far["collapsed"] else math.inf,
-             "events": math.nan if near["collapsed"] else near["seconds"],
-             "time": (far["time"] if far["collapsed"] else math.inf) / unit}
+             "events": math.nan if near["collapsed"] else near["seconds"]}
     for method, runs in zip(METHODS, (steps, contacts)):
         step, found[method] = longest_step(runs, energy)
         found[method + " step"] = step / unit
@@ -184,75 +182,87 @@ def point(options, sample, unit, e_n, name):
 
 
 def plane(options):
-    """Prints the table, for one sample. Returns whether events collapse at a restitution of 0.5 and not from 0.9 on."""
-    found, seed = {}, options.seeds[0]
-    dense = claims.Runs(options, seed, options.output).run(f"dense_{seed}", "discrete", methods.SCENE, *DENSE)
-    print(f"contact dynamics: steps {options.plane_steps}, springs: contacts {options.plane_contacts}, to {UNITS:g}\n"
-          "solid fraction, e | rate of a disc | collapse: collisions, time | longest step for 10 %: contact dynamics, "
-          "springs\n | CPU s: event-driven, contact dynamics, springs | errors [%]: contact dynamics | springs")
+    """Prints the table. Returns whether events collapse at a restitution of 0.5 and not from 0.9 on."""
+    found, rates = {}, {}
+    for seed in options.plane_seeds:
+        dense = claims.Runs(options, seed, options.output).run(f"dense_{seed}", "discrete", methods.SCENE, *DENSE)
+        for fraction in options.solid_fractions:
+            sample = methods.shrunk(dense, fraction).thermal(options, seed)
+            unit = sample.events(options, collisions=10 * len(sample.columns))["time"] / 20
+            rates.setdefault(fraction, []).append(1 / unit)
+            for e_n in options.restitutions:
+                one = point(options, sample, unit, e_n, f"plane_{seed}_{fraction:g}_{e_n:g}")
+                found.setdefault((fraction, e_n), []).append(one)
+                print(seed, fraction, e_n, *(f"{name}: {numpy.round(x, 4)}" for name, x in one.items()), flush=True)
+    print("longest step of contact dynamics; of springs, in mean times between collisions")
+    print(" | ".join(["| fraction | rate", *(f"e = {e_n:g}" for e_n in options.restitutions)]), "|")
     for fraction in options.solid_fractions:
-        sample = methods.shrunk(dense, fraction).thermal(options, seed)
-        unit = sample.events(options, collisions=10 * len(sample.columns))["time"] / 20
-        for e_n in options.restitutions:
-            one = point(options, sample, unit, e_n, f"plane_{seed}_{fraction:g}_{e_n:g}")
-            numbers = [[1 / unit], [one["collapse"], one["time"]], [one[f"{method} step"] for method in METHODS],
-                       [one[method] for method in ("events", *METHODS)],
-                       *(one[f"{method} errors"] for method in METHODS)]
-            print(f"{fraction:5g} {e_n:4g} |", " | ".join(" ".join(f"{x:8.3g}" for x in part) for part in numbers))
-            found[fraction, e_n] = one
-    if options.figures:
-        draw_plane(found, os.path.join(options.figures, "plane.png"))
-    return all(math.isinf(one["collapse"]) for (_, e_n), one in found.items() if e_n >= 0.9) and any(
-        one["collapse"] < COLLISIONS for (_, e_n), one in found.items() if e_n == 0.5)
+        print(" | ".join([f"| {fraction:g}", with_error(rates[fraction]), *("; ".join(
+            with_error([one[f"{method} step"] for one in found[fraction, e_n]]) for method in METHODS)
+            for e_n in options.restitutions)]), "|")
+    if not options.quick:
+        draw_plane(found)
+    collapses = {e_n: [one["collapse"] for (_, e), group in found.items() if e == e_n for one in group]
+                 for e_n in options.restitutions}
+    return min(collapses[0.5]) < COLLISIONS and all(min(collapses[e]) == math.inf for e in collapses if e >= 0.9)
 
 
-def draw_cooling(found, periodic, path):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as pyplot
-    figure, (left, right) = pyplot.subplots(1, 2, figsize=(9.5, 3.9), constrained_layout=True)
-    left.loglog(haff(numpy.arange(61.))[0], "k-", label="Haff's law")
-    left.loglog(periodic, "k.", markersize=4, label="event-driven, periodic")
-    for method, colour in (("event-driven", "tab:green"), ("contact dynamics", "tab:blue"), ("springs", "tab:red")):
+def with_error(values):
+    """Mean +- standard error of those that are numbers; their number if some are none."""
+    good = [value for value in values if not math.isnan(value)]
+    if not good:
+        return "none"
+    mean, error = claims.mean_and_error(good)
+    return f"{mean:.2g} +- {error:.1g}" + (f" ({len(good)} of {len(values)})" if len(good) < len(values) else "")
+
+
+def draw_cooling(found, periodic):
+    figure = Figure(figsize=(10, 4), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    times = numpy.arange(1, 61)
+    law = haff(times)[0]
+    left.semilogx(times, periodic[1:] / law, "k.", markersize=4, label="event-driven, periodic")
+    for method, colour in zip(("event-driven", *METHODS), COLOURS):
         named = {name: runs for name, runs in found.items() if name.startswith(method)}
         for (name, runs), line in zip(reversed(named.items()), ("-", "--", ":")):
-            history = runs[0]["history"]
-            left.loglog(history[1:, 0] / UNIT_COOLING, history[1:, 1] / len(runs[0]["grains"]), line, color=colour,
-                        linewidth=1, label=name)
+            energy = numpy.mean([numpy.interp(times * UNIT_COOLING, *run["history"].T[:2]) for run in runs], axis=0)
+            left.plot(times, energy / len(runs[0]["grains"]) / law, line, color=colour, label=name)
         error = numpy.array([claims.mean_and_error([run["error"] for run in runs]) for runs in named.values()]).T
         seconds = [numpy.mean([run["seconds"] for run in runs]) for runs in named.values()]
         right.errorbar(seconds, *error, fmt="o-", color=colour, capsize=3, label=method)
         for name, x, y in zip(named, seconds, error[0]):
-            right.annotate(name.split(", ")[-1], (x, y), textcoords="offset points", xytext=(5, 6), fontsize=8)
-    left.set(xlabel="time / first mean time between collisions", ylabel="energy / first energy", xlim=(0.9, 70))
-    right.set(xscale="log", xlabel="CPU seconds", ylabel="error of the energy at the end [%]", xlim=(0.02, 5))
+            right.annotate(name.split(", ")[-1], (x, y), textcoords="offset points", xytext=(6, 6), fontsize=8)
+    left.set(xlabel="time / first mean time between collisions", ylabel="energy / Haff's law")
+    right.set(xscale="log", xlabel="CPU seconds", ylabel="energy at 60 from event-driven [%]")
+    right.margins(x=0.2)
     for axis in (left, right):
         axis.legend(fontsize=8)
-    figure.savefig(path, dpi=110)
+        axis.grid(alpha=0.3)
+    figure.savefig(os.path.join(methods.HERE, "figure.png"), dpi=100)
 
 
-def draw_plane(found, path):
-    import matplotlib
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as pyplot
+def draw_plane(found):
+    """A point per sample, a line through the means over them."""
     fractions, restitutions = (sorted(set(column)) for column in zip(*found))
-    names = ("collisions of a disc\nuntil event-driven collapses", "longest step of springs /\nof contact dynamics",
-             "CPU s of contact dynamics /\nof springs", "CPU s of contact dynamics /\nof event-driven")
-    values = (lambda one: one["collapse"], lambda one: one["springs step"] / one["contact dynamics step"],
-              lambda one: one["contact dynamics"] / one["springs"], lambda one: one["contact dynamics"] / one["events"])
-    figure, axes = pyplot.subplots(1, 4, figsize=(13, 3.4), constrained_layout=True, sharey=True)
-    for axis, name, value in zip(axes, names, values):
-        grid = numpy.array([[value(found[fraction, e_n]) for fraction in fractions] for e_n in restitutions])
-        axis.imshow(numpy.log(numpy.where(numpy.isinf(grid), 2 * COLLISIONS, grid)), origin="lower", cmap="RdYlGn",
-                    aspect="auto")
-        for (row, column), x in numpy.ndenumerate(grid):
-            axis.text(column, row, "none" if math.isinf(x) else "-" if math.isnan(x) else f"{x:.2g}", ha="center",
-                      va="center", fontsize=8)
-        axis.set(title=name, xticks=range(len(fractions)), xticklabels=fractions, yticks=range(len(restitutions)),
-                 yticklabels=restitutions, xlabel="solid fraction")
-        axis.title.set_fontsize(9)
-    axes[0].set_ylabel("restitution")
-    figure.savefig(path, dpi=110)
+    panels = {"collisions of a disc until event-driven\ncollapses (top: none)": lambda one: min(one["collapse"], 400),
+              **{f"longest step of {method} /\nmean time between collisions": (
+                  lambda method: lambda one: one[f"{method} step"])(method) for method in METHODS},
+              "CPU s of contact dynamics / springs": lambda one: one["contact dynamics"] / one["springs"],
+              "CPU s of contact dynamics / event-driven": lambda one: one["contact dynamics"] / one["events"]}
+    figure = Figure(figsize=(11, 6.4), layout="constrained")
+    axes = figure.subplots(2, 3).ravel()
+    for axis, (name, value) in zip(axes, panels.items()):
+        for k, e_n in enumerate(restitutions):
+            place, colour = numpy.arange(len(fractions)) + 0.1 * (k - 2), f"C{k}"
+            values = numpy.ma.masked_invalid([[value(one) for one in found[f, e_n]] for f in fractions])
+            axis.plot(place, values, "o", color=colour, markersize=3.5)
+            axis.plot(place, values.mean(axis=1), "-", color=colour, linewidth=1, label=f"restitution {e_n:g}")
+        axis.set_title(name, fontsize=9)
+        axis.set(yscale="log", xticks=range(len(fractions)), xticklabels=fractions, xlabel="solid fraction")
+        axis.grid(alpha=0.3)
+    axes[5].axis("off")
+    axes[5].legend(*axes[4].get_legend_handles_labels(), loc="center")
+    figure.savefig(os.path.join(methods.HERE, "plane.png"), dpi=100)
 
 
 def main():
@@ -260,22 +270,19 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=os.path.abspath)
     parser.add_argument("event_driven", type=os.path.abspath)
-    parser.add_argument("--parts", type=lambda text: text.split(","))
-    parser.add_argument("--seeds", type=lambda text: [int(word) for word in text.split(",")], default=[1, 2])
-    parser.add_argument("--output", help="folder for the result folders; default: thrown away")
-    parser.add_argument("--reuse", action="store_true", help="keep runs that are already in --output")
-    parser.add_argument("--figures", help="folder for the figures (matplotlib)")
-    parser.add_argument("--quick", action="store_true", help="small samples, no shaken box")
+    parser.add_argument("--parts", nargs="+", choices=parts, help="default: all of them")
+    parser.add_argument("--output", help="folder of the runs, which are kept and reused; default: a temporary one")
+    parser.add_argument("--quick", action="store_true", help="small samples, no shaken box, no figures")
     options = parser.parse_args()
-    sizes = {"set": [], "discs": 500, "cooling_steps": (0.1, 0.03, 0.01), "cooling_contacts": (0.1, 0.03),
-             "plane_steps": (0.02, 0.06, 0.2), "plane_contacts": (0.1, 0.3, 1.),
-             "solid_fractions": (0.1, 0.3, 0.5, 0.7, 0.8, 0.835), "restitutions": (1., 0.9, 0.7, 0.6, 0.5)}
+    sizes = {"set": [], "reuse": True, "discs": 500, "cooling_steps": (0.1, 0.03, 0.01),
+             "cooling_contacts": (0.1, 0.03), "plane_steps": (0.02, 0.06, 0.2),
+             "plane_contacts": (0.1, 0.3, 1.), "solid_fractions": (0.1, 0.3, 0.5, 0.7, 0.8, 0.835),
+             "restitutions": (1., 0.9, 0.7, 0.6, 0.5), "cooling_seeds": (1, 2, 3, 4), "plane_seeds": (1, 2, 3),
+             "shaken_seeds": (1, 2, 3)}
     small = {"discs": 400, "cooling_steps": (0.03,), "cooling_contacts": (0.1,), "plane_steps": (0.1,),
-             "plane_contacts": (0.3,), "solid_fractions": (0.835,), "restitutions": (0.9, 0.5), "seeds": [1]}
+             "plane_contacts": (0.3,), "solid_fractions": (0.835,), "restitutions": (0.9, 0.5), "cooling_seeds": (1,),
+             "plane_seeds": (1,)}
     vars(options).update(sizes, **(small if options.quick else {}))
-    unknown = set(options.parts or ()) - set(parts)
-    if unknown:
-        sys.exit(f"three_methods.py: --parts {','.join(unknown)}: give some of {','.join(parts)}")
     wanted = options.parts or [part for part in parts if part != "shaken" or not options.quick]
     with tempfile.TemporaryDirectory() as scratch:
         options.output = options.output or scratch
