@@ -53,7 +53,7 @@ def roll(places, moved):
 
 def draw(found):
     """Mean displacement per cycle in squares of 2 d, where discs are in most cycles."""
-    figure = Figure(figsize=(10, 7), layout="constrained")
+    figure = Figure(figsize=(1.7 * len(found), 7), layout="constrained")
     axes = figure.subplots(2, len(found) // 2, sharex=True, sharey=True)
     edges = numpy.arange(0, WIDTH + 1, 2)
     middle = numpy.meshgrid(0.5 * (edges[1:] + edges[:-1]), 0.5 * (edges[1:] + edges[:-1]))
@@ -63,7 +63,7 @@ def draw(found):
         u, v = (numpy.histogram2d(*places.reshape(-1, 2).T, weights=part, bins=(edges, edges))[0] / number
                 for part in moved.reshape(-1, 2).T)
         arrows = axis.quiver(*middle, u.T, v.T, angles="xy", scale_units="xy", scale=0.15, width=0.006)
-        axis.quiverkey(arrows, 0.7, 0.94, 0.5, "0.5 d per cycle", labelpos="E", fontproperties={"size": 8})
+        axis.quiverkey(arrows, 0.55, 0.94, 0.5, "0.5 d per cycle", labelpos="E", fontproperties={"size": 8})
         axis.set(title=f"wall friction {friction:g}, sample {seed}", aspect="equal", xlim=(0, WIDTH), ylim=(0, WIDTH))
     figure.supxlabel("x / d")
     figure.supylabel("y / d")

@@ -16,6 +16,7 @@ import tempfile
 import methods
 import numpy
 import shaken
+from matplotlib import colormaps
 from matplotlib.figure import Figure
 from methods import claims
 
@@ -231,10 +232,10 @@ def draw_cooling(found, periodic):
         seconds = [numpy.mean([run["seconds"] for run in runs]) for runs in named.values()]
         right.errorbar(seconds, *error, fmt="o-", color=colour, capsize=3, label=method)
         for name, x, y in zip(named, seconds, error[0]):
-            right.annotate(name.split(", ")[-1], (x, y), textcoords="offset points", xytext=(6, 6), fontsize=8)
-    left.set(xlabel="time / first mean time between collisions", ylabel="energy / Haff's law")
+            right.annotate(name.split(", ")[-1], (x, y), (-8, -4), textcoords="offset points", fontsize=8, ha="right")
+    left.set(ylim=(0.6, 1.1), xlabel="time / first mean time between collisions", ylabel="energy / Haff's law")
     right.set(xscale="log", xlabel="CPU seconds", ylabel="energy at 60 from event-driven [%]")
-    right.margins(x=0.2)
+    right.margins(x=0.35)
     for axis in (left, right):
         axis.legend(fontsize=8)
         axis.grid(alpha=0.3)
@@ -244,25 +245,31 @@ def draw_cooling(found, periodic):
 def draw_plane(found):
     """A point per sample, a line through the means over them."""
     fractions, restitutions = (sorted(set(column)) for column in zip(*found))
-    panels = {"collisions of a disc until event-driven\ncollapses (top: none)": lambda one: min(one["collapse"], 400),
+    panels = {"collisions of a disc until event-driven collapses":
+              (lambda one: min(one["collapse"], 2 * COLLISIONS), {20: "20", 50: "50", 100: "100", 400: "none"}),
               **{f"longest step of {method} /\nmean time between collisions": (
-                  lambda method: lambda one: one[f"{method} step"])(method) for method in METHODS},
-              "CPU s of contact dynamics / springs": lambda one: one["contact dynamics"] / one["springs"],
-              "CPU s of contact dynamics / event-driven": lambda one: one["contact dynamics"] / one["events"]}
+                  (lambda method: lambda one: one[f"{method} step"])(method), {x: x for x in (0.005, 0.02, 0.05, 0.2)})
+                 for method in METHODS},
+              "CPU s of contact dynamics / springs":
+              (lambda one: one["contact dynamics"] / one["springs"], {x: x for x in (0.5, 1, 2, 4)}),
+              "CPU s of contact dynamics / event-driven":
+              (lambda one: one["contact dynamics"] / one["events"], {x: x for x in (5, 10, 20, 40)})}
     figure = Figure(figsize=(11, 6.4), layout="constrained")
     axes = figure.subplots(2, 3).ravel()
-    for axis, (name, value) in zip(axes, panels.items()):
+    for axis, (name, (value, ticks)) in zip(axes, panels.items()):
         for k, e_n in enumerate(restitutions):
-            place, colour = numpy.arange(len(fractions)) + 0.1 * (k - 2), f"C{k}"
+            place, colour = numpy.arange(len(fractions)) + 0.1 * (k - 2), colormaps["viridis"](k / len(restitutions))
             values = numpy.ma.masked_invalid([[value(one) for one in found[f, e_n]] for f in fractions])
             axis.plot(place, values, "o", color=colour, markersize=3.5)
             axis.plot(place, values.mean(axis=1), "-", color=colour, linewidth=1, label=f"restitution {e_n:g}")
         axis.set_title(name, fontsize=9)
         axis.set(yscale="log", xticks=range(len(fractions)), xticklabels=fractions, xlabel="solid fraction")
+        axis.set_yticks([], minor=True)
+        axis.set_yticks([*ticks], ticks.values())
         axis.grid(alpha=0.3)
     axes[5].axis("off")
     axes[5].legend(*axes[4].get_legend_handles_labels(), loc="center")
-    figure.savefig(os.path.join(methods.HERE, "plane.png"), dpi=100)
+    figure.savefig(os.path.join(methods.HERE, "plane.png"), dpi=90)
 
 
 def main():
