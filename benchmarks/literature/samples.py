@@ -121,13 +121,11 @@ def decay(values):
 
 
 # CEGEO 2012: the biaxial test between smooth walls.
-WALLS = ("sample/radius_distribution=uniform_by_mass", "sample/radius_min=0.25", "sample/radius_max=0.75",
-         "discrete/friction=0.5", "discrete/platen_friction=0", "discrete/wall_friction=0",
-         "discrete/lateral=rigid_walls", "discrete/side_motion=pressure", "loading/horizontal_over_vertical=0")
-
-
 def biaxial(seed, name="large", *settings):
-    return run(seed, "biaxial_" + name, *WALLS, "loading/inertial_number=1e-3", "discrete/accuracy=0.05",
+    return run(seed, "biaxial_" + name, "sample/radius_distribution=uniform_by_mass", "sample/radius_min=0.25",
+               "sample/radius_max=0.75", "discrete/friction=0.5", "discrete/platen_friction=0",
+               "discrete/wall_friction=0", "discrete/lateral=rigid_walls", "discrete/side_motion=pressure",
+               "loading/horizontal_over_vertical=0", "loading/inertial_number=1e-3", "discrete/accuracy=0.05",
                *(settings or ("sample/grains=2000", "loading/axial_strain=0.15", "loading/stage_strain=0.01",
                               "sample/preparation_tolerance=1e-5", "sample/quiet_unbalanced_force=0.005")))
 
@@ -171,11 +169,6 @@ def ambiguity(seed, friction):
     return numpy.sqrt(scatter) / numpy.linalg.norm(found, axis=2).mean()
 
 
-def most_ambiguous(seed):
-    """log10 of the friction at which the forces are least unique."""
-    return numpy.log10(max(FRICTIONS[1:], key=lambda friction: ambiguity(seed, friction)))
-
-
 def indeterminacy(seed):
     """(2 contacts - 3 grains) / contacts of a frictionless packing, grains that carry a force."""
     snapshot = unger(seed, 0.).snapshots[1]
@@ -209,12 +202,9 @@ def two_sizes(ratio, share=0.5):
     return lambda: table(f"two_{ratio:g}_{share:g}", (1, ratio), (1 - share, share))
 
 
-def log_normal(sigma):
-    return lambda: table(f"log_{sigma:g}", lognorm.ppf((numpy.arange(200) + 0.5) / 200, sigma), numpy.ones(200))
-
-
 MIXTURES = {"two sizes 1:1.4": two_sizes(1.4), "uniform 3:7": lambda: uniform(3, 7),
-            "uniform 1:4": lambda: uniform(1, 4), "log-normal 0.5": log_normal(0.5),
+            "uniform 1:4": lambda: uniform(1, 4),
+            "log-normal 0.5": lambda: table("log", lognorm.ppf((numpy.arange(200) + 0.5) / 200, 0.5), numpy.ones(200)),
             "two sizes 1:3, 10 % large": two_sizes(3, 0.1), "two sizes 1:1.1": two_sizes(1.1),
             "two sizes 1:2": two_sizes(2), "two sizes 1:1.4, 10 % large": two_sizes(1.4, 0.1)}
 OTHERS = [*MIXTURES][5:]  # Neighbours of 1:1.4 in equal numbers.
