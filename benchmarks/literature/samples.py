@@ -40,7 +40,10 @@ def run(seed, name, *settings, scene="scene.prm"):
     runs = claims.Runs(OPTIONS, seed, os.path.join(OPTIONS.output, f"seed_{seed}"))
     result = runs.run(name, "discrete", os.path.join(HERE, scene), *settings)
     with open(os.path.join(result.folder, "provenance.json"), encoding="utf-8") as file:
-        COST[0] += sum(phase["cpu_s"] for phase in json.load(file)["phases"])
+        record = json.load(file)
+    if not record["discrete"]["finished"]:
+        sys.exit(f"literature.py: {result.folder}: the run stopped early; remove the folder")
+    COST[0] += sum(phase["cpu_s"] for phase in record["phases"])
     result.snapshots = diptych.load(result.folder).discrete.snapshots
     return result
 
