@@ -1,0 +1,186 @@
+#!/usr/bin/env python3
+# diptych: the biaxial test of Guo & Zhao's FEM x DEM, as grains and as a continuum
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""femxdem.py PROGRAM [--output DIR] [--quick]
+
+With --output it makes the calibrations and the runs that results.json lacks, and stores them there. It prints the
+table and draws figure.png. --quick makes a short run of both panels instead. Exit code 1: this run differs from the
+stored one, or README.md has another table. PYTHONPATH: build/release/python."""
+import argparse
+import itertools
+import json
+import os
+import sys
+import tempfile
+
+import numpy
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.dirname(HERE))
+import claims  # noqa: E402
+
+STORED = os.path.join(HERE, "results.json")
+CONTACTS = {"rigid": {"discrete/method": "nscd"},
+            "soft": {"discrete/method": "compliant", "discrete/penalty_stiffness": 300}}
+SAMPLES = {2000: range(1, 5), 4000: (1, 2), 8000: (1,)}  # Discs: seeds.
+WIDTH = 31.2 / 2000**0.5  # Of one disc [d].
+PANELS = ("grains", "8 x 16", "16 x 32")
+STYLES, COLOURS = dict(zip(PANELS, ("-", ":", "--"))), {"rigid": "#0072B2", "soft": "#D55E00"}
+NUMBERS = {"peak": ("peak t/s", 1, 3), "at": ("at, %", 100, 1), "residual": ("t/s, 9-10 %", 1, 3),
+           "volume": ("volume, %", 100, 2), "bands": ("bands", 1, 1), "angle": ("angle, degrees", 1, 1),
+           "width": ("width, d", 1, 1), "cpu_s": ("CPU s", 1, 1)}
+BINS = [0.001, 0.002, 0.003, 0.004, 0.006, 0.008, *(k / 200 for k in range(2, 7)), *(k / 100 for k in range(4, 11))]
+# Start, low, high, of.
+FITTED = {"friction_angle_peak": (25, 12, 60), "friction_angle_residual": (0.5, 0.05, 0.9),
+          "friction_angle_start": (0.7, 0.2, 1), "dilatancy_angle_peak": (0.5, 0.05, 1, "friction_angle_start"),
+          "mobilisation_strain": (0.007, 0.0005, 0.2), "softening_strain": (0.3, 0.02, 2),
+          "youngs_modulus": (1000, 50, 20000)}
+
+
+def calibrated(contacts, folder):
+    """The law fitted to eight cells of their size, with its curves; eight other cells are predicted."""
+    import diptych
+    targets = [{"name": name, "scene": f"{HERE}/cell.prm", "seeds": seeds, "set": CONTACTS[contacts], "use": use}
+               for name, seeds, use in (("cells", "1-8", "fit"), ("other cells", "9-16", "predict"))]
+    found = diptych.calibrate({
+        "targets": targets, "quantities": ["stress_ratio", "volumetric_strain"], "bins": BINS,
+        "load_step": 0.0005, "check_samples": 0,
+        "set": {"continuum/hardening": "mobilisation", "continuum/cohesion": 0.01},
+        "parameters": [{"key": key, **dict(zip(("start", "low", "high", "of"), one))} for key, one in FITTED.items()]},
+        os.path.join(folder, f"cells_{contacts}"), resume=True)
+    with open(os.path.join(found.folder, "calibration_cost.json")) as file:
+        cost = json.load(file)
+    keys = ("kind", "from", "to", "mean", "deviation", "after")
+    law = {f"continuum/{one.key}": one.value for one in found.parameters.itertuples()}
+    return {"law": {"continuum/hardening": "mobilisation", **law}, **cost,
+            "curves": {path["name"]: [{key: one[key] for key in keys} for one in path["observables"]]
+                       for path in found.numbers["paths"]}}
+
+
+def measured(result, panel):
+    """NUMBERS and curves. t/s from the force on the platens and the present width, as their script stores them;
+    grains in running means over 0.5 % of strain. Bands: of the displacements in the second half."""
+    import diptych
+    name = "discrete" if panel == "grains" else "continuum"
+    columns, snapshots = result.columns(f"{name}.csv"), getattr(diptych.load(result.folder), name).snapshots
+    stress = (columns["lower_fy"] - columns["upper_fy"]) / 2 / columns["width"]
+    strain, ratio, volume = columns["axial_strain"], (stress - 1) / (stress + 1), columns["volumetric_strain"]
+    end, mean = claims.running_mean(strain, ratio) if panel == "grains" else (strain, ratio)
+    moved = diptych.increment(snapshots[len(snapshots) // 2], snapshots[-1])
+    bands = diptych.find_bands(**{"mean_diameter": 1, **moved}, band_resamples=0).bands
+    with open(os.path.join(result.folder, "provenance.json")) as file:
+        [cpu] = [phase["cpu_s"] for phase in json.load(file)["phases"] if phase["name"] == name]
+    found = {"peak": mean.max(), "at": end[mean.argmax()], "volume": volume[-1], "bands": len(bands), "cpu_s": cpu,
+             "residual": claims.between(strain, ratio, 0.9 * strain[-1], strain[-1]),
+             "angle": numpy.mean([abs(band.angle_deg) for band in bands] or numpy.nan),
+             "width": numpy.mean([band.width_10_90 for band in bands] or numpy.nan)}
+    even = numpy.linspace(0.0025, strain[-1], 40)
+    return {**{key: float(f"{value:.5g}") for key, value in found.items()},
+            "curve": numpy.interp(even, end, mean).round(4).tolist(),
+            "volumes": numpy.interp(even, strain, volume).round(5).tolist()}
+
+
+def run(options, stored, name, seed, *settings):
+    """Numbers of "contacts, discs, panel"."""
+    contacts, discs, panel = name.split(", ")
+    width = WIDTH * int(discs)**0.5
+    words = {"sample/grains": discs, **CONTACTS[contacts]} if panel == "grains" else {
+        **stored["cells"][contacts]["law"], "continuum/mesh": "rectangle", "continuum/rectangle_width": width,
+        "continuum/rectangle_height": 2 * width, "continuum/element_size": width / int(panel.split()[0])}
+    runs = claims.Runs(argparse.Namespace(program=options.program, reuse=True, set=[]), seed, options.output)
+    result = runs.run(f"{name}, {seed}", "discrete" if panel == "grains" else "continuum", f"{HERE}/scene.prm",
+                      *(f"{key}={value}" for key, value in words.items()), *settings)
+    return measured(result, panel)
+
+
+def quick(options, stored):
+    with tempfile.TemporaryDirectory() as folder:
+        options.output = folder
+        found = {panel: run(options, stored, f"rigid, 500, {panel}", 1, "loading/axial_strain=0.02")
+                 for panel in PANELS[:2]}
+    return {f"{panel}, {key}": one[key] for panel, one in found.items() for key in ("peak", "volume")}
+
+
+def measure(options, stored):
+    """Yields after everything that it adds to `stored`."""
+    for discs, contacts, panel in itertools.product(SAMPLES, CONTACTS, PANELS):
+        if panel != "grains" and contacts not in stored["cells"]:
+            stored["cells"][contacts] = calibrated(contacts, options.output)
+            yield
+        found = stored["runs"].setdefault(f"{contacts}, {discs}, {panel}", [])
+        for seed in (SAMPLES[discs] if panel == "grains" else (1,))[len(found):]:
+            found.append(run(options, stored, f"{contacts}, {discs}, {panel}", seed))
+            yield
+    stored["quick"] = quick(options, stored)
+    yield
+
+
+def mean_and_error(found, key):
+    """Over the seeds in which the number exists."""
+    values = [one[key] for one in found if not numpy.isnan(one[key]).any()]
+    return claims.mean_and_error(values) if values else (numpy.nan, numpy.nan)
+
+
+def table(stored):
+    yield "| contacts, discs, panel (samples) | " + " | ".join(label for label, _, _ in NUMBERS.values()) + " |"
+    yield "|---" * (len(NUMBERS) + 1) + "|"
+    for name, found in stored["runs"].items():
+        texts = [" +- ".join(f"{scale * value:.{digits}f}" for value in mean_and_error(found, key)[:len(found)])
+                 for key, (_, scale, digits) in NUMBERS.items()]
+        if found:
+            yield f"| {name} ({len(found)}) | " + " | ".join(texts) + " |"
+
+
+def draw(stored):
+    """figure.png: 2000 discs with 95 % of the mean, and the cells with their laws."""
+    from matplotlib.figure import Figure
+    picture = Figure(figsize=(13, 4.2), layout="constrained")
+    axes = dict(zip(("curve", "volumes", "cells"), picture.subplots(1, 3)))
+    even = numpy.linspace(0.25, 10, 40)
+    for key, (name, found) in itertools.product(("curve", "volumes"), stored["runs"].items()):
+        contacts, discs, panel = name.split(", ")
+        if discs == "2000" and found:
+            mean, error = numpy.multiply(mean_and_error(found, key), 1 if key == "curve" else 100)
+            axes[key].plot(even, mean, STYLES[panel], color=COLOURS[contacts], label=f"{contacts}, {panel}")
+            axes[key].fill_between(even, mean - 1.96 * error, mean + 1.96 * error, color=COLOURS[contacts], alpha=0.2)
+    for contacts, one in stored["cells"].items():
+        rows = [row for row in one["curves"]["cells"] if row["kind"] == "stress_ratio"]
+        place = [50 * (row["from"] + row["to"]) for row in rows]
+        mean, deviation, law = ([row[key] for row in rows] for key in ("mean", "deviation", "after"))
+        axes["cells"].errorbar(place, mean, deviation, fmt="o", capsize=2, color=COLOURS[contacts],
+                               label=f"{contacts}: eight cells, deviation of one")
+        axes["cells"].plot(place, law, "--", color=COLOURS[contacts], label=f"{contacts}: law")
+    for axis, label in zip(axes.values(), ("nominal t/s, 2000 discs", "volumetric strain (%), 2000 discs",
+                                           "t/s, 400-disc cells")):
+        axis.set(xlabel="axial strain (%)", ylabel=label)
+        axis.grid(alpha=0.3)
+        axis.legend(fontsize=8)
+    picture.savefig(f"{HERE}/figure.png", dpi=90)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", type=os.path.abspath)
+    parser.add_argument("--output", type=os.path.abspath)
+    parser.add_argument("--quick", action="store_true")
+    options = parser.parse_args()
+    with open(STORED) as file:
+        stored = json.load(file)
+    for _ in measure(options, stored) if options.output else ():
+        with open(STORED, "w") as file:
+            json.dump(stored, file, separators=(",", ":"))
+    if not options.quick:
+        print("\n".join(table(stored)))
+        draw(stored)
+        return 0
+    wrong = [f"{name}: {value}, stored {stored['quick'][name]}" for name, value in quick(options, stored).items()
+             if abs(value / stored["quick"][name] - 1) > (0.05 if name.startswith("grains") else 0.01)]
+    with open(f"{HERE}/README.md") as file:
+        lines = file.read().splitlines()
+    wrong += [f"README.md lacks: {line}" for line in table(stored) if line not in lines]
+    print("\n".join(wrong) or "as stored")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
