@@ -130,7 +130,7 @@ def table(stored):
 
 
 def draw(stored):
-    """figure.png: 2000 discs with 95 % of the mean, and the cells with their laws."""
+    """figure.png: 2000 discs with 1.96 standard errors of the mean, and the cells with their laws."""
     from matplotlib.figure import Figure
     picture = Figure(figsize=(13, 4.2), layout="constrained")
     axes = dict(zip(("curve", "volumes", "cells"), picture.subplots(1, 3)))
