@@ -214,7 +214,8 @@ def with_error(values):
     if not good:
         return "none"
     mean, error = claims.mean_and_error(good)
-    return f"{mean:.2g} +- {error:.1g}" + (f" ({len(good)} of {len(values)})" if len(good) < len(values) else "")
+    scatter = f" +- {error:.1g}" if error > 1e-9 * mean else ""
+    return f"{mean:.3g}{scatter}" + (f" ({len(good)} of {len(values)})" if len(good) < len(values) else "")
 
 
 def draw_cooling(found, periodic):
