@@ -1,29 +1,47 @@
 #!/usr/bin/env python3
 # diptych: cost of equal error: contact dynamics, implicit and explicit springs, LAMMPS, each at its best settings
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""envelope.py [--cases dense,slow] [--figure FILE]
+"""envelope.py [PROGRAM --output DIR [--samples 40]] [--cases dense,slow] [--figure FILE]
 
-Takes the runs of order.csv, which order.py makes in one go. The error of a setting is its bias against the limit of
-short steps on the same samples. For each method the cheapest settings of every error are its lower envelope. Needs
-numpy, pandas and scipy, the figure matplotlib."""
+With PROGRAM it loads every sample by all settings in turn, so that the CPU times compare, and stores envelope.csv; runs
+in DIR are kept. The error of a setting is its bias against the limit of short steps on the same samples (order.csv).
+Needs what order.py needs, and lmp."""
 import argparse
+import os
 
 import numpy
 import pandas
 
 import order
 
-# method -> its points in order.csv
-METHODS = {"NSCD": order.ACCURACIES, "implicit springs": order.IMPLICIT,
-           "penalty": [p for p in (*order.SPRINGS, *order.CHEAP_SPRINGS) if p.startswith("penalty")],
-           "LAMMPS": [p for p in (*order.SPRINGS, *order.CHEAP_SPRINGS) if p.startswith("lammps")]}
+STORED = os.path.join(order.HERE, "envelope.csv")
+# Stiffness kn/P and step over sqrt(m_min/kn) of explicit springs; kn/P and discrete/accuracy of implicit ones.
+EXPLICIT = [f"{k}/{f}" for k, f in (("1e3", 0.5), ("3.3e3", 0.5), ("3.3e3", 0.7), ("1e4", 0.2), ("1e4", 0.5),
+                                    ("1e4", 0.7))]
+METHODS = {"NSCD": [f"accuracy={a}" for a in (0.1, 0.05, 0.02, 0.01)],
+           "implicit springs": [f"implicit={k}/{a}" for k in ("1e3", "1e4") for a in (0.1, 0.05, 0.02)],
+           "penalty": ["penalty=" + knobs for knobs in EXPLICIT], "LAMMPS": ["lammps=" + knobs for knobs in EXPLICIT]}
 QUANTITIES = {"strength": (0.03, 0.02, 0.01), "dilation": (0.1, 0.05, 0.03)}  # and errors of the table
+TICKS = (0.3, 1, 3, 10)
 LOOKS = {"NSCD": ("#0072B2", "o"), "implicit springs": ("#56B4E9", "D"), "penalty": ("#007A5E", "s"),
          "LAMMPS": ("#D55E00", "^")}
 
 
+def measured(options):
+    """Rows of envelope.csv: all points of a sample, then the next one."""
+    return pandas.DataFrame([order.load(options, name, point, seed) for name in options.cases
+                             for seed in order.CASES[name].seeds[:options.samples]
+                             for points in METHODS.values() for point in points])
+
+
+def table():
+    """The stored runs, and those of order.csv that give the limit."""
+    limit = pandas.read_csv(order.STORED)
+    return pandas.concat([limit[limit.point.str.startswith("h=")], pandas.read_csv(STORED)])
+
+
 def settings(table, name, quantity, points):
-    """[(CPU s, bias, its standard error, point)] of the measured points, cheapest first."""
+    """[(CPU s, bias, its standard error, point)], cheapest first."""
     rows = table[table.case == name]
     return sorted((rows[rows.point == point].cpu_s.mean(), *order.against_limit(table, name, quantity, point), point)
                   for point in points if (rows.point == point).sum() > 5)
@@ -62,21 +80,27 @@ def draw(table, names, path):
                               label=method)
                 axes.step(cost, 100 * numpy.minimum.accumulate(abs(bias)), where="post", color=colour, linewidth=1)
             axes.set(xscale="log", xlabel="CPU s of the loading of one sample", ylabel=f"|error of the {quantity}| (%)",
-                     ylim=(0, None), title=f"{name}, I = {order.CASES[name].inertial:g}")
+                     ylim=(0, None), xticks=TICKS, xticklabels=TICKS, title=f"{name}, I = {order.CASES[name].inertial:g}")
             axes.grid(alpha=0.3)
-    figure.legend(*grid[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=len(METHODS))
+    grid[0, 0].legend(fontsize=8)
     figure.savefig(path, dpi=110)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", type=os.path.abspath, nargs="?")
+    parser.add_argument("--output", type=os.path.abspath)
+    parser.add_argument("--samples", type=int, default=40)
     parser.add_argument("--cases", type=lambda text: text.split(","), default=["dense", "slow"])
     parser.add_argument("--figure")
     options = parser.parse_args()
-    table = pandas.read_csv(order.STORED)
-    show(table, options.cases)
+    if options.program:
+        kept = pandas.read_csv(STORED) if os.path.exists(STORED) else pandas.DataFrame(columns=["case"])
+        pandas.concat([kept[~kept.case.isin(options.cases)], measured(options)]).to_csv(STORED, index=False,
+                                                                                       float_format="%.6g")
+    show(table(), options.cases)
     if options.figure:
-        draw(table, options.cases, options.figure)
+        draw(table(), options.cases, options.figure)
 
 
 if __name__ == "__main__":
