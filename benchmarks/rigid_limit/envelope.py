@@ -80,7 +80,8 @@ def draw(table, names, path):
                               label=method)
                 axes.step(cost, 100 * numpy.minimum.accumulate(abs(bias)), where="post", color=colour, linewidth=1)
             axes.set(xscale="log", xlabel="CPU s of the loading of one sample", ylabel=f"|error of the {quantity}| (%)",
-                     ylim=(0, None), xticks=TICKS, xticklabels=TICKS, title=f"{name}, I = {order.CASES[name].inertial:g}")
+                     ylim=(0, None), xticks=TICKS, xticklabels=TICKS,
+                     title=f"{name}, I = {order.CASES[name].inertial:g}")
             axes.grid(alpha=0.3)
     grid[0, 0].legend(fontsize=8)
     figure.savefig(path, dpi=110)
