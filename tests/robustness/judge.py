@@ -30,6 +30,7 @@ NO_NUMBER = re.compile(r"""
   | comparison[.]h5\ (histories/.*_mean|.*(cells|grid|profile|platens)/.*|.*discrete/stress_.*)  # no window or force
   | (discrete|continuum)[.](csv|h5)\ .*stress_ratio                                    # no stress
   | (ensemble|study)[.]h5\ .*                                                          # curves of different lengths
+  | calibration[.]csv\ parameter_deviation                                             # no intervals
 """, re.VERBOSE)
 
 

@@ -21,7 +21,6 @@ def styled():
             "font.size": 9, "axes.titlesize": 10, "axes.labelsize": 9.5, "legend.fontsize": 8.5,
             "xtick.labelsize": 8.5, "ytick.labelsize": 8.5, "axes.edgecolor": INK, "axes.linewidth": 0.7,
             "axes.unicode_minus": True, "legend.frameon": False, "lines.linewidth": 1.6,
-            # A fixed title height saves a tenth of the time of a page.
             "axes.titley": 1.0, "svg.hashsalt": "diptych", "path.simplify_threshold": 0.3,
             # Text stays text, measured in the font of matplotlib. The other fonts are not wider, so nothing is cut.
             "svg.fonttype": "none", "font.sans-serif": ["DejaVu Sans", "Verdana", "Arial", "sans-serif"],

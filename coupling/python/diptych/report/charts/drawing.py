@@ -147,9 +147,9 @@ class Axes:
     def axvline(self, x, *, color=INK, linewidth=1, **look):
         self.plot([x, x], [-np.inf, np.inf], color=color, linewidth=linewidth, **look)
 
-    def text(self, x, y, words, anchor="middle"):
+    def text(self, x, y, words):
         """x, y: shares of the axes."""
-        self.texts.append((x, y, words, anchor))
+        self.texts.append((x, y, words))
 
     def set(self, *, xlabel=None, ylabel=None, xlim=None, ylim=None, xticks=None, yticks=None):
         for axis, label, ends, ticks in ((self.x, xlabel, xlim, xticks), (self.y, ylabel, ylim, yticks)):
@@ -189,8 +189,8 @@ class Axes:
         box = f'x="{left:.1f}" y="{up:.1f}" width="{self.width:.1f}" height="{self.height:.1f}"'
         grid, numbers = self._grid(left, up) if self.has_frame else ("", "")
         frame = f'<rect {box} fill="none" stroke="{INK}" stroke-width=".7"/>' if self.has_frame else ""
-        texts = "".join(_text(left + self.width * x, up + self.height * (1 - y), words, anchor=anchor)
-                        for x, y, words, anchor in self.texts)
+        texts = "".join(_text(left + self.width * x, up + self.height * (1 - y), words)
+                        for x, y, words in self.texts)
         return (f'<clipPath id="{name}"><rect {box}/></clipPath>{grid}<g clip-path="url(#{name})">{shown}</g>'
                 f'{frame}{numbers}{texts}{self._heads(left, up)}')
 
