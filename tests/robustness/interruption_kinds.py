@@ -21,7 +21,7 @@ KILLED = {  # by base: weight, typical duration in s, and the command but for --
     "other_nodes": (2, 1.5, ["run", QUICK, *OTHER_BOTH, "--resume"]),  # another continuum takes the place of the first
     "ensemble": (1, 2, ["run", QUICK, *BOTH, *bases.SEEDS, "--resume"]),
     "study": (1, 1.5, ["study", "steps.json", "--jobs", "1", "--resume"]),
-    "calibration": (1, 4, ["calibrate", "one.json", "--jobs", "1", "--resume"]),
+    "calibration": (1, 12, ["calibrate", "one.json", "--jobs", "1", "--resume"]),
     "imported": (2, 0.05, ["import", "csv", *bases.foreign("csv"), "--overwrite"]),  # an import begins again
 }
 MOST_BEGINNINGS = 20
@@ -42,7 +42,7 @@ def kills(case, base=""):
                 break
             shutil.rmtree(case.path("out"))  # it ended before the signal
             length *= 0.7
-    case.run(*line, output=case.work, codes=(0,), patience=120, has_numbers=base != "imported")
+    case.run(*line, output=case.work, codes=(0,), patience=600, has_numbers=base != "imported")
     case.expect_same(os.path.join(case.base(base), "out"), case.path("out"))
     left = [name for name in judge.digest(case.path("out")) if name.endswith(".part")
             or judge.LOCK.search(os.path.basename(name))]
