@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/panel/window_forces.h"
 
+#include <algorithm>
+
 #include "discrete/stepping/step_problem.h"
 
 namespace diptych::discrete
@@ -9,29 +11,37 @@ namespace diptych::discrete
   void WindowForces::add(const StepResult &result, const std::vector<double> &spin_term, const double step)
   {
     const auto           before = [](const PairSum &a, const PairSum &b) { return a.i != b.i ? a.i < b.i : a.j < b.j; };
-    std::vector<PairSum> now; // ascending like the contacts
+    std::vector<PairSum> fresh; // pairs that had no contact since the last reset, ascending like the contacts
+    auto                 sum = sums.begin();
     for (std::size_t k = 0; k < result.contacts.size(); ++k)
-      if (const Contact &c = result.contacts[k]; result.impulses[k].normal > 0)
-        now.push_back({c.i, c.j, result.contact_dissipation[k], result.contact_impact[k], impulse_vector(c, result.impulses[k]),
-                       result.impulses[k].rolling});
-    std::vector<PairSum> merged;
-    merged.reserve(sums.size() + now.size());
-    auto a = sums.begin();
-    for (const PairSum &b : now)
       {
-        while (a != sums.end() && before(*a, b))
-          merged.push_back(*a++);
-        if (a != sums.end() && a->i == b.i && a->j == b.j)
-          {
-            merged.push_back(
-              {b.i, b.j, a->dissipation + b.dissipation, a->impact + b.impact, a->impulse + b.impulse, a->rolling + b.rolling});
-            ++a;
-          }
+        const Contact &c = result.contacts[k];
+        if (!(result.impulses[k].normal > 0))
+          continue;
+        const PairSum now{c.i,
+                          c.j,
+                          result.contact_dissipation[k],
+                          result.contact_impact[k],
+                          impulse_vector(c, result.impulses[k]),
+                          result.impulses[k].rolling};
+        while (sum != sums.end() && before(*sum, now))
+          ++sum;
+        if (sum == sums.end() || before(now, *sum))
+          fresh.push_back(now);
         else
-          merged.push_back(b);
+          {
+            sum->dissipation += now.dissipation;
+            sum->impact += now.impact;
+            sum->impulse += now.impulse;
+            sum->rolling += now.rolling;
+          }
       }
-    merged.insert(merged.end(), a, sums.end());
-    sums = std::move(merged);
+    if (!fresh.empty())
+      {
+        const auto known = std::ptrdiff_t(sums.size());
+        sums.insert(sums.end(), fresh.begin(), fresh.end());
+        std::inplace_merge(sums.begin(), sums.begin() + known, sums.end(), before);
+      }
 
     spin.resize(spin_term.size(), 0.);
     for (std::size_t i = 0; i < spin_term.size(); ++i)

@@ -31,54 +31,58 @@ namespace diptych::discrete
   }
 
   // False: a contact would join blocks that are not neighbours, or a body has contacts in two gaps between blocks.
-  bool BatchedContacts::cut(const std::vector<int> &rows, const int n_blocks)
+  bool BatchedContacts::cut(const std::vector<Ends> &rows, const int n_blocks)
   {
+    if (n_blocks == 1)
+      {
+        blocks_.push_back(make_part(rows));
+        return true;
+      }
     const std::size_t n_bodies = problem_.free_velocity.size();
     std::vector<int>  first(n_bodies, n_blocks), last(n_bodies, -1), gap_of(n_bodies, -1);
     const auto        block_of = [&](const std::size_t k) { return int(k * n_blocks / rows.size()); };
     for (std::size_t k = 0; k < rows.size(); ++k)
-      for (const int body : {problem_.contacts[rows[k]].i, problem_.contacts[rows[k]].j})
-        if (moves(problem_, body))
+      for (const int body : {rows[k].i, rows[k].j})
+        if (body >= 0)
           {
             first[body] = std::min(first[body], block_of(k));
             last[body]  = std::max(last[body], block_of(k));
           }
-    std::vector<std::vector<int>> inside(n_blocks), gaps(n_blocks - 1);
-    for (std::size_t k = 0; k < rows.size(); ++k)
+    std::vector<std::vector<Ends>> inside(n_blocks), gaps(n_blocks - 1);
+    for (const Ends &row : rows)
       {
-        const ContactRow &c    = problem_.contacts[rows[k]];
-        int               from = n_blocks, to = -1;
-        for (const int body : {c.i, c.j})
-          if (moves(problem_, body))
+        int from = n_blocks, to = -1;
+        for (const int body : {row.i, row.j})
+          if (body >= 0)
             {
               from = std::min(from, first[body]);
               to   = std::max(to, last[body]);
             }
         if (from == to)
-          inside[from].push_back(rows[k]);
+          inside[from].push_back(row);
         else if (to == from + 1)
-          gaps[from].push_back(rows[k]);
+          gaps[from].push_back(row);
         else
           return false;
         if (from != to)
-          for (const int body : {c.i, c.j})
-            if (moves(problem_, body))
+          for (const int body : {row.i, row.j})
+            if (body >= 0)
               {
                 if (gap_of[body] >= 0 && gap_of[body] != from)
                   return false;
                 gap_of[body] = from;
               }
       }
-    for (const std::vector<int> &part : inside)
+    for (const std::vector<Ends> &part : inside)
       blocks_.push_back(make_part(part));
-    for (const std::vector<int> &part : gaps)
+    for (const std::vector<Ends> &part : gaps)
       between_.push_back(make_part(part));
     return true;
   }
 
   // First fit. A batch takes, from a window of 64 waiting rows, the oldest ones that share no moving body. If possible they
   // share no moving body with the previous batch either: then the sweep need not wait for its velocities.
-  BatchedContacts::Part BatchedContacts::make_part(const std::vector<int> &rows)
+  BatchedContacts::Part BatchedContacts::make_part(const std::vector<Ends> &rows)
   {
     std::vector<int> own; // immovable bodies, each with a private copy
     Part             part;
@@ -86,35 +90,29 @@ namespace diptych::discrete
     v_.push_back({0, 0, 0, 0});
     part.batches.reserve(rows.size() / 3 + 2);
     part.rows.reserve(rows.size() / 3 + 2);
-    part.terms.reserve(rows.size() / 3 + 2);
-    std::vector<int> awake, idle;
-    for (const int row : rows)
-      (is_idle_[row] ? idle : awake).push_back(row);
+    std::vector<Ends> awake, idle;
+    awake.reserve(rows.size());
+    for (const Ends &row : rows)
+      (is_idle_[row.row] ? idle : awake).push_back(row);
     pack(awake, part, own);
     part.n_awake = part.batches.size();
     pack(idle, part, own);
-    if (std::all_of(rows.begin(), rows.end(), [&](const int row) {
-          return problem_.contacts[row].tangential_term == 0 && problem_.contacts[row].normal_compliance == 0;
-        }))
-      part.terms.clear();
-    if (std::any_of(rows.begin(), rows.end(), [&](const int row) { return problem_.contacts[row].rolling_friction != 0; }))
-      add_couples(part);
     return part;
   }
 
-  void BatchedContacts::pack(const std::vector<int> &rows, Part &part, std::vector<int> &own)
+  void BatchedContacts::pack(const std::vector<Ends> &rows, Part &part, std::vector<int> &own)
   {
     constexpr int      window_size = 64;
     const int          n = int(rows.size()), first_own = part.idle_body + 1;
     const ContactBatch empty = empty_batch(part.idle_body);
     const auto         place = [&](const int body) {
-      if (moves(problem_, body))
+      if (body >= 0)
         return body;
       const auto known = std::find(own.begin(), own.end(), body);
       if (known != own.end())
         return first_own + int(known - own.begin());
       own.push_back(body);
-      v_.push_back(problem_.free_velocity[body]);
+      v_.push_back(problem_.free_velocity[-1 - body]);
       return int(v_.size()) - 1;
     };
 
@@ -128,62 +126,65 @@ namespace diptych::discrete
         waiting = entered - taken_rows;
         part.batches.push_back(empty);
         part.rows.push_back({-1, -1, -1, -1});
-        part.terms.push_back({});
+        if (has_terms_)
+          part.terms.push_back({});
+        if (has_couples_)
+          part.rolling.push_back({});
         int filled = 0;
         for (const int distance : {1, 0})
           for (int before = 0; after[before] < entered && filled < lanes;)
             {
-              const int         k = after[before];
-              const ContactRow &c = problem_.contacts[rows[k]];
-              const auto taken    = [&](const int body) { return moves(problem_, body) && batch_of_[body] >= batch - distance; };
-              if (taken(c.i) || taken(c.j))
+              const int   k     = after[before];
+              const Ends &ends  = rows[k];
+              const auto  taken = [&](const int body) { return body >= 0 && batch_of_[body] >= batch - distance; };
+              if (taken(ends.i) || taken(ends.j))
                 {
                   before = k + 1;
                   continue;
                 }
-              batch_of_[c.i] = batch_of_[c.j] = batch;
-              fill_lane(part, filled, rows[k]);
-              part.batches.back().i[filled] = place(c.i);
-              part.batches.back().j[filled] = place(c.j);
+              for (const int body : {ends.i, ends.j})
+                if (body >= 0)
+                  batch_of_[body] = batch;
+              fill_lane(part, filled, ends.row);
+              part.batches.back().i[filled] = place(ends.i);
+              part.batches.back().j[filled] = place(ends.j);
               after[before]                 = after[k + 1];
               ++filled;
               ++taken_rows;
               --waiting;
             }
       }
-    for (const int row : rows)
-      batch_of_[problem_.contacts[row].i] = batch_of_[problem_.contacts[row].j] = -2;
+    for (const Ends &row : rows)
+      for (const int body : {row.i, row.j})
+        if (body >= 0)
+          batch_of_[body] = -2;
   }
 
   void BatchedContacts::fill_lane(Part &part, const int lane, const int row) const
   {
-    const ContactRow &c               = problem_.contacts[row];
-    ContactBatch     &data            = part.batches.back();
-    data.nx[lane]                     = c.nx;
-    data.ny[lane]                     = c.ny;
-    data.normal_term[lane]            = c.normal_term;
-    data.friction[lane]               = c.friction;
-    data.inverse_wnn[lane]            = c.inverse_wnn;
-    part.rows.back()[lane]            = row;
-    TermBatch &terms                  = part.terms.back();
-    terms.tangential_term[lane]       = c.tangential_term;
-    terms.inverse_wtt[lane]           = c.inverse_wtt;
-    terms.normal_compliance[lane]     = c.normal_compliance;
-    terms.tangential_compliance[lane] = c.tangential_compliance;
-    terms.rolling_term[lane]          = c.rolling_term;
-  }
-
-  void BatchedContacts::add_couples(Part &part) const
-  {
-    part.rolling.resize(part.batches.size());
-    for (std::size_t b = 0; b < part.rows.size(); ++b)
-      for (int lane = 0; lane < lanes; ++lane)
-        if (const int row = part.rows[b][lane]; row >= 0)
-          {
-            const ContactRow &c               = problem_.contacts[row];
-            part.rolling[b].friction[lane]    = c.rolling_friction;
-            part.rolling[b].arm[lane]         = c.rolling_arm;
-            part.rolling[b].inverse_wmm[lane] = c.inverse_wmm;
-          }
+    const ContactRow &c    = problem_.contacts[row];
+    ContactBatch     &data = part.batches.back();
+    data.nx[lane]          = c.nx;
+    data.ny[lane]          = c.ny;
+    data.normal_term[lane] = c.normal_term;
+    data.friction[lane]    = c.friction;
+    data.inverse_wnn[lane] = c.inverse_wnn;
+    part.rows.back()[lane] = row;
+    if (has_terms_)
+      {
+        TermBatch &terms                  = part.terms.back();
+        terms.tangential_term[lane]       = c.tangential_term;
+        terms.inverse_wtt[lane]           = c.inverse_wtt;
+        terms.normal_compliance[lane]     = c.normal_compliance;
+        terms.tangential_compliance[lane] = c.tangential_compliance;
+        terms.rolling_term[lane]          = c.rolling_term;
+      }
+    if (has_couples_)
+      {
+        RollingBatch &couples     = part.rolling.back();
+        couples.friction[lane]    = c.rolling_friction;
+        couples.arm[lane]         = c.rolling_arm;
+        couples.inverse_wmm[lane] = c.inverse_wmm;
+      }
   }
 } // namespace diptych::discrete

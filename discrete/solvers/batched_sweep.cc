@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <numeric>
 
 #include "discrete/contacts/contact_law.h"
 #include "discrete/contacts/lattice_motion.h"
@@ -56,19 +55,27 @@ namespace diptych::discrete
         v_(problem.free_velocity),
         batch_of_(problem.free_velocity.size(), -2)
   {
-    constexpr int    rows_of_a_block = 2000, most_blocks = 64;
-    std::vector<int> order = problem.order, rows;
-    if (order.empty())
-      {
-        order.resize(problem.contacts.size());
-        std::iota(order.begin(), order.end(), 0);
-      }
+    constexpr int     rows_of_a_block = 2000, most_blocks = 64;
+    std::vector<Ends> rows;
     std::vector<bool> is_held(problem.contacts.size(), false);
     for (const int row : held)
       is_held[row] = true;
-    for (const int row : order)
-      if (!is_held[row])
-        (fits_a_batch(problem.contacts[row]) ? rows : rest_).push_back(row);
+    const auto end_of = [&](const int body) { return moves(problem, body) ? body : -1 - body; };
+    const auto take   = [&](const int row) {
+      if (is_held[row])
+        return;
+      const ContactRow &c = problem.contacts[row];
+      if (fits_a_batch(c))
+        rows.push_back({row, end_of(c.i), end_of(c.j)});
+      else
+        rest_.push_back(row);
+      has_couples_ = has_couples_ || c.rolling_friction != 0;
+      has_terms_   = has_terms_ || c.tangential_term != 0 || c.normal_compliance != 0;
+    };
+    rows.reserve(problem.contacts.size());
+    std::for_each(problem.order.begin(), problem.order.end(), take);
+    for (int row = 0; problem.order.empty() && row < int(problem.contacts.size()); ++row)
+      take(row);
     is_idle_.resize(problem.contacts.size());
     if (std::any_of(guess.begin(), guess.end(), [](const Impulse &r) { return r.normal > 0; }))
       std::transform(guess.begin(), guess.end(), is_idle_.begin(), [](const Impulse &r) { return !(r.normal > 0); });

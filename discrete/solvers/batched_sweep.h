@@ -60,12 +60,17 @@ namespace diptych::discrete
       int                             idle_body = 0; // body of the part's empty lanes
     };
 
+    // A row and its bodies, apart because packing reads them often. An immovable body b is -1 - b.
+    struct Ends
+    {
+      int row, i, j;
+    };
+
     bool                           fits_a_batch(const ContactRow &row) const;
-    bool                           cut(const std::vector<int> &rows, int n_blocks);
-    Part                           make_part(const std::vector<int> &rows);
-    void                           pack(const std::vector<int> &rows, Part &part, std::vector<int> &own);
+    bool                           cut(const std::vector<Ends> &rows, int n_blocks);
+    Part                           make_part(const std::vector<Ends> &rows);
+    void                           pack(const std::vector<Ends> &rows, Part &part, std::vector<int> &own);
     void                           fill_lane(Part &part, int lane, int row) const;
-    void                           add_couples(Part &part) const;
     NaturalMapSquares              residual_squares(const Part &part) const;
     void                           sweep_part(Part &part, double omega_sticking, double omega_slipping, bool with_idle);
     static void                    wake(Part &part);
@@ -81,7 +86,8 @@ namespace diptych::discrete
     // Velocities of all bodies of the problem, followed for each part by its copies of the immovable bodies. The copies keep two
     // threads from writing to the same body.
     std::vector<BodyVelocity> v_;
-    std::vector<int>          batch_of_; // last batch that used each body, while a part is made
-    std::vector<char>         is_idle_;  // rows that count as open
+    std::vector<int>          batch_of_;                                // last batch that used each body, while a part is made
+    std::vector<char>         is_idle_;                                 // rows that count as open
+    bool                      has_couples_ = false, has_terms_ = false; // of any row
   };
 } // namespace diptych::discrete

@@ -20,36 +20,24 @@ namespace diptych::discrete
       return gap;
     }
 
-    // Rows of contacts that act, or that the correction might close, with the impulses of the step.
-    struct Displacements
+    // The problem becomes that of w. Of its rows those remain that act or that the correction might close.
+    void make_displacements(const SolvedContacts &s, const std::vector<double> &gap, const double penetration)
     {
-      ContactProblem       problem; // its velocities are w
-      std::vector<Impulse> impulses;
-    };
-
-    Displacements make_displacements(const SolvedContacts &s, const std::vector<double> &gap, const double penetration)
-    {
-      Displacements d;
-      d.problem.free_velocity = s.problem.free_velocity;
-      d.problem.lattice       = s.problem.lattice;
+      ContactProblem &problem = s.problem;
       for (std::size_t b = 0; b < s.v_new.size(); ++b)
         {
-          BodyVelocity &w = d.problem.free_velocity[b];
+          BodyVelocity &w = problem.free_velocity[b];
           w.x -= s.v_new[b].x;
           w.y -= s.v_new[b].y;
           w.surface -= s.v_new[b].surface;
         }
-      d.problem.contacts.reserve(gap.size());
-      d.impulses.reserve(gap.size());
-      for (const int k : s.problem.order)
-        if (s.impulses[k].normal > 0 || gap[k] < 2 * penetration)
-          {
-            d.problem.contacts.push_back(s.problem.contacts[k]);
-            d.problem.contacts.back().normal_term     = gap[k] / s.step;
-            d.problem.contacts.back().tangential_term = 0;
-            d.impulses.push_back(s.impulses[k]);
-          }
-      return d;
+      const auto is_far = [&](const int k) { return !(s.impulses[k].normal > 0 || gap[k] < 2 * penetration); };
+      problem.order.erase(std::remove_if(problem.order.begin(), problem.order.end(), is_far), problem.order.end());
+      for (const int k : problem.order)
+        {
+          problem.contacts[k].normal_term     = gap[k] / s.step;
+          problem.contacts[k].tangential_term = 0;
+        }
     }
 
     void move(State &state, const std::vector<BodyVelocity> &w, const double step)
@@ -84,9 +72,9 @@ namespace diptych::discrete
     const double              penetration = gap.empty() ? 0 : -*std::min_element(gap.begin(), gap.end());
     if (penetration <= enough)
       return;
-    const Displacements displacements = make_displacements(solved, gap, penetration);
-    BatchedContacts     batches(displacements.problem);
-    batches.set_impulses(displacements.impulses);
+    make_displacements(solved, gap, penetration);
+    BatchedContacts batches(solved.problem);
+    batches.set_impulses(solved.impulses);
     batches.sweep(1., 1., sweeps, team); // over-relaxed sweeps oscillate and push grains apart
     batches.refresh_velocities();
     move(state, batches.velocities(), solved.step);

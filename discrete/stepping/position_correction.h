@@ -8,10 +8,10 @@
 
 namespace diptych::discrete
 {
-  // A step's contact problem with its solution.
+  // A step's contact problem, which the correction overwrites, with its solution.
   struct SolvedContacts
   {
-    const ContactProblem            &problem;
+    ContactProblem                  &problem;
     const std::vector<Contact>      &contacts; // at mid-step
     const std::vector<Impulse>      &impulses;
     const std::vector<BodyVelocity> &v_new;

@@ -104,7 +104,8 @@ namespace diptych::discrete
     take_velocities(v_new, trial);
     drift(trial, 0.5 * h);
     if (!compliant && setting.stepping.penetration_correction == PenetrationCorrection::projection)
-      correct_positions(trial, {problem, result.contacts, result.impulses, v_new, h}, 1e-4 * setting.mean_diameter, *cache.team);
+      correct_positions(trial, {cache.problem, result.contacts, result.impulses, v_new, h}, 1e-4 * setting.mean_diameter,
+                        *cache.team);
     keep_impulses(result.contacts, result.impulses, previous.impulses, acting, trial);
     trial.time += h;
     state = std::move(trial);
