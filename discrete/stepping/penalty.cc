@@ -111,15 +111,17 @@ namespace diptych::discrete
     result.contacts      = penalty.neighbours.find_contacts(trial, std::vector<double>(trial.grains.size(), 0.));
     result.impulses      = first_guess(trial.impulses, result.contacts).impulses;
 
-    const std::vector<BodyVelocity> v       = body_velocities(trial);
-    const ContactProblem            problem = make_problem(trial, setting, result.contacts, v,
-                                                           {free_velocities(trial, v, result.applied_force, setting), {}, {}});
-    SpringLaw                       law;
+    const std::vector<BodyVelocity> v = body_velocities(trial);
+    penalty.problem.free_velocity     = free_velocities(trial, v, result.applied_force, setting);
+    penalty.problem                   = make_problem(trial, setting, result.contacts, v, std::move(penalty.problem));
+    const ContactProblem &problem     = penalty.problem;
+    SpringLaw             law;
     law.kn            = kn;
     law.kt            = tangential_over_normal_stiffness * kn;
     law.damping       = options.damping;
     law.previous_step = penalty.impulse_step > 0 ? penalty.impulse_step : h;
     std::vector<BoundWork> lost;
+    lost.reserve(result.contacts.size());
     for (std::size_t k = 0; k < result.contacts.size(); ++k)
       {
         const double gap = result.contacts[k].gap;
