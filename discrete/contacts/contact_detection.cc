@@ -103,9 +103,11 @@ namespace diptych::discrete
     periodicity_        = state.periodicity;
     const double extent = std::visit([](const auto &kind) { return kind.least_extent(); }, periodicity_);
     if (extent > 0 && extent < 4 * (largest_radius + *std::max_element(reach_.begin(), reach_.end())))
-      throw std::invalid_argument("the periodic sample is too narrow: its period is " + std::to_string(extent) +
-                                  ", too small for grains of radius " + std::to_string(largest_radius) +
-                                  " at their present speed");
+      throw std::invalid_argument(
+        "the periodic sample is too narrow: its period is " + std::to_string(extent) + ", too small for grains of radius " +
+        std::to_string(largest_radius) +
+        " that move this far in a step: give a shorter step (discrete/step, or sample/preparation_step) "
+        "or a wider sample");
 
     pairs_.clear();
     const std::vector<SizedGrid> grids = sort_by_size(state);

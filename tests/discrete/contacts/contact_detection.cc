@@ -65,6 +65,24 @@ namespace
     EXPECT_GT(n_found, 10000u);
   }
 
+  // A grain that crosses the period in a step could meet two images of another one. The message names the keys that help.
+  TEST(ContactDetection, AStepTooLongForThePeriodIsRefused)
+  {
+    State state;
+    add_grain(state.grains, {5, 5}, 0.5, 1.);
+    state.periodicity = PeriodicWidth{10};
+    EXPECT_TRUE(find_contacts(state, {1.}).empty());
+    try
+      {
+        find_contacts(state, {2.});
+        FAIL() << "not refused";
+      }
+    catch (const std::invalid_argument &error)
+      {
+        EXPECT_NE(std::string(error.what()).find("discrete/step"), std::string::npos) << error.what();
+      }
+  }
+
   // With a comparison of all pairs this would take minutes.
   TEST(ContactDetection, OneGrainFarAwayOrHugeDoesNotMakeAllPairsNear)
   {
