@@ -142,8 +142,13 @@ namespace diptych::discrete
         if (!(lattice->area() > 0))
           throw WrongKeys({"sample/width", "sample/height", "sample/file", "discrete/lateral"},
                           "sample/file = " + o.file + " holds no cell: give its periods with sample/width and sample/height");
+        for (std::size_t i = 0; i < file.grains.size() && !file.stage; ++i)
+          if (!file.grains.velocity[i].isZero(0) || file.grains.spin[i] != 0)
+            throw WrongKeys({"sample/file", "discrete/lateral"},
+                            file.place(i) + ": vx, vy or omega is not 0, but the loading of a cell starts from rest: leave out "
+                                            "these columns");
         for (Eigen::Vector2d &v : file.grains.velocity)
-          v.setZero(); // the motion of the cell is part of the velocities in files
+          v.setZero(); // the motion of the cell is part of the velocities in snapshots
       }
     box.periodicity = state.periodicity;
     check_grains(file, box, o.allowed_overlap);

@@ -178,6 +178,26 @@ namespace
       options, setting, [](int, int) { return true; }, &grains);
   }
 
+  // A cell begins from rest, so given velocities would be lost.
+  TEST(Cells, MovingGrainsAreRefused)
+  {
+    SampleOptions options;
+    options.width = options.height = 10;
+    PreparationSetting setting;
+    setting.lateral    = CellSides{};
+    Grains     grains  = three_discs(false);
+    const auto prepare = [&] {
+      return prepare_sample(
+        options, setting, [](int, int) { return true; }, &grains);
+    };
+    EXPECT_NO_THROW(prepare());
+    grains.spin[1] = 1;
+    EXPECT_THROW(prepare(), std::invalid_argument);
+    grains.spin[1]     = 0;
+    grains.velocity[2] = {0, 1};
+    EXPECT_THROW(prepare(), std::invalid_argument);
+  }
+
   double left(const PreparedSample &sample)
   {
     return sample.state.walls[2].point.x();
