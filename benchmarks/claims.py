@@ -8,6 +8,7 @@ import argparse
 import csv
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -23,6 +24,16 @@ class RunFailed(Exception):
     """The program ended with an exit code other than 0."""
 
 
+def is_finished(folder, command):
+    """Whether the folder holds a run of `command` whose panels came to their end."""
+    try:
+        record = Result(folder).provenance
+    except FileNotFoundError:
+        return False
+    return all(record.get(panel, {}).get("finished") for panel in
+               (("discrete", "continuum") if command == "run" else (command,)))
+
+
 class Runs:
     """Runs of one seed, each in its own folder below `folder`, with the seed and the settings of the command line."""
 
@@ -31,9 +42,9 @@ class Runs:
         self.settings = [f"sample/seed={seed}", "output/report=false", *options.set]
 
     def run(self, name, command, scene, *settings):
-        """Result of `PROGRAM command scene`. With --reuse an existing result is read instead. Throws RunFailed."""
+        """Result of `PROGRAM command scene`. With --reuse a finished result is read instead. Throws RunFailed."""
         folder = os.path.join(self.folder, name)
-        if not (self.options.reuse and os.path.exists(os.path.join(folder, "provenance.json"))):
+        if not (self.options.reuse and is_finished(folder, command)):
             words = [word for setting in (*self.settings, *settings) for word in ("--set", setting)]
             done = subprocess.run([self.options.program, command, scene, "--output", folder, "--overwrite", "--quiet",
                                    *words], env=ENVIRONMENT,
@@ -62,10 +73,21 @@ class Result:
     def continuum(self):
         return self.columns("continuum.csv")
 
+    def json(self, name):
+        with open(os.path.join(self.folder, name)) as file:
+            return json.load(file)
+
     @property
     def comparison(self):
-        with open(os.path.join(self.folder, "comparison.json")) as file:
-            return json.load(file)
+        return self.json("comparison.json")
+
+    @property
+    def provenance(self):
+        return self.json("provenance.json")
+
+    def seconds(self, *phases):
+        """CPU seconds of these phases; of all without names."""
+        return sum(phase["cpu_s"] for phase in self.provenance["phases"] if not phases or phase["name"] in phases)
 
     @property
     def prepared(self):
@@ -100,6 +122,48 @@ def mean_and_error(values):
     values = numpy.array(values)
     return values.mean(axis=0), values.std(axis=0,
                                            ddof=1) / numpy.sqrt(len(values)) if len(values) > 1 else 0 * values[0]
+
+
+def rounded(found):
+    """Numbers (nested dicts, lists, arrays) with five digits, for JSON; NaN is None."""
+    if isinstance(found, dict):
+        return {key: rounded(one) for key, one in found.items()}
+    if isinstance(found, (list, tuple, numpy.ndarray)):
+        return [rounded(one) for one in found]
+    if isinstance(found, (float, numpy.floating)):
+        return None if numpy.isnan(found) else float(f"{found:.5g}")
+    return found
+
+
+def store(path, parts):
+    """JSON file with one part a line."""
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("{" + ",\n".join(f'"{name}": {json.dumps(part)}' for name, part in parts.items()) + "}\n")
+
+
+def table(head, rows):
+    """Markdown table of the head "a | b" and rows of texts."""
+    lines = [head, "|".join(["---"] * (head.count("|") + 1)), *(" | ".join(map(str, row)) for row in rows)]
+    return "\n".join("|" + line + "|" if line.startswith("-") else f"| {line} |" for line in lines)
+
+
+def cost_text(seconds):
+    """seconds: {part: CPU seconds}"""
+    return (f"CPU seconds on one thread: {sum(seconds.values()):.0f} ("
+            + ", ".join(f"{name} {one:.0f}" for name, one in seconds.items()) + ").")
+
+
+def has_tables(path, blocks, write):
+    """Whether a README.md has these blocks {name: text}, each between `<!-- name -->` and an empty line. `write`: gives
+    it them."""
+    with open(path, encoding="utf-8") as file:
+        before = after = file.read()
+    for name, block in blocks.items():
+        after = re.sub(rf"(<!-- {name} -->\n).*?(?=\n\n)", lambda mark: mark[1] + block, after, flags=re.DOTALL)
+    if write:
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(after)
+    return before == after
 
 
 def platen_difference(columns):

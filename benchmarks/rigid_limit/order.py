@@ -109,10 +109,8 @@ def load(options, name, point, seed):
     columns = result.grains
     columns |= {"t": numpy.hypot(columns["syy"] - columns["sxx"], columns["sxy"] + columns["syx"]) / 2,
                 "s": (columns["sxx"] + columns["syy"]) / 2}
-    with open(os.path.join(folder, "provenance.json")) as file:
-        record = json.load(file)
-    seconds = sum(p["cpu_s"] for p in record["phases"] if p["name"] == "discrete")
-    return row | means(columns, case.end) | {"step": record["discrete"]["step"], "cpu_s": seconds}
+    return row | means(columns, case.end) | {"step": result.provenance["discrete"]["step"],
+                                             "cpu_s": result.seconds("discrete")}
 
 
 def means(columns, end):

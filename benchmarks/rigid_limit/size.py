@@ -8,7 +8,6 @@ Loads dense samples of 1000 to 64000 discs at two speeds, with NSCD at discrete/
 PROGRAM it first makes the runs (those in DIR are kept) and stores them again. Needs h5py, numpy and pandas, the figure
 matplotlib."""
 import argparse
-import json
 import os
 import subprocess
 
@@ -30,17 +29,12 @@ SPEEDS = {1.13e-3: "#0072B2", 1.13e-4: "#D55E00"}
 
 
 def run(program, folder, *settings):
-    """Result folder of the dense scene with these settings."""
-    if not os.path.exists(os.path.join(folder, "provenance.json")):
+    """Result of the dense scene with these settings."""
+    if not rigid_limit.claims.is_finished(folder, "discrete"):
         words = [word for setting in settings for word in ("--set", setting)]
         subprocess.run([program, "discrete", rigid_limit.SCENE, "--output", folder, "--overwrite", "--quiet", *words],
                        check=True, env=rigid_limit.claims.ENVIRONMENT)
-    return folder
-
-
-def cpu_s(folder, phase):
-    with open(os.path.join(folder, "provenance.json")) as file:
-        return sum(p["cpu_s"] for p in json.load(file)["phases"] if p["name"] == phase)
+    return rigid_limit.claims.Result(folder)
 
 
 def measured(options):
@@ -51,19 +45,19 @@ def measured(options):
         prepared = run(options.program, f"{options.output}/{n}/prepared", f"sample/grains={n}",
                        "loading/axial_strain=1e-4", "loading/stage_strain=1e-4", "comparison/window_edges=0,1e-4")
         sample = f"{options.output}/{n}/sample.h5"
-        samples.keep(rigid_limit.claims.Result(prepared), sample)
-        rows.append({"grains": n, "method": "preparation", "cpu_s": cpu_s(prepared, "preparation")})
+        samples.keep(prepared, sample)
+        rows.append({"grains": n, "method": "preparation", "cpu_s": prepared.seconds("preparation")})
         for inertial in (i for i in GRAINS if n in GRAINS[i]):
             for method, settings in METHODS.items():
                 strain = STRAIN[inertial]
-                folder = run(options.program, f"{options.output}/{n}/{method}_{inertial:g}", f"sample/file={sample}",
+                result = run(options.program, f"{options.output}/{n}/{method}_{inertial:g}", f"sample/file={sample}",
                              f"loading/inertial_number={inertial:g}", f"loading/axial_strain={strain}",
                              f"loading/stage_strain={strain}", f"comparison/window_edges=0,{strain}", *settings)
-                history = rigid_limit.claims.Result(folder).grains
+                history = result.grains
                 late = history["axial_strain"] > strain / 2
                 t, s = (history["syy"] - history["sxx"])[late].mean(), (history["syy"] + history["sxx"])[late].mean()
                 rows.append({"grains": n, "method": method, "inertial_number": inertial,
-                             "cpu_s": cpu_s(folder, "discrete") / (100 * strain), "strength": t / s})
+                             "cpu_s": result.seconds("discrete") / (100 * strain), "strength": t / s})
                 print(rows[-1], flush=True)
     return pandas.DataFrame(rows)
 

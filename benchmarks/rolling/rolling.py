@@ -8,7 +8,6 @@ PROGRAM it first makes the runs (those in DIR are kept) and stores them again. A
 grains of a seed: differences from mu_r = 0 are paired. Needs h5py, numpy, pandas and the Python package diptych, the
 figure matplotlib."""
 import argparse
-import json
 import os
 import sys
 
@@ -40,11 +39,6 @@ COLUMNS = {"critical": {"t_over_s": "t/s", "platen": "shear / normal force", "so
                     "sheared": "sheared share of area", "coordination": "contacts per grain"}}
 
 
-def cost(result):
-    with open(os.path.join(result.folder, "provenance.json")) as file:
-        return sum(p["cpu_s"] for p in json.load(file)["phases"] if p["name"] == "discrete")
-
-
 def coordination(history, late):
     """Contacts per grain that carries force."""
     return (2 * history["contacts"][late] / (history["n"] - history["rattlers"][late])).mean()
@@ -66,7 +60,8 @@ def critical(runs, name, *settings):
         fraction = numpy.mean([plane_shear.middle(stage)[1] for stage in stages])
     return {"t_over_s": strength(history, late), "platen": -history["upper_fx"][late].mean()
             / history["upper_fy"][late].mean(),
-            "solid_fraction": fraction, "coordination": coordination(history, late), "cpu_s": cost(result)}
+            "solid_fraction": fraction, "coordination": coordination(history, late),
+            "cpu_s": result.seconds("discrete")}
 
 
 def band(runs, name, *settings):
@@ -88,7 +83,7 @@ def band(runs, name, *settings):
             "solid_fraction": history["solid_fraction"][-1], "bands": len(bands),
             "width": bands[0].width_10_90 / moved.mean_diameter if bands else numpy.nan,
             "sheared": (area @ shear) ** 2 / (area.sum() * (area @ shear ** 2)),
-            "coordination": coordination(history, late), "cpu_s": cost(result)}
+            "coordination": coordination(history, late), "cpu_s": result.seconds("discrete")}
 
 
 def measured(study, options):
