@@ -8,7 +8,6 @@ import argparse
 import csv
 import json
 import os
-import re
 import subprocess
 import sys
 import tempfile
@@ -122,48 +121,6 @@ def mean_and_error(values):
     values = numpy.array(values)
     return values.mean(axis=0), values.std(axis=0,
                                            ddof=1) / numpy.sqrt(len(values)) if len(values) > 1 else 0 * values[0]
-
-
-def rounded(found):
-    """Numbers (nested dicts, lists, arrays) with five digits, for JSON; NaN is None."""
-    if isinstance(found, dict):
-        return {key: rounded(one) for key, one in found.items()}
-    if isinstance(found, (list, tuple, numpy.ndarray)):
-        return [rounded(one) for one in found]
-    if isinstance(found, (float, numpy.floating)):
-        return None if numpy.isnan(found) else float(f"{found:.5g}")
-    return found
-
-
-def store(path, parts):
-    """JSON file with one part a line."""
-    with open(path, "w", encoding="utf-8") as file:
-        file.write("{" + ",\n".join(f'"{name}": {json.dumps(part)}' for name, part in parts.items()) + "}\n")
-
-
-def table(head, rows):
-    """Markdown table of the head "a | b" and rows of texts."""
-    lines = [head, "|".join(["---"] * (head.count("|") + 1)), *(" | ".join(map(str, row)) for row in rows)]
-    return "\n".join("|" + line + "|" if line.startswith("-") else f"| {line} |" for line in lines)
-
-
-def cost_text(seconds):
-    """seconds: {part: CPU seconds}"""
-    return (f"CPU seconds on one thread: {sum(seconds.values()):.0f} ("
-            + ", ".join(f"{name} {one:.0f}" for name, one in seconds.items()) + ").")
-
-
-def has_tables(path, blocks, write):
-    """Whether a README.md has these blocks {name: text}, each between `<!-- name -->` and an empty line. `write`: gives
-    it them."""
-    with open(path, encoding="utf-8") as file:
-        before = after = file.read()
-    for name, block in blocks.items():
-        after = re.sub(rf"(<!-- {name} -->\n).*?(?=\n\n)", lambda mark: mark[1] + block, after, flags=re.DOTALL)
-    if write:
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(after)
-    return before == after
 
 
 def platen_difference(columns):

@@ -1,25 +1,21 @@
 #!/usr/bin/env python3
 # diptych: the biaxial test of Guo & Zhao's FEM x DEM, as grains and as a continuum
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""femxdem.py PROGRAM [--output DIR] [--quick]
-
-With --output it makes the calibrations and the runs that results.json lacks, and stores them there. It draws figure.png
-and writes the table of README.md. --quick makes a short run of both panels instead, and writes nothing. Exit code 1:
-this run or the table differs from the stored numbers. PYTHONPATH: build/release/python."""
-import argparse
+"""Calibrates the law, runs both panels and keeps the numbers. --quick: a short run of both panels. PYTHONPATH:
+build/release/python."""
+import functools
 import itertools
 import json
 import os
 import sys
-import tempfile
 
 import numpy
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.dirname(HERE))
 import claims  # noqa: E402
+import stored  # noqa: E402
 
-STORED = os.path.join(HERE, "results.json")
 CONTACTS = {"rigid": {}, "soft": {"discrete/method": "compliant", "discrete/penalty_stiffness": 300}}
 SAMPLES = {2000: range(1, 5), 4000: (1, 2), 8000: (1,)}  # Discs: seeds.
 WIDTH = 31.2 / 2000**0.5  # Of one disc [d].
@@ -47,11 +43,9 @@ def calibrated(contacts, folder):
         "set": {"continuum/hardening": "mobilisation", "continuum/cohesion": 0.01},
         "parameters": [{"key": key, **dict(zip(("start", "low", "high", "of"), one))} for key, one in FITTED.items()]},
         os.path.join(folder, f"cells_{contacts}"), resume=True)
-    with open(os.path.join(found.folder, "calibration_cost.json")) as file:
-        cost = json.load(file)
     keys = ("kind", "from", "to", "mean", "deviation", "after")
     law = {f"continuum/{one.key}": one.value for one in found.parameters.itertuples()}
-    return {"law": {"continuum/hardening": "mobilisation", **law}, **cost,
+    return {"law": {"continuum/hardening": "mobilisation", **law},
             "curves": {path["name"]: [{key: one[key] for key in keys} for one in path["observables"]]
                        for path in found.numbers["paths"]}}
 
@@ -72,42 +66,41 @@ def measured(result, panel):
              "angle": numpy.mean([abs(band.angle_deg) for band in bands] or numpy.nan),
              "width": numpy.mean([band.width_10_90 for band in bands] or numpy.nan)}
     even = numpy.linspace(0.0025, strain[-1], 40)
-    return claims.rounded({**found, "curve": numpy.interp(even, end, mean),
-                           "volumes": numpy.interp(even, strain, volume)})
+    return {**found, "curve": numpy.interp(even, end, mean), "volumes": numpy.interp(even, strain, volume)}
 
 
-def run(options, stored, name, seed, *settings):
-    """Numbers of "contacts, discs, panel"."""
-    contacts, discs, panel = name.split(", ")
-    width = WIDTH * int(discs)**0.5
+def run(options, law, case, seed, *settings):
+    """Numbers of a case (contacts, discs, panel); those of the continuum with this law."""
+    (contacts, discs, panel), width = case, WIDTH * case[1]**0.5
     words = {"sample/grains": discs, **CONTACTS[contacts]} if panel == "grains" else {
-        **stored["cells"][contacts]["law"], "continuum/mesh": "rectangle", "continuum/rectangle_width": width,
+        **law, "continuum/mesh": "rectangle", "continuum/rectangle_width": width,
         "continuum/rectangle_height": 2 * width, "continuum/element_size": width / int(panel.split()[0])}
-    runs = claims.Runs(argparse.Namespace(program=options.program, reuse=True, set=[]), seed, options.output)
-    result = runs.run(f"{name}, {seed}", "discrete" if panel == "grains" else "continuum", f"{HERE}/scene.prm",
-                      *(f"{key}={value}" for key, value in words.items()), *settings)
+    result = claims.Runs(options, seed, options.output).run(
+        f"{contacts}, {discs}, {panel}, {seed}", "discrete" if panel == "grains" else "continuum", f"{HERE}/scene.prm",
+        *(f"{key}={value}" for key, value in words.items()), *settings)
     return measured(result, panel)
 
 
-def quick(options, stored):
-    with tempfile.TemporaryDirectory() as folder:
-        options.output = folder
-        found = [run(options, stored, f"rigid, 500, {one}", 1, "loading/axial_strain=0.02") for one in PANELS[:2]]
-    return {f"{panel}, {key}": one[key] for panel, one in zip(PANELS, found) for key in ("peak", "volume")}
+def measure(contacts, options):
+    found = calibrated(contacts, options.output)
+    return {**found, "runs": {f"{discs}, {panel}": [
+        run(options, found["law"], (contacts, discs, panel), seed) for seed in (seeds if panel == "grains" else (1,))]
+        for (discs, seeds), panel in itertools.product(SAMPLES.items(), PANELS)}}
 
 
-def measure(options, stored):
-    """Yields after everything that it adds to `stored`."""
-    for discs, contacts, panel in itertools.product(SAMPLES, CONTACTS, PANELS):
-        if panel != "grains" and contacts not in stored["cells"]:
-            stored["cells"][contacts] = calibrated(contacts, options.output)
-            yield
-        found = stored["runs"].setdefault(f"{contacts}, {discs}, {panel}", [])
-        for seed in (SAMPLES[discs] if panel == "grains" else (1,))[len(found):]:
-            found.append(run(options, stored, f"{contacts}, {discs}, {panel}", seed))
-            yield
-    stored["quick"] = quick(options, stored)
-    yield
+def short(options):
+    """Peak and volume of short runs."""
+    with open(f"{HERE}/results.json") as file:
+        law = json.load(file)["rigid"]["law"]
+    found = {panel: run(options, law, ("rigid", 500, panel), 1, "loading/axial_strain=0.02") for panel in PANELS[:2]}
+    return {"numbers": {f"{panel}, {key}": one[key] for panel, one in found.items() for key in ("peak", "volume")}}
+
+
+def quick(options, parts):
+    for name, value in short(options)["numbers"].items():
+        before = parts["quick"]["numbers"][name]
+        if abs(value / before - 1) > (0.05 if name.startswith("grains") else 0.01):
+            yield f"{name}: {value}, stored {before}"
 
 
 def mean_and_error(found, key):
@@ -115,28 +108,27 @@ def mean_and_error(found, key):
     return claims.mean_and_error([one[key] for one in found if one[key] is not None] or [numpy.nan])
 
 
-def table(stored):
-    head = " | ".join(["contacts, discs, panel (samples)", *(label for label, _, _ in NUMBERS.values())])
-    return claims.table(head, [(f"{name} ({len(found)})", *(" +- ".join(
+def table(contacts, part):
+    head = " | ".join([f"{contacts}: discs, panel (samples)", *(label for label, _, _ in NUMBERS.values())])
+    return {contacts: stored.table(head, [(f"{name} ({len(found)})", *(" +- ".join(
         f"{scale * value:.{digits}f}" for value in mean_and_error(found, key)[:len(found)])
-        for key, (_, scale, digits) in NUMBERS.items())) for name, found in stored["runs"].items() if found])
+        for key, (_, scale, digits) in NUMBERS.items())) for name, found in part["runs"].items()])}
 
 
-def draw(stored):
+def draw(parts):
     """figure.png: 2000 discs with 1.96 standard errors of the mean, and the cells with their laws."""
     from matplotlib.figure import Figure
     picture = Figure(figsize=(13, 4.2), layout="constrained")
     axes = dict(zip(("curve", "volumes", "cells"), picture.subplots(1, 3)))
     labels = "nominal t/s, 2000 discs", "volumetric strain (%), 2000 discs; dilation < 0", "t/s, 400-disc cells"
     even = numpy.linspace(0.25, 10, 40)[1:]  # The first running mean ends at 0.5 %.
-    for key, (name, found) in itertools.product(("curve", "volumes"), stored["runs"].items()):
-        contacts, discs, panel = name.split(", ")
-        if discs == "2000" and found:
-            mean, error = numpy.multiply(mean_and_error(found, key), 1 if key == "curve" else 100)[..., 1:]
-            axes[key].plot(even, mean, STYLES[panel], color=COLOURS[contacts], label=f"{contacts}, {panel}")
-            axes[key].fill_between(even, mean - 1.96 * error, mean + 1.96 * error, color=COLOURS[contacts], alpha=0.2)
-    for contacts, one in stored["cells"].items():
-        rows = [row for row in one["curves"]["cells"] if row["kind"] == "stress_ratio"]
+    for key, contacts, panel in itertools.product(("curve", "volumes"), CONTACTS, PANELS):
+        mean, error = mean_and_error(parts[contacts]["runs"][f"2000, {panel}"], key)
+        mean, error = numpy.multiply((mean, error), 1 if key == "curve" else 100)[..., 1:]
+        axes[key].plot(even, mean, STYLES[panel], color=COLOURS[contacts], label=f"{contacts}, {panel}")
+        axes[key].fill_between(even, mean - 1.96 * error, mean + 1.96 * error, color=COLOURS[contacts], alpha=0.2)
+    for contacts in CONTACTS:
+        rows = [row for row in parts[contacts]["curves"]["cells"] if row["kind"] == "stress_ratio"]
         place = [50 * (row["from"] + row["to"]) for row in rows]
         mean, deviation, law = ([row[key] for row in rows] for key in ("mean", "deviation", "after"))
         axes["cells"].errorbar(place, mean, deviation, fmt="o", capsize=2, color=COLOURS[contacts],
@@ -149,27 +141,8 @@ def draw(stored):
     picture.savefig(f"{HERE}/figure.png", dpi=90)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", type=os.path.abspath)
-    parser.add_argument("--output", type=os.path.abspath)
-    parser.add_argument("--quick", action="store_true")
-    options = parser.parse_args()
-    with open(STORED) as file:
-        stored = json.load(file)
-    for _ in measure(options, stored) if options.output else ():
-        claims.store(STORED, stored)
-    wrong = []
-    if options.quick:
-        wrong = [f"{name}: {value}, stored {stored['quick'][name]}" for name, value in quick(options, stored).items()
-                 if abs(value / stored["quick"][name] - 1) > (0.05 if name.startswith("grains") else 0.01)]
-    else:
-        draw(stored)
-    if not claims.has_tables(f"{HERE}/README.md", {"runs": table(stored)}, write=not options.quick) and options.quick:
-        wrong.append("README.md has another table")
-    print("\n".join(wrong) or "as stored, and as in README.md")
-    return 1 if wrong else 0
-
+PARTS = {**{contacts: stored.Part(functools.partial(measure, contacts), functools.partial(table, contacts))
+            for contacts in CONTACTS}, "quick": stored.Part(short, lambda found: {})}
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(stored.main(__doc__, HERE, PARTS, quick=quick, draw=draw))

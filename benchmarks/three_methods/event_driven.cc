@@ -10,13 +10,13 @@
 #include <cmath>
 #include <complex>
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
 #include <iostream>
 #include <limits>
 #include <queue>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace
@@ -24,11 +24,6 @@ namespace
   constexpr double never = std::numeric_limits<double>::infinity();
 
   using Vector = std::complex<double>; // x + i y
-
-  double dot(const Vector &a, const Vector &b)
-  {
-    return a.real() * b.real() + a.imag() * b.imag();
-  }
 
   struct Disc
   {
@@ -50,66 +45,59 @@ namespace
     int      i, j;
     unsigned collision_i, collision_j; // if the discs have collided since, the event does not happen
 
-    bool operator<(const Event &other) const // the earliest event is on top of the queue; ties go by number
-    {
-      if (time != other.time)
-        return time > other.time;
-      return i != other.i ? i > other.i : j > other.j;
-    }
+    // The earliest event is on top of the queue; ties go by number.
+    bool operator<(const Event &other) const { return std::tie(time, i, j) > std::tie(other.time, other.i, other.j); }
   };
 
-  struct Setting
+  struct Gas
   {
-    double size[2]; // periods
-    bool   platens; // at the ends of the second one
-    double e_n, e_t, friction;
-  };
-
-  class Gas
-  {
-  public:
-    std::vector<Disc> disc;
+    double            size[2]; // periods
+    bool              platens; // at the ends of the second one
+    double            e_n, e_t, friction;
+    std::vector<Disc> disc       = {};
     double            time       = 0;
     long              collisions = 0;
     bool              collapsed  = false;
 
-    Gas(std::vector<Disc> discs, const Setting &setting)
-        : disc(std::move(discs)),
-          o_(setting)
+    double                        side[2]  = {0, 0}; // of a cell
+    int                           cells[2] = {0, 0};
+    std::vector<std::vector<int>> members  = {}; // of each cell
+    std::priority_queue<Event>    queue    = {};
+
+    void start()
     {
       double largest = 0;
       for (const Disc &d : disc)
         largest = std::max(largest, 2 * d.r);
       for (const int axis : {0, 1})
         {
-          cells_[axis] = int(o_.size[axis] / largest);
-          side_[axis]  = o_.size[axis] / cells_[axis];
-          if (cells_[axis] < 3)
+          cells[axis] = int(size[axis] / largest);
+          side[axis]  = size[axis] / cells[axis];
+          if (cells[axis] < 3)
             throw std::invalid_argument("width and height must be at least three times the largest diameter");
         }
-      members_.resize(std::size_t(cells_[0]) * cells_[1]);
+      members.resize(std::size_t(cells[0]) * cells[1]);
       for (std::size_t i = 0; i < disc.size(); ++i)
         {
-          double *x = reinterpret_cast<double(&)[2]>(disc[i].x);
           for (const int axis : {0, 1})
             {
-              if (axis == 0 || !o_.platens)
-                x[axis] -= o_.size[axis] * std::floor(x[axis] / o_.size[axis]);
-              disc[i].cell[axis] = std::clamp(int(x[axis] / side_[axis]), 0, cells_[axis] - 1);
+              double &x = coordinate(disc[i], axis);
+              x -= size[axis] * std::floor(x / size[axis]);
+              disc[i].cell[axis] = std::min(int(x / side[axis]), cells[axis] - 1);
             }
-          members(disc[i].cell[0], disc[i].cell[1]).push_back(int(i));
+          members_of(disc[i].cell[0], disc[i].cell[1]).push_back(int(i));
         }
       for (std::size_t i = 0; i < disc.size(); ++i)
         predict(int(i), -1);
     }
 
-    double next() const { return queue_.empty() ? never : queue_.top().time; }
+    double next() const { return queue.empty() ? never : queue.top().time; }
 
     // Handles the next event.
     void step()
     {
-      const Event event = queue_.top();
-      queue_.pop();
+      const Event event = queue.top();
+      queue.pop();
       if (event.collision_i != disc[event.i].collision || (event.j >= 0 && event.collision_j != disc[event.j].collision))
         return;
       time = event.time;
@@ -131,40 +119,35 @@ namespace
 
     Vector position(const Disc &d) const { return d.x + (time - d.time) * d.v; }
 
-  private:
-    std::vector<int> &members(const int column, const int row) { return members_[std::size_t(row) * cells_[0] + column]; }
+    static double &coordinate(Disc &d, const int axis) { return reinterpret_cast<double(&)[2]>(d.x)[axis]; }
+
+    std::vector<int> &members_of(const int column, const int row) { return members[std::size_t(row) * cells[0] + column]; }
 
     // From the centre of the nearest image of b to that of a.
     Vector branch(const Disc &a, const Disc &b) const
     {
       const Vector l = position(a) - position(b);
-      return l - Vector(o_.size[0] * std::round(l.real() / o_.size[0]),
-                        o_.platens ? 0. : o_.size[1] * std::round(l.imag() / o_.size[1]));
+      return l - Vector(size[0] * std::round(l.real() / size[0]), platens ? 0. : size[1] * std::round(l.imag() / size[1]));
     }
 
     void push(const double after, const int i, const int j)
     {
-      queue_.push({time + std::max(0., after), i, j, disc[i].collision, j >= 0 ? disc[j].collision : 0u});
+      queue.push({time + std::max(0., after), i, j, disc[i].collision, j >= 0 ? disc[j].collision : 0u});
     }
 
-    // Discs that approach and overlap by round-off collide at once.
-    void predict_pair(const int i, const int j)
-    {
-      const Vector l = branch(disc[i], disc[j]), w = disc[i].v - disc[j].v;
-      const double b = dot(l, w), sum = disc[i].r + disc[j].r, c = std::norm(l) - sum * sum, root = b * b - std::norm(w) * c;
-      if (b < 0 && root >= 0)
-        push(c / (std::sqrt(root) - b), i, j);
-    }
-
-    // Meetings of disc i with the members of a cell around its own.
+    // Meetings of disc i with the members of a cell around its own. Discs that approach and overlap by round-off collide at once.
     void predict_cell(const int i, const int across, const int upward, const int except)
     {
-      const int column = (disc[i].cell[0] + across + cells_[0]) % cells_[0], above = disc[i].cell[1] + upward;
-      if (o_.platens && (above < 0 || above >= cells_[1]))
+      const int column = (disc[i].cell[0] + across + cells[0]) % cells[0], above = disc[i].cell[1] + upward;
+      if (platens && (above < 0 || above >= cells[1]))
         return;
-      for (const int j : members(column, (above + cells_[1]) % cells_[1]))
-        if (j != i && j != except)
-          predict_pair(i, j);
+      for (const int j : members_of(column, (above + cells[1]) % cells[1]))
+        {
+          const Vector l = branch(disc[i], disc[j]), w = disc[i].v - disc[j].v;
+          const double b = (std::conj(l) * w).real(), sum = disc[i].r + disc[j].r, c = std::norm(l) - sum * sum;
+          if (const double root = b * b - std::norm(w) * c; j != i && j != except && b < 0 && root >= 0)
+            push(c / (std::sqrt(root) - b), i, j);
+        }
     }
 
     // All events of disc i, but those with the disc `except`.
@@ -174,45 +157,37 @@ namespace
         for (const int across : {-1, 0, 1})
           predict_cell(i, across, upward, except);
       const double y = position(disc[i]).imag(), v = disc[i].v.imag();
-      if (o_.platens && v != 0)
-        push(((v < 0 ? disc[i].r : o_.size[1] - disc[i].r) - y) / v, i, v < 0 ? lower_platen : upper_platen);
+      if (platens && v != 0)
+        push(((v < 0 ? disc[i].r : size[1] - disc[i].r) - y) / v, i, v < 0 ? lower_platen : upper_platen);
       predict_crossing(i);
     }
 
+    // A disc meets a platen before it would cross the edge of the cell there.
     void predict_crossing(const int i)
     {
       const Disc  &d    = disc[i];
       const Vector at   = position(d);
       const double x[2] = {at.real(), at.imag()}, v[2] = {d.v.real(), d.v.imag()};
-      double       earliest = never;
-      int          first    = 0;
+      double       after[2];
       for (const int axis : {0, 1})
-        {
-          const int    end   = d.cell[axis] + (v[axis] > 0);
-          const double after = v[axis] == 0 ? never : (end * side_[axis] - x[axis]) / v[axis];
-          if (after < earliest && !(axis == 1 && o_.platens && end % cells_[1] == 0))
-            {
-              earliest = after;
-              first    = to_left - 2 * axis - (v[axis] > 0);
-            }
-        }
-      if (first != 0)
-        push(earliest, i, first);
+        after[axis] = v[axis] == 0 ? never : ((d.cell[axis] + (v[axis] > 0)) * side[axis] - x[axis]) / v[axis];
+      const int first = after[1] < after[0];
+      if (after[first] < never)
+        push(after[first], i, to_left - 2 * first - (v[first] > 0));
     }
 
     // Disc i enters the cell on the given side of its own (0: left, 1: right, 2: bottom, 3: top).
-    void cross(const int i, const int side)
+    void cross(const int i, const int to)
     {
       Disc     &d    = disc[i];
-      const int axis = side / 2, sign = side % 2 ? 1 : -1;
+      const int axis = to / 2, sign = to % 2 ? 1 : -1;
       d.x        = position(d);
       d.time     = time;
-      auto &left = members(d.cell[0], d.cell[1]);
+      auto &left = members_of(d.cell[0], d.cell[1]);
       left.erase(std::find(left.begin(), left.end(), i));
-      d.cell[axis] = (d.cell[axis] + sign + cells_[axis]) % cells_[axis];
-      // On the edge, without round-off.
-      reinterpret_cast<double(&)[2]>(d.x)[axis] = (d.cell[axis] + (sign < 0)) * side_[axis];
-      members(d.cell[0], d.cell[1]).push_back(i);
+      d.cell[axis]        = (d.cell[axis] + sign + cells[axis]) % cells[axis];
+      coordinate(d, axis) = (d.cell[axis] + (sign < 0)) * side[axis]; // on the edge, without round-off
+      members_of(d.cell[0], d.cell[1]).push_back(i);
       for (const int along : {-1, 0, 1})
         predict_cell(i, axis == 0 ? sign : along, axis == 0 ? along : sign, -1);
       predict_crossing(i);
@@ -226,8 +201,8 @@ namespace
       const Disc  &a = disc[i], &b = j >= 0 ? disc[j] : still;
       const Vector l = j >= 0 ? branch(a, b) : Vector(0, j == lower_platen ? 1 : -1), normal = l / std::abs(l);
       const Vector u    = (a.v - b.v) * std::conj(normal) - Vector(0, a.omega * a.r + b.omega * b.r);
-      const double mass = 1 / (1 / a.mass + 1 / b.mass), pressed = -(1 + o_.e_n) * u.real() * mass;
-      const double rubbed = std::clamp(-(1 + o_.e_t) * u.imag() * mass / 3, -o_.friction * pressed, o_.friction * pressed);
+      const double mass = 1 / (1 / a.mass + 1 / b.mass), pressed = -(1 + e_n) * u.real() * mass;
+      const double rubbed = std::clamp(-(1 + e_t) * u.imag() * mass / 3, -friction * pressed, friction * pressed);
       ++collisions;
       hit(disc[i], Vector(pressed, rubbed) * normal, rubbed);
       if (j >= 0)
@@ -249,41 +224,30 @@ namespace
         }
       collapsed |= ++d.in_burst == 20;
     }
-
-    Setting                       o_;
-    double                        side_[2]; // of a cell
-    int                           cells_[2];
-    std::vector<std::vector<int>> members_; // of each cell
-    std::priority_queue<Event>    queue_;
   };
-
-  void print(const Gas &gas, const std::string &history, const double seconds)
-  {
-    std::printf("{\"time\": %.17g, \"energy\": %.17g, \"collisions\": %ld, \"collapsed\": %s, \"seconds\": %g,\n"
-                "\"history\": [%s],\n\"grains\": [",
-                gas.time, gas.kinetic_energy(), gas.collisions, gas.collapsed ? "true" : "false", seconds, history.c_str());
-    for (const Disc &d : gas.disc)
-      std::printf("%s\n[%.17g, %.17g, %.17g, %.17g, %.17g, %.17g]", &d == &gas.disc[0] ? "" : ",", gas.position(d).real(),
-                  gas.position(d).imag(), d.r, d.v.real(), d.v.imag(), d.omega);
-    std::puts("]}");
-  }
 
   void run(Gas gas, const double end, const double most, const double rows)
   {
-    std::string        history;
+    gas.start();
     int                row   = 0;
     const std::clock_t start = std::clock();
+    std::printf("{\"history\": [");
     while (double(gas.collisions) < most && gas.time < end && !gas.collapsed)
       {
         for (; row <= rows && row * end / rows <= std::min(gas.next(), end); ++row)
-          history += (row ? ", [" : "[") + std::to_string(row * end / rows) + ", " + std::to_string(gas.kinetic_energy()) + ", " +
-                     std::to_string(gas.collisions) + "]";
+          std::printf("%s[%f, %f, %ld]", row ? ", " : "", row * end / rows, gas.kinetic_energy(), gas.collisions);
         if (gas.next() > end || gas.next() == never)
           gas.time = end;
         else
           gas.step();
       }
-    print(gas, history, double(std::clock() - start) / CLOCKS_PER_SEC);
+    std::printf("],\n\"time\": %.17g, \"energy\": %.17g, \"collisions\": %ld, \"collapsed\": %s, \"seconds\": %g,\n\"grains\": [",
+                gas.time, gas.kinetic_energy(), gas.collisions, gas.collapsed ? "true" : "false",
+                double(std::clock() - start) / CLOCKS_PER_SEC);
+    for (const Disc &d : gas.disc)
+      std::printf("%s\n[%.17g, %.17g, %.17g, %.17g, %.17g, %.17g]", &d == &gas.disc[0] ? "" : ",", gas.position(d).real(),
+                  gas.position(d).imag(), d.r, d.v.real(), d.v.imag(), d.omega);
+    std::puts("]}");
   }
 } // namespace
 
@@ -291,15 +255,15 @@ int main(const int argc, char **argv)
 {
   try
     {
-      if (argc != 10)
-        throw std::invalid_argument("give nine numbers, as the head of event_driven.cc says");
       std::vector<double> o;
       for (int k = 1; k < argc; ++k)
         o.push_back(std::stod(argv[k]));
-      std::vector<Disc> discs;
+      if (o.size() != 9)
+        throw std::invalid_argument("give nine numbers, as the head of event_driven.cc says");
+      Gas gas{{o[0], o[1]}, o[2] != 0, o[3], o[4], o[5]};
       for (double x, y, r, vx, vy, omega; std::cin >> x >> y >> r >> vx >> vy >> omega;)
-        discs.push_back({{x, y}, {vx, vy}, omega, r, M_PI * r * r});
-      run(Gas(std::move(discs), {{o[0], o[1]}, o[2] != 0, o[3], o[4], o[5]}), o[6], o[7], o[8]);
+        gas.disc.push_back({{x, y}, {vx, vy}, omega, r, M_PI * r * r});
+      run(std::move(gas), o[6], o[7], o[8]);
     }
   catch (const std::exception &error)
     {

@@ -14,8 +14,15 @@ from scipy.optimize import brentq
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.dirname(HERE))
 import claims  # noqa: E402
+import stored  # noqa: E402, F401
 
 SCENE = os.path.join(HERE, "gas.prm")
+METHODS = "contact dynamics", "springs"
+
+
+def write(path, head, rows):
+    numpy.savetxt(path, rows, delimiter=",", header=head, comments="", fmt="%.17g")
+    return path
 
 
 class Sample:
@@ -37,8 +44,7 @@ class Sample:
     def steps(self, options, name, duration, *settings):
         """Run of the program: energy and grains at the end, history, step, CPU seconds; None if it did not converge or
         grains went through each other."""
-        path = os.path.join(options.output, name + ".csv")
-        numpy.savetxt(path, self.columns, delimiter=",", header="x,y,r,vx,vy,omega", comments="", fmt="%.17g")
+        path = write(os.path.join(options.output, name + ".csv"), "x,y,r,vx,vy,omega", self.columns)
         try:
             result = claims.Runs(options, 1, options.output).run(
                 name, "discrete", SCENE, f"sample/file={path}", f"sample/width={self.width!r}", "sample/lower_platen=0",
@@ -73,18 +79,14 @@ class Sample:
 
 
 def facts(result):
-    """Numbers of a run of the program; None if it stopped early and was found in --output."""
-    with open(os.path.join(result.folder, "provenance.json")) as file:
-        record = json.load(file)
-    if not record["discrete"]["finished"]:
-        return None
+    """Numbers of a run of the program."""
     with h5py.File(os.path.join(result.folder, "discrete.h5"), "r") as file:
         last = file[max(name for name in file if name.startswith("stage_"))]["grains"]
         grains = numpy.column_stack([last[name][:] for name in ("position", "radius", "velocity", "spin")])
     rows = result.grains
     return {"energy": rows["kinetic_energy"][-1], "grains": numpy.delete(grains, (2, 6), axis=1),
-            "history": numpy.column_stack([rows["time"], rows["kinetic_energy"]]), "step": record["discrete"]["step"],
-            "seconds": sum(phase["cpu_s"] for phase in record["phases"] if phase["name"] == "discrete")}
+            "history": numpy.column_stack([rows["time"], rows["kinetic_energy"]]),
+            "step": result.provenance["discrete"]["step"], "seconds": result.seconds("discrete")}
 
 
 def damping_of(e_n):

@@ -1,31 +1,23 @@
 #!/usr/bin/env python3
 # diptych: the same discs by three methods: where each of them fails
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""three_methods.py PROGRAM EVENT_DRIVEN [--parts collisions cooling plane shaken] [--output DIR] [--quick]
-
-Event-driven discs (EVENT_DRIVEN: build/release/benchmarks/event_driven_benchmark), contact dynamics and springs
-(PROGRAM) on the same samples: collisions against closed forms, free cooling against Haff's law, the plane of solid
-fraction and restitution, and the convection roll of a shaken box. --quick takes small samples without the box. Exit
-code 1: a number is outside its interval."""
-import argparse
+"""Event-driven discs (event_driven: build/release/benchmarks/event_driven_benchmark), contact dynamics and springs
+(program) on the same samples: collisions against closed forms, free cooling against Haff's law, the plane of solid
+fraction and restitution, and the convection roll of a shaken box. --quick: small samples, no box."""
 import math
-import os
 import sys
-import tempfile
 
+import charts
 import methods
 import numpy
 import shaken
-from matplotlib import colormaps
-from matplotlib.figure import Figure
-from methods import claims
+from methods import METHODS, claims, stored
 
 LAWS = ((1., -1., 0.), (0.9, 0.3, 0.2), (0.5, 0.5, 0.8), (0.1, 0., 0.4))  # e_n, e_t, friction
 STEP = 0.1  # of contact dynamics in the tests of collisions
-COOLING, E_COOLING, END_COOLING = 0.1, 0.9, 60.  # solid fraction, restitution, end in mean times between collisions
+COOLING, E_COOLING, END_COOLING = 0.1, 0.9, 60  # solid fraction, restitution, end in mean times between collisions
 # Mean time between two collisions of a disc at the temperature 1, for discs of diameter 1 (Enskog; Henderson 1975).
 UNIT_COOLING = math.pi / (16 * COOLING) * (1 - COOLING) ** 2 / (1 - 7 * COOLING / 16)
-METHODS, COLOURS = ("contact dynamics", "springs"), ("#007A5E", "#0072B2", "#D55E00")
 UNITS, COLLISIONS, LIMIT = 20., 200., 0.1  # plane: end, most collisions of a disc in the search for a collapse, error
 DENSE = ("sample/grains=600", "sample/width_over_height=0.3", "loading/duration=0.001", "loading/stage_time=0.001",
          "discrete/step=0.001", "discrete/tolerance=1e-4")
@@ -65,34 +57,39 @@ def binary(options, law):
 
 
 def multiple(options, gap):
-    """{method: velocities} after the first of three elastic discs in a row has hit the others."""
+    """Velocities after the first of three elastic discs in a row has hit the others: events, contact dynamics,
+    springs."""
     columns = numpy.zeros((3, 6))
     columns[:, 0] = 3 + numpy.array([-0.5 * STEP, 1, 2 + gap])
     columns[:, 1:3] = 5, 0.5
     columns[0, 3] = 1
     sample, name = methods.Sample(columns, 20, 10), f"row_{gap:g}"
-    runs = {"events": sample.events(options, end=1), "springs": sample.springs(options, name, 1., contact=1e-3, e_n=1),
-            "contact dynamics": sample.nscd(options, name, 1., step=STEP, e_n=1, extra=("discrete/tolerance=1e-14",))}
-    return {method: run["grains"][:, 3] for method, run in runs.items()}
+    runs = (sample.events(options, end=1),
+            sample.nscd(options, name, 1., step=STEP, e_n=1, extra=("discrete/tolerance=1e-14",)),
+            sample.springs(options, name, 1., contact=1e-3, e_n=1))
+    return [run["grains"][:, 3].tolist() for run in runs]
 
 
 def collisions(options):
-    """Prints both tables. Returns whether the methods agree to round-off where they must."""
-    worst = 0.
-    print("pairs at 17 angles: largest difference from Walton's closed form\n"
-          "e_n, e_t, friction   events   contact dynamics")
-    for law in LAWS:
-        events, steps = binary(options, law)
-        worst = max(worst, events, steps)
-        print(f"{law}".ljust(20), f"{events:8.1e} {steps:10.1e}")
-    expected = {(0.25, "events"): (0, 0, 1), (0.25, "contact dynamics"): (0, 0, 1), (0, "events"): (0, 0, 1),
-                (0, "contact dynamics"): (-1 / 3, 2 / 3, 2 / 3)}
-    print("three elastic discs in a row: velocities after the impact")
-    for gap in (0.25, 0):
-        for method, v in multiple(options, gap).items():
-            worst = max(worst, abs(v - expected.get((gap, method), v)).max())
-            print(f"gap {gap:4g}, {method:16}" + " ".join(f"{x:9.6f}" for x in v))
-    return worst < 1e-12
+    return {"pairs": [[", ".join(f"{x:g}" for x in law), *binary(options, law)] for law in LAWS],
+            "apart": multiple(options, 0.25), "touching": multiple(options, 0)}
+
+
+def differences(found):
+    """Methods must agree to round-off in pairs and with the closed forms of discs in a row."""
+    rows = (*found["apart"][:2], *found["touching"][:2])
+    expected = (0, 0, 1), (0, 0, 1), (0, 0, 1), (-1 / 3, 2 / 3, 2 / 3)
+    worst = max(abs(numpy.subtract(rows, expected)).max(), *(max(row[1:]) for row in found["pairs"]))
+    return [] if worst < 1e-12 else [f"collisions differ by {worst}"]
+
+
+def collision_tables(found):
+    def velocities(row):
+        return ", ".join(f"{x + 0.:.3f}" for x in numpy.round(row, 3))
+    return {"pairs": stored.table("e_n, e_t, friction | event-driven | contact dynamics",
+                                  [(law, *(f"{x:.1e}" for x in errors)) for law, *errors in found["pairs"]]),
+            "row": stored.table("gap | event-driven | contact dynamics | springs, contact of 1e-3", [
+                (gap, *map(velocities, found[key])) for gap, key in (("0.25 d", "apart"), ("they touch", "touching"))])}
 
 
 def haff(times):
@@ -104,64 +101,68 @@ def haff(times):
     return (1 + g * times) ** -2, numpy.log(1 + g * times) / g
 
 
-def law_of_haff(options):
-    """Prints sixteen periodic event-driven runs over Haff's law. Returns (whether they follow it, their energy)."""
-    runs = [methods.equal_discs(options.discs, COOLING).thermal(options, seed).events(
-        options, platens=0, e_n=E_COOLING, end=END_COOLING * UNIT_COOLING, rows=60)["history"] for seed in range(1, 17)]
-    energy, hits = haff(numpy.arange(61.))
-    share = {"energy": numpy.array(runs)[:, 1:, 1] / options.discs / energy[1:],
-             "collisions": numpy.array(runs)[:, 1:, 2] * 2 / options.discs / hits[1:]}
-    print("free cooling, event-driven in a period of both directions over Haff's law, sixteen samples")
-    for name, shares in share.items():
-        for time in (12, 30, 60):
-            mean, error = claims.mean_and_error(shares[:, time - 1])
-            print(f"{name:10} at {time}: {mean:.4f} +- {error:.4f}")
-    return (abs(share["energy"][:, 11].mean() - 1) < 0.03 and abs(share["collisions"][:, -1].mean() - 1) < 0.01,
-            numpy.append(1, share["energy"].mean(axis=0) * energy[1:]))
-
-
 def cooling(options):
-    """Energy over time by all methods. Returns whether event-driven runs follow Haff's law, and contact dynamics and
-    springs with the shortest steps these runs within 15 %."""
-    unit, found, count = UNIT_COOLING, {}, options.discs
-    end = END_COOLING * unit
-    follows, periodic = law_of_haff(options)
+    """Energy over Haff's law at 1, 2 ... END_COOLING: of event-driven runs with two periods, and of all methods between
+    platens. Runs that end early do not count."""
+    unit, count, times = UNIT_COOLING, options.discs, numpy.arange(1, END_COOLING + 1)
+    end, (energy, hits) = END_COOLING * unit, haff(times)
+    periodic = numpy.array([methods.equal_discs(count, COOLING).thermal(options, seed).events(
+        options, platens=0, e_n=E_COOLING, end=end, rows=END_COOLING)["history"] for seed in range(1, 17)])[:, 1:]
+    found = {"energy": claims.mean_and_error(periodic[:, :, 1] / count / energy),
+             "collisions": claims.mean_and_error(periodic[:, :, 2] * 2 / count / hits), "methods": {}}
     for seed in options.cooling_seeds:
         sample, name = methods.equal_discs(count, COOLING).thermal(options, seed), f"cooling_{seed}"
-        runs = {"event-driven": sample.events(options, e_n=E_COOLING, end=end, rows=60)}
+        exact = sample.events(options, e_n=E_COOLING, end=end, rows=END_COOLING)
+        runs = {"event-driven": exact}
         for h in options.cooling_steps:
             runs[f"contact dynamics, h = {h:g}"] = sample.nscd(options, name, end, step=h * unit, e_n=E_COOLING)
         for c in options.cooling_contacts:
             runs[f"springs, tc = {c:g}"] = sample.springs(options, name, end, contact=c * unit, e_n=E_COOLING)
         for method, run in runs.items():
-            if run:
-                run["error"] = 100 * (run["energy"] / runs["event-driven"]["energy"] - 1)
-                found.setdefault(method, []).append(run)
-    print("the same between platens      E/E0 at 60           from event-driven [%]   step     CPU s")
-    for method, runs in found.items():
-        energy, error = (claims.mean_and_error([run[key] for run in runs]) for key in ("energy", "error"))
-        print(f"{method:26} {energy[0] / count:9.5f} +- {energy[1] / count:.5f} {error[0]:10.1f} +- {error[1]:.1f}"
-              f"{runs[0].get('step', math.nan) / unit:12.2g} {numpy.mean([run['seconds'] for run in runs]):9.3f}")
-    if not options.quick:
-        draw_cooling(found, periodic)
-    finest = [claims.mean_and_error([run["error"] for run in runs])[0] for name, runs in found.items() if name.endswith(
-        (f"h = {options.cooling_steps[-1]:g}", f"tc = {options.cooling_contacts[-1]:g}"))]
-    return follows and len(finest) == 2 and max(map(abs, finest)) < 15
+            found["methods"].setdefault(method, []).extend([] if not run else [{
+                "error": 100 * (run["energy"] / exact["energy"] - 1), "seconds": run["seconds"],
+                "step": run.get("step", math.nan) / unit,
+                "share": numpy.interp(times * unit, *run["history"].T[:2]) / count / energy}])
+    found["methods"] = {method: {key: numpy.mean([run[key] for run in runs], axis=0) if key != "error" else
+                                 [run[key] for run in runs] for key in runs[0]}
+                        for method, runs in found["methods"].items() if runs}
+    return found
+
+
+def far_from_haff(found):
+    """Event-driven runs follow the law, and contact dynamics and springs with the shortest steps these runs."""
+    finest = {method.split(",")[0]: numpy.mean(one["error"]) for method, one in found["methods"].items()}
+    numbers = {"energy": (found["energy"][0][11] - 1, 0.03), "collisions": (found["collisions"][0][-1] - 1, 0.01),
+               **{method: (finest.get(method, math.nan), 15) for method in METHODS}}
+    return [f"cooling, {name}: off by {value}" for name, (value, limit) in numbers.items() if not abs(value) < limit]
+
+
+def cooling_tables(found):
+    law = [(time, *("{:.3f} +- {:.3f}".format(*(part[time - 1] for part in found[key])) for key in (
+        "energy", "collisions"))) for time in (12, 30, 60)]
+    rows = [
+        (f"{method} ({len(one['error'])})", *(
+            ("{:+.1f} +- {:.1f} %".format(*claims.mean_and_error(one["error"])), f"{one['step']:.2g}")
+            if one["step"] else ("reference", "")), f"{one['seconds']:.2g}")
+        for method, one in found["methods"].items()]
+    return {"law": stored.table("time | energy / law | collisions / law", law),
+            "methods": stored.table("method (samples) | energy at 60, from event-driven | step | CPU s", rows)}
 
 
 def longest_step(runs, energy):
-    """(step, CPU seconds) at which the error of the energy reaches the limit, between two runs; NaN: not even the
-    shortest step is good enough. The longest one tried if all are."""
+    """Step and CPU seconds at which the error of the energy reaches the limit, between two runs. `cut`: no longer step
+    was tried, or the next run ended early. None: not even the shortest step is good enough."""
     good = None
     for run in runs:
         error = abs(run["energy"] / energy - 1) if run else math.inf
         if not error <= LIMIT:
-            if good is None or not run:
+            if not good or not run:
                 break
             share = math.log(LIMIT / good[0]) / math.log(error / good[0])
-            return [good[1][key] ** (1 - share) * run[key] ** share for key in ("step", "seconds")]
+            return {"cut": False, **{key: good[1][key] ** (1 - share) * run[key] ** share
+                                     for key in ("step", "seconds")}}
         good = max(error, 1e-6), run
-    return [good[1][key] if good else math.nan for key in ("step", "seconds")]
+    return {"cut": True, "step": good[1]["step"], "seconds": good[1]["seconds"]} if good else None
 
 
 def point(options, sample, unit, e_n, name):
@@ -173,135 +174,76 @@ def point(options, sample, unit, e_n, name):
     contacts = [sample.springs(options, name, end, contact=c * unit, e_n=e_n) for c in options.plane_contacts]
     # After a collapse the shortest step of contact dynamics is the reference of the others.
     energy = near["energy"] if not near["collapsed"] else steps[0]["energy"] if steps[0] else math.nan
-    found = {"collapse": 2 * far["collisions"] / count if far["collapsed"] else math.inf,
-             "events": math.nan if near["collapsed"] else near["seconds"]}
+    found = {"collapse": 2 * far["collisions"] / count if far["collapsed"] else None,
+             "events": None if near["collapsed"] else near["seconds"]}
     for method, runs in zip(METHODS, (steps, contacts)):
-        step, found[method] = longest_step(runs, energy)
-        found[method + " step"] = step / unit
-        found[method + " errors"] = [100 * (run["energy"] / energy - 1) if run else math.nan for run in runs]
+        found[method] = longest_step(runs, energy)
+        if found[method]:
+            found[method]["step"] /= unit
+        found[method + " errors"] = [100 * (run["energy"] / energy - 1) if run else None for run in runs]
     return found
 
 
 def plane(options):
-    """Prints the table. Returns whether events collapse at a restitution of 0.5 and not from 0.9 on."""
-    found, rates = {}, {}
+    """{"fraction": rates of a disc, "fraction, restitution": points}, over the samples."""
+    found = {"rates": {}, "points": {}}
     for seed in options.plane_seeds:
         dense = claims.Runs(options, seed, options.output).run(f"dense_{seed}", "discrete", methods.SCENE, *DENSE)
         for fraction in options.solid_fractions:
             sample = methods.shrunk(dense, fraction).thermal(options, seed)
             unit = sample.events(options, collisions=10 * len(sample.columns))["time"] / 20
-            rates.setdefault(fraction, []).append(1 / unit)
+            found["rates"].setdefault(f"{fraction:g}", []).append(1 / unit)
             for e_n in options.restitutions:
                 one = point(options, sample, unit, e_n, f"plane_{seed}_{fraction:g}_{e_n:g}")
-                found.setdefault((fraction, e_n), []).append(one)
-                print(seed, fraction, e_n, *(f"{name}: {numpy.round(x, 4)}" for name, x in one.items()), flush=True)
-    print("longest step of contact dynamics; of springs, in mean times between collisions")
-    print(" | ".join(["| fraction | rate", *(f"e = {e_n:g}" for e_n in options.restitutions)]), "|")
-    for fraction in options.solid_fractions:
-        print(" | ".join([f"| {fraction:g}", with_error(rates[fraction]), *("; ".join(
-            with_error([one[f"{method} step"] for one in found[fraction, e_n]]) for method in METHODS)
-            for e_n in options.restitutions)]), "|")
-    if not options.quick:
-        draw_plane(found)
-    collapses = {e_n: [one["collapse"] for (_, e), group in found.items() if e == e_n for one in group]
-                 for e_n in options.restitutions}
-    return min(collapses[0.5]) < COLLISIONS and all(min(collapses[e]) == math.inf for e in collapses if e >= 0.9)
+                found["points"].setdefault(f"{fraction:g}, {e_n:g}", []).append(one)
+    return found
 
 
-def with_error(values):
-    """Mean +- standard error of those that are numbers; their number if some are none."""
-    good = [value for value in values if not math.isnan(value)]
+def unexpected_collapses(found):
+    """Events collapse at a restitution of 0.5 and not from 0.9 on."""
+    at = {float(name.split()[1]) for name, group in found["points"].items() for one in group if one["collapse"]}
+    return [] if 0.5 in at and max(at) < 0.9 else [f"collapses at restitutions of {at}"]
+
+
+def of_samples(steps):
+    """Mean +- standard error of the longest steps, ">=" if one of them was cut, and the number of them."""
+    good = [step for step in steps if step]
     if not good:
         return "none"
-    mean, error = claims.mean_and_error(good)
+    mean, error = claims.mean_and_error([step["step"] for step in good])
     scatter = f" +- {error:.1g}" if error > 1e-9 * mean else ""
-    return f"{mean:.3g}{scatter}" + (f" ({len(good)} of {len(values)})" if len(good) < len(values) else "")
+    return ((f">= {mean:.2g}" if any(step["cut"] for step in good) else f"{mean:.2g}{scatter}")
+            + (f" ({len(good)} of {len(steps)})" if len(good) < len(steps) else ""))
 
 
-def draw_cooling(found, periodic):
-    figure = Figure(figsize=(10, 4), layout="constrained")
-    left, right = figure.subplots(1, 2)
-    times = numpy.arange(1, 61)
-    law = haff(times)[0]
-    left.semilogx(times, periodic[1:] / law, "k.", markersize=4, label="event-driven, periodic")
-    for method, colour in zip(("event-driven", *METHODS), COLOURS):
-        named = {name: runs for name, runs in found.items() if name.startswith(method)}
-        for (name, runs), line in zip(reversed(named.items()), ("-", "--", ":")):
-            energy = numpy.mean([numpy.interp(times * UNIT_COOLING, *run["history"].T[:2]) for run in runs], axis=0)
-            left.plot(times, energy / len(runs[0]["grains"]) / law, line, color=colour, label=name)
-        error = numpy.array([claims.mean_and_error([run["error"] for run in runs]) for runs in named.values()]).T
-        seconds = [numpy.mean([run["seconds"] for run in runs]) for runs in named.values()]
-        right.errorbar(seconds, *error, fmt="o-", color=colour, capsize=3, label=method)
-        for name, x, y in zip(named, seconds, error[0]):
-            right.annotate(name.split(", ")[-1], (x, y), (-8, -4), textcoords="offset points", fontsize=8, ha="right")
-    left.set(ylim=(0.6, 1.1), xlabel="time / first mean time between collisions", ylabel="energy / Haff's law")
-    right.set(xscale="log", xlabel="CPU seconds", ylabel="energy at 60 from event-driven [%]")
-    right.margins(x=0.35)
-    for axis in (left, right):
-        axis.legend(fontsize=8)
-        axis.grid(alpha=0.3)
-    figure.savefig(os.path.join(methods.HERE, "figure.png"), dpi=100)
+def plane_tables(found):
+    restitutions = [*dict.fromkeys(name.split(", ")[1] for name in found["points"])]
+    return {"plane": stored.table(" | ".join(["fraction | rate | collapse", *(f"e = {e_n}" for e_n in restitutions)]), [
+        (fraction, "{:.3g} +- {:.1g}".format(*claims.mean_and_error(rates)),
+         ", ".join(f"{one['collapse']:.0f}" if one["collapse"] else "none"
+                   for one in found["points"][f"{fraction}, 0.5"]),
+         *("; ".join(of_samples([one[method] for one in found["points"][f"{fraction}, {e_n}"]]) for method in METHODS)
+           for e_n in restitutions)) for fraction, rates in found["rates"].items()])}
 
 
-def draw_plane(found):
-    """A point per sample, a line through the means over them."""
-    fractions, restitutions = (sorted(set(column)) for column in zip(*found))
-    panels = {"collisions of a disc until event-driven collapses":
-              (lambda one: min(one["collapse"], 2 * COLLISIONS), {20: "20", 50: "50", 100: "100", 400: "none"}),
-              **{f"longest step of {method} /\nmean time between collisions": (
-                  (lambda method: lambda one: one[f"{method} step"])(method), {x: x for x in (0.005, 0.02, 0.05, 0.2)})
-                 for method in METHODS},
-              "CPU s of contact dynamics / springs":
-              (lambda one: one["contact dynamics"] / one["springs"], {x: x for x in (0.5, 1, 2, 4)}),
-              "CPU s of contact dynamics / event-driven":
-              (lambda one: one["contact dynamics"] / one["events"], {x: x for x in (5, 10, 20, 40)})}
-    figure = Figure(figsize=(11, 6.4), layout="constrained")
-    axes = figure.subplots(2, 3).ravel()
-    for axis, (name, (value, ticks)) in zip(axes, panels.items()):
-        for k, e_n in enumerate(restitutions):
-            place, colour = numpy.arange(len(fractions)) + 0.1 * (k - 2), colormaps["viridis"](k / len(restitutions))
-            values = numpy.ma.masked_invalid([[value(one) for one in found[f, e_n]] for f in fractions])
-            axis.plot(place, values, "o", color=colour, markersize=3.5)
-            axis.plot(place, values.mean(axis=1), "-", color=colour, linewidth=1, label=f"restitution {e_n:g}")
-        axis.set_title(name, fontsize=9)
-        axis.set(yscale="log", xticks=range(len(fractions)), xticklabels=fractions, xlabel="solid fraction")
-        axis.set_yticks([], minor=True)
-        axis.set_yticks([*ticks], ticks.values())
-        axis.grid(alpha=0.3)
-    axes[5].axis("off")
-    axes[5].legend(*axes[4].get_legend_handles_labels(), loc="center")
-    figure.savefig(os.path.join(methods.HERE, "plane.png"), dpi=90)
+PARTS = {"collisions": stored.Part(collisions, collision_tables, differences),
+         "cooling": stored.Part(cooling, cooling_tables, far_from_haff),
+         "plane": stored.Part(plane, plane_tables, unexpected_collapses),
+         "shaken": stored.Part(shaken.measure, shaken.tables, shaken.rises)}
+SIZES = {"discs": 500, "cooling_steps": (0.1, 0.03, 0.01), "cooling_contacts": (0.1, 0.03),
+         "plane_steps": (0.02, 0.06, 0.2), "plane_contacts": (0.1, 0.3, 1.), "restitutions": (1., 0.9, 0.7, 0.6, 0.5),
+         "solid_fractions": (0.1, 0.3, 0.5, 0.7, 0.8, 0.835), "cooling_seeds": (1, 2, 3, 4), "plane_seeds": (1, 2, 3)}
+QUICK = {"discs": 400, "cooling_steps": (0.03,), "cooling_contacts": (0.1,), "plane_steps": (0.1,),
+         "plane_contacts": (0.3,), "solid_fractions": (0.835,), "restitutions": (0.9, 0.5), "cooling_seeds": (1,),
+         "plane_seeds": (1,)}
 
 
-def main():
-    parts = {"collisions": collisions, "cooling": cooling, "plane": plane, "shaken": shaken.roll_of_the_box}
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", type=os.path.abspath)
-    parser.add_argument("event_driven", type=os.path.abspath)
-    parser.add_argument("--parts", nargs="+", choices=parts, help="default: all of them")
-    parser.add_argument("--output", help="folder of the runs, which are kept and reused; default: a temporary one")
-    parser.add_argument("--quick", action="store_true", help="small samples, no shaken box, no figures")
-    options = parser.parse_args()
-    sizes = {"set": [], "reuse": True, "discs": 500, "cooling_steps": (0.1, 0.03, 0.01),
-             "cooling_contacts": (0.1, 0.03), "plane_steps": (0.02, 0.06, 0.2),
-             "plane_contacts": (0.1, 0.3, 1.), "solid_fractions": (0.1, 0.3, 0.5, 0.7, 0.8, 0.835),
-             "restitutions": (1., 0.9, 0.7, 0.6, 0.5), "cooling_seeds": (1, 2, 3, 4), "plane_seeds": (1, 2, 3),
-             "shaken_seeds": (1, 2, 3)}
-    small = {"discs": 400, "cooling_steps": (0.03,), "cooling_contacts": (0.1,), "plane_steps": (0.1,),
-             "plane_contacts": (0.3,), "solid_fractions": (0.835,), "restitutions": (0.9, 0.5), "cooling_seeds": (1,),
-             "plane_seeds": (1,)}
-    vars(options).update(sizes, **(small if options.quick else {}))
-    wanted = options.parts or [part for part in parts if part != "shaken" or not options.quick]
-    with tempfile.TemporaryDirectory() as scratch:
-        options.output = options.output or scratch
-        os.makedirs(options.output, exist_ok=True)
-        try:
-            wrong = [part for part in wanted if not parts[part](options)]
-        except claims.RunFailed as failure:
-            sys.exit(f"three_methods.py: {failure}")
-    if wrong:
-        sys.exit(f"three_methods.py: outside its interval: {', '.join(wrong)}")
+def quick(options, _):
+    vars(options).update(QUICK)
+    for part in [*PARTS.values()][:3]:
+        yield from part.wrong(part.measure(options))
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(stored.main(__doc__, methods.HERE, PARTS, quick=quick, draw=charts.draw,
+                         arguments=("program", "event_driven"), **SIZES))
