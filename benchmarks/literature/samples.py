@@ -4,7 +4,6 @@
 Dimensionless: mean diameter 1, pressure 1 (collapse: gravity 1), grain density 1."""
 import argparse
 import functools
-import json
 import os
 import sys
 
@@ -18,8 +17,7 @@ sys.path[:0] = [os.path.dirname(HERE), os.path.join(HERE, "../plane_shear")]
 import claims  # noqa: E402
 import plane_shear  # noqa: E402
 
-OPTIONS = argparse.Namespace(program=None, output=None, reuse=True, set=[])
-COST = [0.]  # CPU seconds of the runs so far, also of runs that are reused.
+OPTIONS = argparse.Namespace()  # of the command line
 CARRIES = 1e-4  # Least normal force of a contact that counts, over the mean.
 DILUTE = "sample/box_solid_fraction=0.5"  # A dense box could hold what friction would not.
 
@@ -39,11 +37,6 @@ def run(seed, name, *settings, scene="scene.prm"):
     """Result of `diptych discrete`: claims.Result."""
     runs = claims.Runs(OPTIONS, seed, os.path.join(OPTIONS.output, f"seed_{seed}"))
     result = runs.run(name, "discrete", os.path.join(HERE, scene), *settings)
-    with open(os.path.join(result.folder, "provenance.json"), encoding="utf-8") as file:
-        record = json.load(file)
-    if not record["discrete"]["finished"]:
-        sys.exit(f"literature.py: {result.folder}: the run stopped early; remove the folder")
-    COST[0] += sum(phase["cpu_s"] for phase in record["phases"])
     result.snapshots = diptych.load(result.folder).discrete.snapshots
     return result
 
@@ -65,18 +58,18 @@ def uniform(low, high):
 
 
 def forces(snapshot):
-    """(normal force, |tangential force|, slips, i, j, direction of the normal) of the contacts that carry a force."""
+    """(normal force, |tangential force|, i, j, direction of the normal) of the contacts that carry a force."""
     c = snapshot.contacts
     normal = numpy.einsum("ij,ij->i", c.force, c.normal)
     tangential = abs(c.force[:, 1] * c.normal[:, 0] - c.force[:, 0] * c.normal[:, 1])
     angle = numpy.arctan2(c.normal[:, 1], c.normal[:, 0])
     carries = normal > CARRIES * normal[normal > 0].mean()
-    return [numpy.asarray(part)[carries] for part in (normal, tangential, c.status == 2, c.i, c.j, angle)]
+    return [numpy.asarray(part)[carries] for part in (normal, tangential, c.i, c.j, angle)]
 
 
 def coordination(snapshot):
     """Contacts per grain that carries a force, of grains beyond two d from platens and walls."""
-    i, j = forces(snapshot)[3:5]
+    i, j = forces(snapshot)[2:4]
     n = len(snapshot.radius)
     count = numpy.bincount(i, minlength=n) + numpy.bincount(j[j < n], minlength=n)
     x, y = snapshot.position.T
@@ -95,20 +88,26 @@ RADJAI = {"A": (500, lambda: uniform(3.8, 7.5)), "B": (1200, lambda: uniform(3.8
 
 
 def radjai(seed, sample):
-    """(sheared, relaxed) sample. The lid carries about the pressure."""
+    """Sheared, then relaxed sample. The lid carries about the pressure."""
     grains, radii = RADJAI[sample]
-    return run(seed, "radjai_" + sample, f"sample/grains={grains}", *radii(), *in_time(90, 160),
+    return run(seed, "radjai_" + sample, f"sample/grains={grains}", *radii(), *in_time(160),
                "sample/preparation_friction=0.2", "sample/width_over_height=1", "discrete/friction=0.2",
                "discrete/platen_friction=0.5", "discrete/wall_friction=0", "discrete/lateral=rigid_walls",
                "discrete/side_motion=velocity", f"discrete/drive_lower_x=velocity {os.path.join(HERE, 'base.csv')}",
                f"discrete/drive_upper_y=force {-grains ** 0.5:.4f}", "discrete/step=0.2",
-               "discrete/tolerance=1e-4").snapshots[1:]
+               "discrete/tolerance=1e-4").snapshots[-1]
 
 
 def pooled(seed):
     """(N/<N>, T/<T>, T/(mu N)) of the relaxed samples together."""
-    parts = [forces(radjai(seed, sample)[1])[:2] for sample in RADJAI]
+    parts = [forces(radjai(seed, sample))[:2] for sample in RADJAI]
     return [numpy.concatenate(part) for part in zip(*((n / n.mean(), t / t.mean(), t / (0.2 * n)) for n, t in parts))]
+
+
+def weak_share(seed, sample):
+    """Share of the contacts below the mean force."""
+    normal = forces(radjai(seed, sample))[0]
+    return (normal < normal.mean()).mean()
 
 
 def power(values, low=0.01):
@@ -145,8 +144,9 @@ def springs_over_rigid(seed):
 
 
 # Unger et al. 2005: the forces of one packing, solved again from random starts.
-FRICTIONS = (0., 0.01, 0.03, 0.1, 0.3, 1.)
-STARTS = 5
+FRICTIONS = (0., 0.01, 0.1, 0.3, 1.)
+STARTS = 3
+SWEEPS = 300_000, 3_000_000  # At most, of a solution.
 
 
 def unger(seed, friction):
@@ -160,22 +160,24 @@ def unger(seed, friction):
 
 @functools.lru_cache(maxsize=None)
 def ambiguity(seed, friction):
-    """Scatter of the force of a contact over the starts (rms over contacts), over the mean force."""
+    """Scatter of the force of a contact over the starts (rms over contacts), over the mean force; after SWEEPS."""
     problem = os.path.join(unger(seed, friction).folder, "problem_0001.h5")
     random = numpy.random.default_rng(seed)
-    first, found = diptych.solve(problem, tolerance=1e-6).r[:, 0], []
+    first, found, scatter = diptych.solve(problem, tolerance=1e-6).r[:, 0], [], []
     for _ in range(STARTS):
         normal = random.exponential(first.mean(), len(first))
-        guess = numpy.stack([normal, friction * normal * random.uniform(-1, 1, len(first))], axis=1)
-        found.append(diptych.solve(problem, tolerance=1e-10, guess=guess, max_sweeps=10000 if friction else 300000).r)
-    scatter = numpy.var(found, axis=0, ddof=1).sum(axis=1).mean()
-    return numpy.sqrt(scatter) / numpy.linalg.norm(found, axis=2).mean()
+        found.append(numpy.stack([normal, friction * normal * random.uniform(-1, 1, len(first))], axis=1))
+    for sweeps in numpy.diff(SWEEPS, prepend=0):
+        found = [diptych.solve(problem, tolerance=1e-10, guess=one, max_sweeps=sweeps).r for one in found]
+        scatter.append(numpy.sqrt(numpy.var(found, axis=0, ddof=1).sum(axis=1).mean())
+                       / numpy.linalg.norm(found, axis=2).mean())
+    return scatter
 
 
 def indeterminacy(seed):
     """(2 contacts - 3 grains) / contacts of a frictionless packing, grains that carry a force."""
     snapshot = unger(seed, 0.).snapshots[1]
-    i, j = forces(snapshot)[3:5]
+    i, j = forces(snapshot)[2:4]
     return 2 - 3 * len(numpy.unique(numpy.append(i, j[j < len(snapshot.radius)]))) / len(i)
 
 
@@ -197,7 +199,7 @@ def stress(seed):
 
 def harmonic(seed, k):
     """Twice the mean of cos(k angle) of the contact normals: the k-th coefficient of their distribution."""
-    return 2 * numpy.cos(k * forces(shaebani(seed))[5]).mean()
+    return 2 * numpy.cos(k * forces(shaebani(seed))[4]).mean()
 
 
 def two_sizes(ratio, share=0.5):
@@ -209,8 +211,9 @@ MIXTURES = {"two sizes 1:1.4": two_sizes(1.4), "uniform 3:7": lambda: uniform(3,
             "uniform 1:4": lambda: uniform(1, 4),
             "log-normal 0.5": lambda: table("log", lognorm.ppf((numpy.arange(200) + 0.5) / 200, 0.5), numpy.ones(200)),
             "two sizes 1:3, 10 % large": two_sizes(3, 0.1), "two sizes 1:1.1": two_sizes(1.1),
-            "two sizes 1:2": two_sizes(2), "two sizes 1:1.4, 10 % large": two_sizes(1.4, 0.1)}
-OTHERS = [*MIXTURES][5:]  # Neighbours of 1:1.4 in equal numbers.
+            "two sizes 1:2": two_sizes(2), "two sizes 1:1.4, 10 % large": two_sizes(1.4, 0.1),
+            "two sizes 1:3": two_sizes(3)}
+OTHERS = "two sizes 1:1.1", "two sizes 1:2", "two sizes 1:1.4, 10 % large"  # Neighbours of 1:1.4 in equal numbers.
 
 
 def packing(seed, mixture):
@@ -228,11 +231,17 @@ def slab(seed, height):
                "discrete/side_motion=velocity", "loading/horizontal_over_vertical=0", DILUTE, *at_rest()).snapshots[0]
 
 
-def wall_deficit(seed, height):
-    """C of solid fraction = bulk - C/height."""
+def between_walls(seed, height):
+    """(height, solid fraction) of a slab."""
     snapshot = slab(seed, height)
     high = snapshot.upper_y - snapshot.lower_y
-    return close(seed) * high - numpy.pi * (snapshot.radius ** 2).sum() / snapshot.cell_width
+    return high, numpy.pi * (snapshot.radius ** 2).sum() / snapshot.cell_width / high
+
+
+def wall_deficit(seed, height):
+    """C of solid fraction = bulk - C/height."""
+    high, fraction = between_walls(seed, height)
+    return (close(seed) - fraction) * high
 
 
 def deep_share(seed):
