@@ -1,8 +1,9 @@
 # diptych: studies: files, points, errors, classes and costs with known answers
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Only the last two tests run the program."""
+"""Only the last four tests run the program."""
 
 import glob
+import itertools
 import json
 import math
 import os
@@ -13,15 +14,16 @@ import time
 
 import numpy as np
 import pytest
-from conftest import SMALL, explained
+from conftest import QUICK, SMALL, explained
 
 import diptych
+from diptych import _diptych
 from diptych.campaigns import api
-from diptych.campaigns.runs.input_file import read_seeds
+from diptych.campaigns.runs.input_file import Setting, read_seeds
 from diptych.campaigns.studies import effects
 from diptych.campaigns.studies import evaluation
-from diptych.campaigns.runs import statistics
-from diptych.campaigns.runs.folders import SceneRun
+from diptych.campaigns.runs import engine, statistics
+from diptych.campaigns.runs.folders import Folder, SceneRun
 from diptych.campaigns.studies.points import Point, RunResult, points_of
 from diptych.campaigns.studies.study_file import Axis, AxisPoint, Family, Study, quantity, read_study
 
@@ -340,6 +342,35 @@ def test_parameters_of_a_dict_give_means_and_changes(tmp_path, monkeypatch):
     expect_explained(found)
     with pytest.raises(AttributeError, match="effects"):
         found.points
+
+
+def test_a_worker_lives_as_long_as_the_runs_of_its_folder_are_open(tmp_path, monkeypatch):
+    started, popen = [], subprocess.Popen
+    monkeypatch.setattr(engine.subprocess, "Popen", lambda *a, **b: started.append(popen(*a, **b)) or started[-1])
+    options = engine.Options(jobs=1, quiet=True)
+    with Folder(str(tmp_path)) as folder:
+        runs = folder.open_runs("test", QUICK, options, list)
+        for k in (1, 2, 3):
+            scene = _diptych.read_changed_scene(QUICK, [Setting("loading", "axial_strain", f"0.0{k}", "test")], False)
+            run = SceneRun(command="material-point", name=f"run_{k}", scene=scene)
+            assert runs.do([run], options)[run.name].exit_code == 0
+        assert len(started) == 1 and started[0].poll() is None
+    assert started[0].returncode == 0  # it ended, and was waited for, before the lock
+
+
+def test_a_worker_that_was_asked_to_stop_does_the_next_run(tmp_path, monkeypatch):
+    def does(command):
+        folder, log = (str(tmp_path / name) for name in (f"out_{next(count)}", "log"))
+        run = engine.Run(command=command, scene=QUICK, name="quick", label="", folder=folder, log=log)
+        return worker.run(run.line(1))
+
+    worker, count = engine.Worker(), itertools.count()
+    assert does("material-point") == (0, False)
+    monkeypatch.setattr(_diptych, "stop_requested", lambda: True)
+    assert does("discrete") == (engine.NOT_CONVERGED, True)
+    monkeypatch.undo()
+    assert does("material-point") == (0, False)
+    worker.close()
 
 
 def test_a_study_of_a_dict_gives_data_frames_and_explained_keys(tmp_path):

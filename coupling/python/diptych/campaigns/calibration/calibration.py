@@ -193,10 +193,10 @@ def run_calibration(line: argparse.Namespace, options: Options) -> None:
     record, posterior = empty_record(calibration.title, "grains" if calibration.of_grains else "continuum"), None
     ended: Stopped | NotConverged | None = None
     with Folder(directory) as folder:
-        folder.open_runs("calibration", line.target, options, lambda: inputs_of(calibration), text)
+        opened = folder.open_runs("calibration", line.target, options, lambda: inputs_of(calibration), text)
         if contents:
             say(options, f"standard parameters: {directory}/calibration_input.json")
-        runs = (GrainRuns if calibration.of_grains else CalibrationRuns)(calibration, directory, options)
+        runs = (GrainRuns if calibration.of_grains else CalibrationRuns)(calibration, opened, options)
         try:
             paths = runs.paths()
             check_data(calibration, paths, runs, record)
@@ -207,6 +207,7 @@ def run_calibration(line: argparse.Namespace, options: Options) -> None:
                                          tell=lambda words: say(options, words)))
         except (Stopped, NotConverged) as error:
             record["status"], ended = error.why if isinstance(error, Stopped) else str(error), error
+        opened.crew.close()
         cost = {"continuum_cpu_s": runs.cpu_s["continuum"], "grains_cpu_s": runs.cpu_s["discrete"],
                 "total_cpu_s": sum(os.times()[:4]) - before}
         write_calibration(directory, record, cost, posterior)

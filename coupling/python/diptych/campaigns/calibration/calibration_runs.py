@@ -28,8 +28,8 @@ from .search import NORMAL
 class CalibrationRuns:
     """The methods raise Stopped after a stop signal, and NotConverged if grains do not come to their end."""
 
-    def __init__(self, calibration: Calibration, directory: str, options: Options) -> None:
-        self.calibration, self.runs, self.options = calibration, Runs(directory), replace(options, resume=False)
+    def __init__(self, calibration: Calibration, runs: Runs, options: Options) -> None:
+        self.calibration, self.runs, self.options = calibration, runs, replace(options, resume=False)
         self.outlines: dict[str, Outline] = {}
         self.cpu_s = {"continuum": 0.0, "discrete": 0.0}
         self._counted: set[str] = set()

@@ -114,8 +114,8 @@ def run_element(line: argparse.Namespace, options: Options) -> None:
         complain(f"diptych: warning: {scene.dict()['loading']['path']}: {warning}")
     directory = line.output or f"results/{scene.name}_element"
     with Folder(directory) as folder:
-        folder.open_runs("element", line.target, options, lambda: [("the scene", line.target), *scene.input_files()])
-        runs = Runs(directory)
+        runs = folder.open_runs("element", line.target, options,
+                                lambda: [("the scene", line.target), *scene.input_files()])
         failures = _done(runs, grains, options)
         found = {seed: panel_table(runs.path(run), "discrete") for seed, run in zip(seeds, grains)}
         tables = {seed: table for seed, table in found.items() if table is not None}

@@ -172,7 +172,7 @@ def _write(scene: Any, record: dict[str, Any], options: Options, phase: tuple[st
         say(options, _diptych.origin_of_law(scene.dict()["comparison"]["parameters_from"]))
 
 
-def _open(folder: Folder, scene: Any, options: Options, inputs: list[tuple[str, str]]) -> None:
+def _open(folder: Folder, scene: Any, options: Options, inputs: list[tuple[str, str]]) -> Runs:
     """Prepares the folder and writes ensemble.prm. Raises SceneError for the ensemble of another scene, or of a version
     that had other folders."""
     directory, file = folder.directory, os.path.join(folder.directory, "ensemble.prm")
@@ -188,7 +188,7 @@ def _open(folder: Folder, scene: Any, options: Options, inputs: list[tuple[str, 
         if differs:  # with the keys that follow from a changed one
             raise SceneError(f"--resume: the scene differs from {file}: {'; '.join(differs)}. Give the same scene, or "
                              "--overwrite.")
-    folder.open_runs("ensemble", file, options, lambda: inputs, scene.text(), copy="ensemble.prm")
+    return folder.open_runs("ensemble", file, options, lambda: inputs, scene.text(), copy="ensemble.prm")
 
 
 def _ends(runs: Runs, members: dict[int, SceneRun], outcomes: dict[str, Outcome]) -> dict[str, Any]:
@@ -224,9 +224,9 @@ def run_ensemble(line: argparse.Namespace, options: Options) -> None:
     variations = validation.variations(line.target, settings, validation.draws_of(line.set_file, settings_of(line.set)))
     with Folder(directory) as folder:
         begin = os.times()
-        _open(folder, scene, options, [("the scene", line.target), *(("--set-file", file) for file in line.set_file),
-                                       *scene.input_files()])
-        runs, members = Runs(directory), {seed: run_on(scene, seed, f"seed {seed}") for seed in seeds}
+        runs = _open(folder, scene, options, [("the scene", line.target), *scene.input_files(),
+                                              *(("--set-file", file) for file in line.set_file)])
+        members = {seed: run_on(scene, seed, f"seed {seed}") for seed in seeds}
         outcomes = runs.do(list(members.values()), options)
         ends, changed = _ends(runs, members, outcomes), validation.NO_RUNS
         done = {seed: members[seed] for seed in ends["done"]}
@@ -237,6 +237,7 @@ def run_ensemble(line: argparse.Namespace, options: Options) -> None:
         if levels and done and not ends["interrupted"]:
             fine = fine_runs(line.target, [*settings, levels.setting("fine")], list(done), "--seeds")
             add_summary(record, ensemble_levels(levels, runs, done, fine, options))
+        runs.crew.close()
         _write(scene, record, options, ("ensemble", begin))
         if scene.dict()["output"]["report"] and not ends["interrupted"]:
             draw(options, directory, "ensemble")

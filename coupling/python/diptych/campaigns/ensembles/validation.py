@@ -163,7 +163,8 @@ def respond(members: Runs, member: SceneRun, scenes: Sequence[Any], is_new: bool
 
     Raises Stopped after a stop signal."""
     source = members.path(member)
-    runs = Runs(os.path.join(members.directory, _FOLDER), "runs of the continuum for the validation")
+    directory = os.path.join(members.directory, _FOLDER)
+    runs = Runs(directory, members.crew, "runs of the continuum for the validation")
     if not scenes or not os.path.isdir(os.path.join(source, "coarse")):
         return NO_RUNS
     seed = member.scene.dict()["sample"]["seed"]

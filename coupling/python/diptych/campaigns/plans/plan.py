@@ -80,8 +80,8 @@ def _cpu_s(result: RunResult, name: str = "") -> float:
 class PilotRuns:
     """The runs of a plan, each done once."""
 
-    def __init__(self, question: Question, directory: str, options: Options) -> None:
-        self.question, self.runs, self.options = question, Runs(directory), replace(options, resume=False)
+    def __init__(self, question: Question, runs: Runs, options: Options) -> None:
+        self.question, self.runs, self.options = question, runs, replace(options, resume=False)
         self.cpu_s, self._counted = 0.0, set()
 
     def run(self, command: str, settings: Sequence[Setting], seeds: Sequence[int],
@@ -211,8 +211,7 @@ def main_plan(args: argparse.Namespace, options: Options) -> None:
     directory = args.output or f"results/{scene.name}_plan"
     inputs = [*scene.input_files(), ("the scene", question.scene), *(("--set-file", file) for file in args.set_file)]
     with Folder(directory) as folder:
-        folder.open_runs("plan", question.scene, options, lambda: inputs)
-        pilot = PilotRuns(question, directory, options)
+        pilot = PilotRuns(question, folder.open_runs("plan", question.scene, options, lambda: inputs), options)
         plan = make_plan(question, scene, pilot)
         write_plan(directory, question, plan)
         reached = all(panel.reaches for panel in plan.panels)

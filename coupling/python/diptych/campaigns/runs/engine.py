@@ -1,8 +1,8 @@
 # diptych: many runs, on workers of this machine and of the other processes of mpirun
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A worker is a process of worker.py that does one run after another. It receives a line of JSON and answers with the
-exit code on a line. Threads hand the runs to workers; under mpirun each other process has a worker, too. Results depend
-neither on the number of workers nor on the order of the runs.
+exit code on a line. The workers of a campaign are its crew; under mpirun each other process has a worker, too. Results
+depend neither on the number of workers nor on the order of the runs.
 """
 
 import functools
@@ -27,7 +27,6 @@ from ... import _diptych
 from ...errors import NotConverged, Stopped
 
 DONE, WRONG_INPUT, NOT_CONVERGED, SYSTEM_FAILURE = 0, 2, 3, 4  # exit codes of the program
-KEPT_OPEN: set[int] = set()  # descriptors that workers inherit: locks, which then hold until the last worker has ended
 _JOB_VARIABLES = ("OMPI_", "PMIX_", "PMI_", "PRTE_", "ORTE_")
 
 
@@ -163,9 +162,11 @@ def stops_raised(text: str) -> Iterator[None]:
 
 
 class Worker:
-    """A process that does one run after another. It starts with the first run, and again if it died."""
+    """A process that does one run after another. It starts with the first run, and again if it died. kept: descriptors
+    that it inherits."""
 
-    def __init__(self) -> None:
+    def __init__(self, *kept: int) -> None:
+        self._kept = kept
         self._process: subprocess.Popen[bytes] | None = None
 
     def run(self, line: str) -> tuple[int, bool]:
@@ -175,7 +176,7 @@ class Worker:
             # Its own process group: Ctrl-C reaches only this process, which then asks.
             words = [sys.executable, "-m", __package__ + ".worker", str(os.getpid())]
             self._process = subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0,
-                                             env=environment(), process_group=0, pass_fds=tuple(KEPT_OPEN))
+                                             env=environment(), process_group=0, pass_fds=self._kept)
             self._send(line)
         asked = False
         while not select.select([self._process.stdout], [], [], 0.05)[0]:
@@ -183,7 +184,8 @@ class Worker:
                 asked = True
                 self._process.terminate()
         answer = self._process.stdout.readline()
-        return (int(answer) if answer else self.close() or SYSTEM_FAILURE), asked
+        ended = self.close() if asked or not answer else 0  # the request would stop the next run, too
+        return (int(answer) if answer else ended or SYSTEM_FAILURE), asked
 
     def _send(self, line: str) -> bool:
         try:
@@ -274,7 +276,29 @@ def n_seats(options: Options) -> int:
     return (options.jobs or (1 if others else max(1, len(os.sched_getaffinity(0)) // options.threads))) + others
 
 
-def execute(runs: Sequence[Run], options: Options, *, finished: int = 0, noun: str = "runs",
+class Crew:
+    """The workers of a campaign, and threads that hand them runs. All live until close(): a worker's start takes longer
+    than many a run, and the system ends a worker when the thread that started it ends."""
+
+    def __init__(self, options: Options, lock: int) -> None:
+        """lock: descriptor of a lock, which then holds until the last worker has ended."""
+        seats, others = n_seats(options), n_processes() - 1
+        self.threads = ThreadPoolExecutor(seats)
+        self._workers = [Worker(lock) for _ in range(seats - others)]
+        # the last one first, for it has started
+        self.free: queue.LifoQueue[Callable[[str], tuple[int, bool]]] = queue.LifoQueue()
+        of_others = [lambda line: options.pool.submit(_remote, line).result()] * others
+        for serve in [*of_others, *(worker.run for worker in self._workers)]:
+            self.free.put(serve)
+
+    def close(self) -> None:
+        """Waits until the workers have ended; then CPU times of this process include theirs."""
+        self.threads.shutdown(cancel_futures=True)
+        for worker in self._workers:
+            worker.close()
+
+
+def execute(runs: Sequence[Run], options: Options, crew: Crew, *, finished: int = 0, noun: str = "runs",
             on_ended: Callable[[int, Outcome], None] = lambda k, outcome: None) -> list[Outcome]:
     """Does the runs and returns their outcomes in the order of `runs`.
 
@@ -286,42 +310,32 @@ def execute(runs: Sequence[Run], options: Options, *, finished: int = 0, noun: s
     reported on standard error. A worker that was killed is one failed run; a new process takes its place.
     """
     _diptych.install_signals()
-    seats, others = n_seats(options), n_processes() - 1
-    workers = [Worker() for _ in range(min(len(runs), seats - others))]
-    free: queue.SimpleQueue[Callable[[str], tuple[int, bool]]] = queue.SimpleQueue()
-    of_others = [lambda line: options.pool.submit(_remote, line).result()] * others
-    for serve in [*(worker.run for worker in workers), *of_others]:
-        free.put(serve)
     ended: queue.SimpleQueue[tuple[int, Future[Outcome]]] = queue.SimpleQueue()
     started: dict[int, float] = {}
 
     def do(k: int) -> Outcome:
         if _diptych.stop_requested():
             return Outcome()
-        serve, started[k] = free.get(), time.monotonic()
+        serve, started[k] = crew.free.get(), time.monotonic()
         try:
             code, asked = serve(runs[k].line(options.threads))
         finally:
-            free.put(serve)
+            crew.free.put(serve)
         return Outcome(exit_code=code, interrupted=asked and code != 0, seconds=time.monotonic() - started.pop(k))
 
     outcomes, left = [Outcome() for _ in runs], len(runs)
     progress = _Progress(options.quiet, noun, len(runs) + finished, finished)
-    # the system ends a worker when the thread that started it ends
-    with ThreadPoolExecutor(max(1, free.qsize())) as threads:
-        for k in range(len(runs)):
-            threads.submit(do, k).add_done_callback(lambda future, k=k: ended.put((k, future)))
-        while left:
-            try:
-                k, future = ended.get(timeout=0.05)
-                left, outcomes[k] = left - 1, future.result()
-                _note_end(runs[k], outcomes[k], progress, lambda: on_ended(k, outcomes[k]))
-            except queue.Empty:
-                pass
-            progress.show(list(started.values()), seats)
-        progress.clear()
-        for worker in workers:
-            worker.close()
+    for k in range(len(runs)):
+        crew.threads.submit(do, k).add_done_callback(lambda future, k=k: ended.put((k, future)))
+    while left:
+        try:
+            k, future = ended.get(timeout=0.05)
+            left, outcomes[k] = left - 1, future.result()
+            _note_end(runs[k], outcomes[k], progress, lambda: on_ended(k, outcomes[k]))
+        except queue.Empty:
+            pass
+        progress.show(list(started.values()), n_seats(options))
+    progress.clear()
     return outcomes
 
 

@@ -20,7 +20,7 @@ from ... import _diptych
 from ...arrays import plain
 from ...errors import NotConverged, SceneError, Stopped
 from ...files import part_of, read_json
-from .engine import (DONE, KEPT_OPEN, WRONG_INPUT, Options, Outcome, Run, complain, execute, last_words, n_seats, say,
+from .engine import (DONE, WRONG_INPUT, Crew, Options, Outcome, Run, complain, execute, last_words, n_seats, say,
                      stops_raised)
 
 LAST_CODE_OF_A_RESULT = 3  # higher codes: the system failed, or a signal came
@@ -30,17 +30,19 @@ class Folder:
     """A folder locked for this process and its workers. Errors that are neither wrong input nor our own say what is
     kept."""
 
+    crew: Crew | None = None  # of open_runs(); it ends before the lock
+
     def __init__(self, directory: str) -> None:
         self.directory = directory
         self._lock = _diptych.FolderLock(directory)
-        KEPT_OPEN.add(self._lock.descriptor)
 
     def __enter__(self) -> Folder:
         return self
 
     def __exit__(self, kind: Any, error: BaseException | None, trace: Any) -> None:
+        if self.crew:
+            self.crew.close()
         kept = _diptych.kept_in(self.directory) if isinstance(error, (OSError, RuntimeError)) else ""
-        KEPT_OPEN.discard(self._lock.descriptor)
         self._lock.release()
         if kept:
             kind = type(error) if isinstance(error, (Stopped, NotConverged)) else RuntimeError
@@ -48,12 +50,10 @@ class Folder:
 
     def set_aside(self, inputs: Iterable[tuple[str, str]]) -> None:
         """Renames the results to DIRECTORY.1. Refuses to move one of the inputs: (what it is, path)."""
-        KEPT_OPEN.discard(self._lock.descriptor)
         self._lock.set_aside(list(inputs))
-        KEPT_OPEN.add(self._lock.descriptor)
 
     def open_runs(self, noun: str, input_file: str, options: Options, inputs: Callable[[], list[tuple[str, str]]],
-                  text: str = "", *, copy: str = "") -> None:
+                  text: str = "", *, copy: str = "") -> Runs:
         """Prepares the folder for runs; writes text, or a copy of the input file, there as `copy`; without it as
         NOUN_input.json (with text) or with the ending of the file. Raises SceneError for other results."""
         ending = ".json" if text else os.path.splitext(input_file)[1]
@@ -68,6 +68,8 @@ class Folder:
             raise SceneError(f"the folder '{self.directory}' holds other results and no {noun}. Name another folder.")
         write_text(copy, text)
         os.makedirs(os.path.join(self.directory, "runs"), exist_ok=True)
+        self.crew = Crew(options, self._lock.descriptor)
+        return Runs(self.directory, self.crew)
 
 
 def write_text(path: str, text: str) -> None:
@@ -136,10 +138,10 @@ def run_on(scene: Any, seed: int, label: str = "") -> SceneRun:
 
 
 class Runs:
-    """The runs in a campaign's folder. noun: for the line of progress."""
+    """The runs in a campaign's folder, or in a folder within it. noun: for the line of progress."""
 
-    def __init__(self, directory: str, noun: str = "runs") -> None:
-        self.directory, self.noun = directory, noun
+    def __init__(self, directory: str, crew: Crew, noun: str = "runs") -> None:
+        self.directory, self.crew, self.noun = directory, crew, noun
 
     def path(self, run: SceneRun, ending: str = "") -> str:
         """The result folder of a run; with an ending a file beside it: ".prm", ".log", ".json"."""
@@ -245,7 +247,7 @@ class Runs:
                      label=run.label or run.name, folder=self.path(run), log=self.path(run, ".log"),
                      resume=goes_on and run.command != "material-point")
                  for run, goes_on in zip(runs, resumes)]
-        outcomes = execute(tasks, options, finished=total - len(runs), noun=self.noun, on_ended=on_ended)
+        outcomes = execute(tasks, options, self.crew, finished=total - len(runs), noun=self.noun, on_ended=on_ended)
         ended = {run.name: outcome for run, outcome in zip(runs, outcomes)}
         damaged = [run for k, run in enumerate(runs) if is_damaged(k, outcomes[k])]
         if damaged:

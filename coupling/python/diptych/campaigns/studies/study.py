@@ -22,7 +22,7 @@ from ...files import read_json
 from ..runs.engine import Options, complain, say
 from .effects import changes_of, effects_table, text_of_changes, text_of_means, text_of_quantity
 from .evaluation import CLASSES, Results, cost_of, evaluate, orders_of
-from ..runs.folders import Folder, Runs, draw, write_arrays, write_json, write_text
+from ..runs.folders import Folder, draw, write_arrays, write_json, write_text
 from ..runs.histories import curve_of
 from .level_runs import demand_rule, study_levels
 from .points import Point, points_of, result_of
@@ -333,8 +333,7 @@ def run_study(line: argparse.Namespace, options: Options) -> None:
 
     with Folder(directory) as folder:
         _demand_same_name(directory, study, options)
-        folder.open_runs("study", line.target, options, inputs, text)
-        runs = Runs(directory)
+        runs = folder.open_runs("study", line.target, options, inputs, text)
         outcomes = runs.do([run for point in points for run in point.runs], options)
         read = {run.name: result_of(runs, run, study.quantities)  # each different run once
                 for run in {run.name: run for point in points for run in point.runs}.values()}
