@@ -11,12 +11,13 @@ import unittest
 from unittest import mock
 
 import h5py
+import matplotlib
 import numpy as np
 
 import diptych.report
 import report_folder
 from diptych.report import calibration, ensemble, studies
-from diptych.report.charts import by_matplotlib, trends
+from diptych.report.charts import by_matplotlib, colour_maps, trends
 from diptych.report.charts.drawing import Axis, Figure
 from diptych.report.charts.strips import _turn
 from diptych.report.charts.style import thin
@@ -254,6 +255,12 @@ class OtherFolders(unittest.TestCase):
 
 
 class Formulas(unittest.TestCase):
+    def test_maps_have_the_colours_of_matplotlib(self):
+        for name in colour_maps.STOPS:
+            found = np.array([list(bytes.fromhex(one[1:])) for one in colour_maps.table(name)])
+            wanted = np.rint(255 * matplotlib.colormaps[name](np.arange(256))[:, :3])
+            self.assertLessEqual(np.abs(found - wanted).max(), 4, name)
+
     def test_a_thinned_history_keeps_its_spike(self):
         values = np.zeros(10000)
         values[4321] = 7.0

@@ -26,10 +26,12 @@ def _rose(increment, probe, share, reach):
     axes, = figure.axes
     axes.has_frame = False
     edges = np.radians(np.linspace(0, 360, SECTORS + 1))
+    x, y = [], []
     for radius, low, high in zip(share, edges, edges[1:]):
         arc = np.linspace(low, high, 6)
-        axes.fill(radius * np.append(0, np.cos(arc)), radius * np.append(0, np.sin(arc)), color=GRAINS, alpha=0.75,
-                  edge="white")
+        x += [0, *radius * np.cos(arc), np.nan]
+        y += [0, *radius * np.sin(arc), np.nan]
+    axes.fill(x, y, color=GRAINS, alpha=0.75, edge="white")
     around = np.linspace(0, 2 * np.pi, 73)
     axes.plot(np.cos(around), np.sin(around), linewidth=0.8, linestyle=":")
     for name, line, label in (("direction_deg", "-", "major stress"), ("fabric_direction_deg", "--", "fabric")):

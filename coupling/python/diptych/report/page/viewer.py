@@ -5,10 +5,9 @@ paper. Glyphs are entries of a Store; {} or None: nothing is stored."""
 
 import base64
 
-import matplotlib
-import matplotlib.colors
 import numpy as np
 
+from ..charts import colour_maps
 from ..charts.style import NO_VALUE, PANEL_COLOURS
 from ..data.numbers import plain
 from ..data.panels import PANEL_NAMES
@@ -30,7 +29,7 @@ def data(result):
                    "arrows": arrows(i, store), "crosses": crosses(i, store),
                    "forces": forces(i, store), "probes": probes(i)} for i in drawn]
     return {"box": short(box(drawn)), "panels": PANEL_NAMES, "colours": PANEL_COLOURS, "no_value": NO_VALUE,
-            "maps": {name: _table(name) for name in sorted({q.colour_map for q in used} | {"RdBu_r"})},
+            "maps": {name: colour_maps.table(name) for name in sorted({q.colour_map for q in used} | {"RdBu_r"})},
             "quantities": [_quantity(q, places[q.key], result) for q in used],
             "cross_unit": cross_unit(drawn), "force_unit": force_unit(drawn),
             "increments": increments, "arrays": store.entries}
@@ -41,10 +40,6 @@ def _quantity(quantity, places, result):
             "label": quantity.label(result), "map": quantity.colour_map,
             "home": quantity.home if quantity.home in places else places[0], "places": places,
             "meaning": {place: quantity.meaning(result, place) for place in places}}
-
-
-def _table(name):
-    return [matplotlib.colors.to_hex(colour) for colour in matplotlib.colormaps[name](np.arange(256))]
 
 
 def _frame(increment, store):
