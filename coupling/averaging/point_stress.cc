@@ -11,30 +11,28 @@
 
 namespace diptych::coupling
 {
-  std::vector<Eigen::Matrix2d> stress_at_points(const QuadMesh                     &mesh,
-                                                const discrete::Snapshot           &grains,
+  std::vector<Eigen::Matrix2d> stress_at_points(const TargetCells                  &region,
+                                                const Carriers                     &moments,
                                                 const std::vector<Eigen::Vector2d> &points,
                                                 const KernelShape                   shape,
                                                 const double                        width)
   {
     const Kernel              kernel(shape, width);
-    const TargetCells         region(mesh, period_of(grains));
     KernelQuadrature          quadrature(region, kernel);
     KernelQuadrature::Weights weights;
 
     // Quadrature points of the half branches, with their part of the moment.
-    const Carriers                  carriers = moment_carriers(grains.position, grains.radius, grains.window_forces);
     std::vector<Eigen::Vector2d>    place;
     std::vector<Eigen::RowVector4d> moment;
-    for (std::size_t h = 0; h < carriers.half.size(); ++h)
+    for (std::size_t h = 0; h < moments.half.size(); ++h)
       {
-        const HalfBranch     &half  = carriers.half[h];
+        const HalfBranch     &half  = moments.half[h];
         const SegmentRule     rule  = segment_rule(half.vector.norm(), width);
-        const Eigen::Vector2d start = region.wrapped(carriers.position[half.grain]);
+        const Eigen::Vector2d start = region.wrapped(moments.position[half.grain]);
         for (std::size_t q = 0; q < rule.t.size(); ++q)
           {
             place.push_back(start + rule.t[q] * half.vector);
-            moment.push_back(rule.weight[q] * carriers.uniform.row(Eigen::Index(h)).head<4>());
+            moment.push_back(rule.weight[q] * moments.uniform.row(Eigen::Index(h)).head<4>());
           }
       }
 

@@ -149,8 +149,9 @@ namespace diptych::coupling
       if (lines[k].half_width == pair_half_width && std::lround(lines[k].angle / degree) % 8 == 0)
         chosen.push_back(k);
     const Eigen::MatrixXd columns = profiles(Eigen::all, chosen);
-    const Eigen::MatrixXd gram    = columns.transpose() * columns;
     const Eigen::MatrixXd product = columns.transpose() * data;
+    Eigen::MatrixXd       gram(columns.cols(), columns.cols());
+    gram.triangularView<Eigen::Upper>() = columns.transpose() * columns;
 
     double                 best_gain = 0;
     std::vector<BandShape> best;

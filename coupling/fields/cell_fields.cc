@@ -57,10 +57,12 @@ namespace diptych::coupling
                                         const AveragingOptions &averaging,
                                         const double            size)
     {
-      const QuadMesh          grid   = grid_over(on_mesh.mesh, size);
-      const std::vector<bool> inside = mostly_inside(cell_overlap(grid, on_mesh.mesh));
-      const GrainFields       grains = grain_fields(grid, stage.grains_from, stage.grains_to, averaging);
-      StressPair pair{grains.stress, averaged_continuum({on_mesh.mesh, on_mesh.own}, grid, scale_of(stage), averaging).stress,
+      const QuadMesh          grid    = grid_over(on_mesh.mesh, size);
+      const CellOverlap       overlap = cell_overlap(grid, on_mesh.mesh);
+      const std::vector<bool> inside  = mostly_inside(overlap);
+      const GrainFields       grains  = grain_fields(grid, stage.grains_from, stage.grains_to, averaging);
+      StressPair              pair{grains.stress,
+                      averaged_continuum({on_mesh.mesh, on_mesh.own}, grid, scale_of(stage), averaging, &overlap).stress,
                       grains.stress_standard_error};
       for (std::size_t k = 0; k < inside.size(); ++k)
         if (!inside[k])
@@ -91,10 +93,12 @@ namespace diptych::coupling
   CellFields grid_fields(const CellFields &on_mesh, const StagePair &stage, const AveragingOptions &averaging, const double size)
   {
     CellFields fields;
-    fields.mesh      = grid_over(on_mesh.mesh, size);
-    fields.grains    = grain_fields(fields.mesh, stage.grains_from, stage.grains_to, averaging);
-    fields.own       = averaged_continuum({on_mesh.mesh, on_mesh.own}, fields.mesh, scale_of(stage), {});
-    fields.continuum = averaged_continuum({on_mesh.mesh, on_mesh.own}, fields.mesh, scale_of(stage), averaging);
+    fields.mesh   = grid_over(on_mesh.mesh, size);
+    fields.grains = grain_fields(fields.mesh, stage.grains_from, stage.grains_to, averaging);
+    const OwnFields   own{on_mesh.mesh, on_mesh.own};
+    const CellOverlap overlap = cell_overlap(fields.mesh, on_mesh.mesh);
+    fields.own                = averaged_continuum(own, fields.mesh, scale_of(stage), {}, &overlap);
+    fields.continuum          = averaged_continuum(own, fields.mesh, scale_of(stage), averaging, &overlap);
     add_kinematics(stage, fields);
     for (std::size_t k = 0; k < fields.mesh.cell.size(); ++k)
       if (!fields.own.stress[k].allFinite()) // the cell lies outside the mesh, where a fit would extrapolate and a kernel would

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupling/cells/cell_overlap.h"
-
 namespace diptych::coupling
 {
   namespace
@@ -107,10 +105,13 @@ namespace diptych::coupling
   ContinuumFields averaged_continuum(const OwnFields        &own,
                                      const QuadMesh         &receiving,
                                      const SampleScale      &scale,
-                                     const AveragingOptions &averaging)
+                                     const AveragingOptions &averaging,
+                                     const CellOverlap      *known)
   {
     if (averaging.method == AveragingMethod::kernel || averaging.method == AveragingMethod::projection)
       return smoothed(own, receiving, scale, averaging);
-    return &receiving == &own.mesh ? own.fields : carried(cell_overlap(receiving, own.mesh), own.fields);
+    if (&receiving == &own.mesh)
+      return own.fields;
+    return carried(known != nullptr ? *known : cell_overlap(receiving, own.mesh), own.fields);
   }
 } // namespace diptych::coupling

@@ -4,6 +4,7 @@
 
 #include "coupling/fields/continuum_fields.h"
 #include "coupling/averaging/averaging.h"
+#include "coupling/cells/cell_overlap.h"
 #include "coupling/cells/mesh_cells.h"
 
 namespace diptych::coupling
@@ -24,9 +25,10 @@ namespace diptych::coupling
   //   kernel, projection: the continuum's densities (stress, couple stress, dissipation) times area are distributed like the
   //     grains' quantities. Displacement and rotation are means weighted by area.
   //   other methods: means weighted by the area that the cells share. NaN in receiving cells of which less than half lies in the
-  //   mesh.
+  //   mesh. `known`: their overlap with the mesh, if it is known.
   ContinuumFields averaged_continuum(const OwnFields        &own,
                                      const QuadMesh         &receiving,
                                      const SampleScale      &scale,
-                                     const AveragingOptions &averaging);
+                                     const AveragingOptions &averaging,
+                                     const CellOverlap      *known = nullptr);
 } // namespace diptych::coupling

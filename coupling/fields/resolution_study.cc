@@ -93,14 +93,21 @@ namespace diptych::coupling
       return grid;
     }
 
-    ResolutionRow kernel_row(const TargetCells             &region,
-                             const discrete::Snapshot      &grains,
+    // The same for all rows.
+    struct Sample
+    {
+      const discrete::Snapshot &grains;
+      const TargetCells        &region;
+      Carriers                  moments;
+      Grid                      grid; // of the scatter after smoothing
+    };
+
+    ResolutionRow kernel_row(const Sample                  &sample,
                              const std::vector<StudyPoint> &points,
                              const KernelShape              kernel,
                              const double                   width)
     {
-      const double                 d    = grains.mean_diameter;
-      const Grid                   grid = grid_over(region, grains, scatter_grid * d);
+      const Grid                  &grid = sample.grid;
       std::vector<Eigen::Vector2d> places;
       std::vector<double>          area;
       for (const StudyPoint &point : points)
@@ -110,7 +117,8 @@ namespace diptych::coupling
           places.push_back(cell_centre(grid.mesh, k));
           area.push_back(grid.area[k]);
         }
-      const std::vector<Eigen::Matrix2d> stress = stress_at_points(region.mesh, grains, places, kernel, width * d);
+      const std::vector<Eigen::Matrix2d> stress = stress_at_points(sample.region, sample.moments, places, kernel,
+                                                                   width * sample.grains.mean_diameter);
 
       ResolutionRow row;
       row.width = width;
@@ -120,14 +128,11 @@ namespace diptych::coupling
       return row;
     }
 
-    ResolutionRow cells_row(const TargetCells             &region,
-                            const discrete::Snapshot      &grains,
-                            const std::vector<StudyPoint> &points,
-                            const double                   size)
+    ResolutionRow cells_row(const Sample &sample, const std::vector<StudyPoint> &points, const double size)
     {
-      const Grid        grid = grid_over(region, grains, size * grains.mean_diameter);
-      const TargetCells target(grid.mesh, period_of(grains));
-      const CellSums    sums   = distribute({}, target, moment_carriers(grains.position, grains.radius, grains.window_forces));
+      const Grid        grid = grid_over(sample.region, sample.grains, size * sample.grains.mean_diameter);
+      const TargetCells target(grid.mesh, sample.region.period);
+      const CellSums    sums   = distribute({}, target, sample.moments);
       const auto        stress = [&](const unsigned int k) {
         Eigen::Matrix2d m = Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(sums.uniform.row(k).data());
         return Eigen::Matrix2d(m / grid.area[k]);
@@ -214,11 +219,13 @@ namespace diptych::coupling
                                    const KernelShape              kernel)
   {
     const TargetCells region(mesh, period_of(grains));
+    const Sample      sample{grains, region, moment_carriers(grains.position, grains.radius, grains.window_forces),
+                        grid_over(region, grains, scatter_grid * grains.mean_diameter)};
     ResolutionStudy   study;
     for (const double width : kernel_widths)
-      study.kernel.push_back(kernel_row(region, grains, points, kernel, width));
+      study.kernel.push_back(kernel_row(sample, points, kernel, width));
     for (const double size : cell_sizes)
-      study.cells.push_back(cells_row(region, grains, points, size));
+      study.cells.push_back(cells_row(sample, points, size));
     study.plateau = find_plateau(study.kernel);
     study.verdict = verdict_of(study);
     return study;

@@ -167,11 +167,10 @@ namespace
   // 1 spreads its force, with a variance of 1/12: less than k^2/12 = 0.8 % of the amplitude.
   TEST(ResolutionStudy, KernelDampsAWaveByTheGaussFactor)
   {
-    const double       length = 20, k = 2 * M_PI / length;
-    const auto         network = benchmarks::airy_network({0, 0}, {80, 80}, benchmarks::pressure_wave(0.3, length), 1);
-    discrete::Snapshot s;
-    s.position = network.position, s.radius = network.radius, s.window_forces = network.contacts;
-    const QuadMesh               mesh = regular_grid({0, 0}, {80, 80}, 2);
+    const double                 length = 20, k = 2 * M_PI / length;
+    const auto                   network = benchmarks::airy_network({0, 0}, {80, 80}, benchmarks::pressure_wave(0.3, length), 1);
+    const Carriers               moments = moment_carriers(network.position, network.radius, network.contacts);
+    const TargetCells            region(regular_grid({0, 0}, {80, 80}, 2));
     std::vector<Eigen::Vector2d> points;
     for (double x = 11; x < 70; x += 2)
       for (double y = 11; y < 70; y += 2)
@@ -179,7 +178,7 @@ namespace
     const auto wave = [k](const Eigen::Vector2d &x) { return std::cos(k * x.x()) * std::cos(k * x.y()); };
     for (const double w : {1., 2.})
       {
-        const auto stress  = stress_at_points(mesh, s, points, KernelShape::gauss, w);
+        const auto stress  = stress_at_points(region, moments, points, KernelShape::gauss, w);
         double     squares = 0, product = 0, rest = 0;
         for (std::size_t p = 0; p < points.size(); ++p)
           squares += std::pow(wave(points[p]), 2), product += wave(points[p]) * (0.5 * stress[p].trace() - 1);
