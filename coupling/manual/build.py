@@ -29,7 +29,7 @@ PAGES = [("index", "Start"), ("install", "Install"), ("cluster", "Clusters, no r
          ("first_comparison", "First comparison"), ("gallery", "Gallery"),
          ("own_scene", "Your own scene"), ("own_data", "Your own data"), ("result_folders", "Result folders"),
          ("ensembles", "Ensembles"), ("studies", "Studies and plans"),
-         ("calibration", "Calibration"), ("python", "Python"), ("cost", "What it costs"),
+         ("calibration", "Calibration"), ("python", "Python"),
          ("conventions", "Conventions"), ("platens", "Platens and sides"),
          ("equations", "Equations"), ("limits", "Limits"), ("faq", "Questions"), ("glossary", "Glossary")]
 
