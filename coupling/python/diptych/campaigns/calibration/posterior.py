@@ -26,8 +26,8 @@ from .trials import Trials
 
 SPREAD = 0.7  # deviation of ln(size) and of ln(correlation strain) before the data: a factor of two
 SHARE_OF_STRAIN = 0.25  # correlation strain of the discrepancy before the data / largest strain
-# with a sampled factor if samples gave them
-SCALED = (("stress_level",), ("volume_start", "volume_growth"), ("profile_stretch",))
+# With a sampled factor if samples gave them: one number a sample. The other deviations have one in every bin.
+SCALED = ("stress_level", "volume_growth", "profile_stretch")
 WALKERS, DRAWS = 48, 1000
 STEPS = 1500  # of the sampling
 MORE_RUNS, SHORT = 20, 500  # coarse runs at points of the posterior, after so many steps of a first sampling
@@ -74,7 +74,7 @@ class Posterior:
         stress, volume = (of_all(lambda path, kind=kind: path.of(kind)) for kind in KINDS[:2])
         same_path = scipy.linalg.block_diag(*[np.ones((len(path.observables),) * 2) for path in data.paths])[square]
         self._sizes = [same_path * np.outer(of, of) * np.sqrt(np.outer(variance, variance)) for of in (stress, volume)]
-        self._scatter = [data.of_scatter([key for key in keys if key in noise.estimated])[square] for keys in SCALED]
+        self._scatter = [data.of_scatter([key] if key in noise.estimated else [])[square] for key in SCALED]
         self.freedom = np.array([noise.degrees_of_freedom if part.any() else 0 for part in self._scatter])
         everything = data.of_means()[square]
         of_paths = [tolerance_covariance(path, discrepancy(noise, path)) for path in data.paths]
