@@ -112,6 +112,8 @@ namespace diptych::coupling
       return smoothed(own, receiving, scale, averaging);
     if (&receiving == &own.mesh)
       return own.fields;
-    return carried(known != nullptr ? *known : cell_overlap(receiving, own.mesh), own.fields);
+    if (known != nullptr)
+      return carried(*known, own.fields);
+    return carried(cell_overlap(receiving, own.mesh), own.fields);
   }
 } // namespace diptych::coupling

@@ -139,7 +139,7 @@ paths/: fitted and predicted paths
         after [as the quantity says]: value of the calibrated continuum
         difference (interval) [as the margin says]: continuum minus grains; relative for strengths, force and width
         margin [as the quantity says]: largest difference that counts as equivalent
-        verdict (text): equivalent, different or cannot tell
+        verdict (text): equivalent, different or cannot tell; without a value not in both panels
         parameter_deviation [as the margin]: part of the deviation of the difference due to the parameters, or to the \
             scatter of fitted grains; null if the interval omits it (fitted paths, angles)
     progress (list) [strain or time]: loading variable at the points of the curves

@@ -74,13 +74,13 @@ def _verdicts(margins: dict[str, float], members: Sequence[Member], quantities: 
         first, second = ([member.value(one) for member in members] for one in names)
         parts = validation.uncertainties(key, window, members, responses)
         found, row = validation.validated(kind, (first, second), parts, len(responses.draws))
-        verdict = found.verdict(margin)
+        diffuse = sum(not member.diffuse.isdisjoint(names) for member in members)
+        verdict = "diffuse" if diffuse and not found.n else found.verdict(margin)
         rows.append({"key": key, "quantity": name, **row, "unit": unit, "verdict": verdict})
         verdicts.append({"key": key, "window": window, "quantity": name,
                          "unit": "-" if kind == "relative" else unit, "margin": margin, "relative": kind == "relative",
                          "difference": found.difference, "difference_90": found.difference_90, "n": found.n,
-                         "diffuse": sum(not member.diffuse.isdisjoint(names) for member in members),
-                         "verdict": verdict, "discrete": first, "continuum": second})
+                         "diffuse": diffuse, "verdict": verdict, "discrete": first, "continuum": second})
     return verdicts, rows
 
 

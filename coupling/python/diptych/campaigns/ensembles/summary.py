@@ -103,7 +103,7 @@ verdicts/: verdicts on the differences of the panels
     difference_90 (interval) [as in unit]: mean difference with its 90 % interval, on which the verdict equivalent rests
     n: number of pairs
     diffuse: number of members without an angle, because the zone is diffuse
-    verdict (text): equivalent, different or cannot tell
+    verdict (text): equivalent, different or cannot tell; without a pair diffuse or not in both panels
     discrete (list) [as in unit]: values of the grains, in the order of done
     continuum (list) [as in unit]: values of the continuum, in the order of done
 validation/: errors and standard uncertainties as in ASME V&V 20, in the order of verdicts

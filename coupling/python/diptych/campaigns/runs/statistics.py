@@ -106,11 +106,13 @@ class Difference:
         return Difference(self.n, wider(self.difference, 0.95), wider(self.difference_90, 0.90))
 
     def verdict(self, margin: float) -> str:
-        """ "equivalent", "different" or "cannot tell".
+        """ "equivalent", "different" or "cannot tell"; without a pair "not in both panels".
 
         Equivalent by two one-sided tests at 5 %: the 90 % interval lies within (-margin, margin). Different: the 95 %
         interval lies beyond the margin. Source: Schuirmann, J. Pharmacokinet. Biopharm. 15 (1987) 657.
         """
+        if not self.n:
+            return "not in both panels"
         if self.difference_90.low > -margin and self.difference_90.high < margin:
             return "equivalent"
         return "different" if self.difference.low > margin or self.difference.high < -margin else "cannot tell"
@@ -196,6 +198,6 @@ def jackknife_convergence(h: Sequence[float], values: np.ndarray) -> tuple[Inter
 def words_of(verdict: dict[str, Any]) -> str:
     """A verdict of ensemble.json with its margin, such as "equivalent within 5 %"."""
     margin = f"{100 * verdict['margin']:g} %" if verdict["relative"] else f"{verdict['margin']:g}"
-    words = {"equivalent": f"equivalent within {margin}", "different": f"different by more than {margin}",
-             "cannot tell": f"cannot tell (margin {margin})"}[verdict["verdict"]]
-    return words if verdict["n"] else "diffuse" if verdict.get("diffuse") else "not in both panels"
+    word = verdict["verdict"]
+    return {"equivalent": f"equivalent within {margin}", "different": f"different by more than {margin}",
+            "cannot tell": f"cannot tell (margin {margin})"}.get(word, word)

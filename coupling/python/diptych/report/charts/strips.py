@@ -41,13 +41,14 @@ def _panel(increment, panel, profile, box, angle):
                   label="standard deviation")
     bands = increment.bands(panel)
     # A band across the strips has no profile in them.
-    parallel = [band for band in bands if _turn(band, angle) < LARGEST_TURN]
+    narrow = [band for band in bands if not band.get("diffuse")]
+    parallel = [band for band in narrow if _turn(band, angle) < LARGEST_TURN]
     # The linear background belongs to the first band of the panel.
     straight = [plain(increment.panel(panel)["strips"].get(name)) for name in ("background", "background_slope")]
     for band in parallel:
         _draw_fit(axes, band, box, straight if band is bands[0] else (None, None))
     if not parallel:
-        axes.plot([], [], linestyle="", label="no band parallel to the strips" if bands else DIFFUSE)
+        axes.plot([], [], linestyle="", label="no band parallel to the strips" if narrow else DIFFUSE)
     axes.set(xlim=box[:2], ylim=box[2:], xlabel="distance along the normal of the strips / d",
              ylabel="displacement increment / |ΔU|")
     axes.title(PANEL_NAMES[panel])

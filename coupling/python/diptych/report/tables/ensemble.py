@@ -43,7 +43,7 @@ def verdict_rows(results):
             "difference": _signed(verdict["difference"]["value"], unit, decimals, ending(unit)),
             "interval": _ends(verdict["difference_90"], unit, decimals),
             "margin": "± " + number(margin) + ending(unit), "n": verdict["n"],
-            "verdict": "diffuse" if verdict.get("diffuse") and not verdict["n"] else verdict["verdict"]})
+            "verdict": verdict["verdict"]})
     return rows
 
 
