@@ -178,7 +178,8 @@ def test_noise_is_found_again():
     data = drawn(USUAL, usual_observables(), np.full(29, 0.3), 200, 3)
     found = noise.noise_of([data], Noise())
     assert found.stress_level == pytest.approx(0.02, abs=0.003)
-    assert found.stress_shape == pytest.approx(0.0045, abs=0.0006)
+    assert found.stress_shape == pytest.approx(0.0045, abs=0.0002)
+    assert found.volume_start == pytest.approx(1e-4, abs=4e-6)
     assert found.volume_growth == pytest.approx(0.04, abs=0.006)
     assert found.ln_width == pytest.approx(0.3, abs=0.03)
     assert found.degrees_of_freedom == 199

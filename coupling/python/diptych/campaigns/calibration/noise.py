@@ -4,7 +4,7 @@
 as a whole (level) and varies locally, correlated in strain (shape). Volume has a constant scatter and one in proportion
 to strain. Widths scatter independently, profiles as profiles.py says. A curve's own deviations replace this form."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -114,31 +114,23 @@ class Data:
         return np.exp(-np.abs(y[:, None] - y) / length) * np.equal.outer(x, x) * np.outer(y > 0, y > 0)
 
 
-def _stress_squares(paths: Iterable[Data]) -> tuple[float, float]:
-    """Variances of level and shape, pooled over the paths."""
-    off = [path.values[:, at] - path.mean[at] for path in paths
-           if (at := path.of("stress_ratio")).any() and len(path.values) > 1]
-    shifts = [one.mean(1, keepdims=True) for one in off]
-    if not off:
-        return np.nan, np.nan
-    level = sum((shift**2).sum() for shift in shifts) / sum(len(one) - 1 for one in off)
-    shape = sum(((one - shift) ** 2).sum() for one, shift in zip(off, shifts))
-    return level, shape / sum((len(one) - 1) * max(1, one.shape[1] - 1) for one in off)
+def _near(x: Array, length: float) -> Array:
+    return np.exp(-np.abs(x[:, None] - x) / length)
 
 
-def _volume_squares(paths: Iterable[Data]) -> Array:
-    """(2): variances of start and growth in v = start^2 + growth^2 progress^2. A variance scatters in proportion."""
-    normal, right = np.zeros((2, 2)), np.zeros(2)
+def _squares(paths: Iterable[Data], kind: str, mode: Callable[[Array], Array], length: float) -> tuple[float, float]:
+    """Variances of a sample's share of mode(strain), and of the rest, which is correlated over a length of strain."""
+    shares = rest = freedom = left = 0.0
     for path in paths:
-        at = path.of("volumetric_strain")
+        at = path.of(kind)
         if at.any() and len(path.values) > 1:
-            x = path.middles[at]
-            rows, weight = np.column_stack([np.ones_like(x), x**2]), 1 / (1e-8 + x**2) ** 2
-            normal += (weight * rows.T) @ rows
-            right += rows.T @ (weight * path.values[:, at].var(0, ddof=1))
-    if not normal.any():
-        return np.full(2, np.nan)
-    return np.linalg.solve(normal + 1e-12 * np.linalg.norm(normal) * np.eye(2), right)  # one bin cannot give a growth
+            x, off, n = path.middles[at], path.values[:, at] - path.mean[at], len(path.values) - 1
+            along = mode(x) / np.linalg.norm(mode(x))
+            share = off @ along
+            shares, freedom = shares + (share**2).sum() / (mode(x) ** 2).sum(), freedom + n
+            rest += ((off - np.outer(share, along)) ** 2).sum()
+            left += n * (len(x) - along @ _near(x, length) @ along)  # of correlated noise the share takes more than one
+    return (shares / freedom, rest / left if left > 0 else 0.0) if freedom else (np.nan, np.nan)
 
 
 def _width_square(paths: Iterable[Data]) -> float:
@@ -170,9 +162,10 @@ def _profile_squares(paths: Iterable[Data]) -> tuple[float, float]:
 
 def noise_of(paths: Sequence[Data], given: Noise) -> Noise:
     """Fills in deviations that are not given: the scatter within paths, pooled. ValueError if samples are too few."""
-    paths = [path for path in paths if path.own is None]
-    squares = dict(zip(("stress_level", "stress_shape"), _stress_squares(paths)))
-    squares.update(zip(("volume_start", "volume_growth"), _volume_squares(paths)), ln_width=_width_square(paths))
+    paths, length = [path for path in paths if path.own is None], given.correlation_strain
+    squares = dict(zip(("stress_level", "stress_shape"), _squares(paths, "stress_ratio", np.ones_like, length)))
+    squares.update(zip(("volume_growth", "volume_start"), _squares(paths, "volumetric_strain", np.copy, length)),
+                   ln_width=_width_square(paths))
     squares.update(zip(("profile_stretch", "profile_noise"), _profile_squares(paths)))
     # else this kind is measured with deviations, or missing
     needed = [key for kind, keys in ESTIMATED.items() for key in keys
@@ -191,7 +184,7 @@ def noise_of(paths: Sequence[Data], given: Noise) -> Noise:
 def covariance(noise: Noise, data: Data) -> Array:
     """(observables, observables): covariance of one sample."""
     x, noise = data.middles, data.own or noise
-    near = np.exp(-np.abs(x[:, None] - x) / noise.correlation_strain)
+    near = _near(x, noise.correlation_strain)
     result, (_, mode, variance) = np.zeros_like(near), data.shapes()
     for kind, form in (("stress_ratio", noise.stress_level**2 + noise.stress_shape**2 * near),
                        ("volumetric_strain", noise.volume_start**2 * near + noise.volume_growth**2 * np.outer(x, x)),
