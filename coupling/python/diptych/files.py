@@ -43,6 +43,17 @@ def read_json(path: str, format: int | None = None) -> Any:
     return record
 
 
+def read_provenance(path: str) -> Any:
+    """The record in provenance.json. Raises InputError if it is not the record of a run."""
+    record = read_json(path)
+    phases = record.get("phases")
+    if record.get("program") != "diptych" or not isinstance(phases, list) or not all(
+            isinstance(phase, dict) and {"name", "cpu_s", "peak_memory_mb"} <= phase.keys() for phase in phases):
+        raise InputError(f"{path}: is not the record of a run of diptych: 'program' or 'phases' is missing or wrong; "
+                         "run it again")
+    return record
+
+
 def read_ensemble(folder: str, format: int | None = None) -> Any:
     """ensemble.json of a folder. One without `folders` is of an earlier version: its members are in seed_K, and only
     the name of a quantity tells its key and window."""

@@ -8,11 +8,11 @@ from dataclasses import dataclass, field
 import numpy as np
 from matplotlib.figure import Figure
 
-from ..files import member_folders, read_ensemble, read_json, stage_name, window_name
+from ..files import member_folders, read_ensemble, read_json, read_provenance, stage_name, window_name
 from .charts import by_matplotlib, profiles
 from .charts.by_matplotlib import ruled, styled
 from .charts.style import FAINT, INK, PANEL_COLOURS, PANEL_LINES, PANEL_MARKS, chart, svg
-from .data.files import open_arrays, read_provenance, read_text, scene_value
+from .data.files import open_arrays, read_text, scene_value
 from .data.numbers import Descriptions, LoadingVariable, loading_variable_of
 from .data.panels import PANEL_NAMES
 from .page.writing import write

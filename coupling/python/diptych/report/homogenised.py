@@ -9,10 +9,10 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
-from ..files import read_json
+from ..files import read_json, read_provenance
 from .charts import by_matplotlib, resolution
 from .charts.style import GRAINS, INK, NO_VALUE, chart, limit_below, svg, with_intervals
-from .data.files import read_provenance, require
+from .data.files import require
 from .data.numbers import loading_variable_of, plain, scaled
 from .data.panels import DIFFUSE_ZONE
 from .page.writing import write

@@ -12,8 +12,9 @@ import numpy as np
 from ... import _diptych, operators
 from ...compiled import continuum
 from ...errors import NotConverged, SceneError
+from ...files import read_provenance
 from ..runs.engine import Options
-from ..runs.folders import Runs, SceneRun, read_json
+from ..runs.folders import Runs, SceneRun
 from ..runs.histories import is_beyond, panel_table
 from ..runs.input_file import Setting
 from ..runs.key_numbers import snapshots_at
@@ -42,7 +43,7 @@ class CalibrationRuns:
             if run.name not in self._counted and os.path.exists(record):
                 self._counted.add(run.name)
                 panel = "discrete" if run.command == "discrete" else "continuum"
-                self.cpu_s[panel] += sum(phase["cpu_s"] for phase in read_json(record)["phases"])
+                self.cpu_s[panel] += sum(phase["cpu_s"] for phase in read_provenance(record)["phases"])
         return [self.runs.failure(run) for run in runs]
 
     def _grains(self, target: Target, seeds: Sequence[int], more: Sequence[Setting] = (), note: str = "") -> list[str]:

@@ -12,8 +12,9 @@ from typing import Any
 from ... import _diptych
 from ...compiled import demand_continuum
 from ...errors import SceneError
+from ...files import read_json, read_provenance
 from ..runs.engine import WRONG_INPUT
-from ..runs.folders import Runs, SceneRun, read_json, run_name
+from ..runs.folders import Runs, SceneRun, run_name
 from ..runs.histories import panel_table, reduced
 from ..runs.input_file import Setting
 from ..runs.key_numbers import key_values
@@ -144,7 +145,7 @@ def result_of(runs: Runs, run: SceneRun, quantities: Sequence[dict[str, Any]]) -
     folder = runs.path(run)
     if not os.path.exists(os.path.join(folder, "provenance.json")):
         return result
-    record = read_json(os.path.join(folder, "provenance.json"))
+    record = read_provenance(os.path.join(folder, "provenance.json"))
     result.phases, grains = record["phases"], record.get("discrete", {})
     result.halved_steps, result.warned = grains.get("halved_steps") or 0, bool(grains.get("warnings"))
     for kind in ("strength", "dilation"):

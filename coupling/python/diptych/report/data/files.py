@@ -10,7 +10,6 @@ import h5py
 import numpy as np
 
 from ...errors import InputError
-from ...files import read_json
 
 
 def require(paths):
@@ -18,14 +17,6 @@ def require(paths):
     missing = [path for path in paths if not os.path.isfile(path)]
     if missing:
         raise InputError(f"missing: {', '.join(missing)}")
-
-
-def read_provenance(path):
-    """The record in provenance.json. Raises InputError if it is not the record of a run."""
-    record = read_json(path)
-    if record.get("program") != "diptych" or not isinstance(record.get("phases"), list):
-        raise InputError(f"{path}: is not the record of a run of diptych: 'program' or 'phases' is missing or wrong")
-    return record
 
 
 @contextlib.contextmanager

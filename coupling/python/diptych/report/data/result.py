@@ -9,8 +9,8 @@ import h5py
 import numpy as np
 
 from ...errors import InputError
-from ...files import read_json
-from .files import open_arrays, read_csv, read_provenance, read_text, require
+from ...files import read_json, read_provenance
+from .files import open_arrays, read_csv, read_text, require
 from .numbers import Description, Descriptions, LoadingVariable, Units, loading_variable_of
 from .panels import PANEL_NAMES
 
