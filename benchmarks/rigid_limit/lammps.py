@@ -109,13 +109,13 @@ def write_start(path, position, radius, width, height):
         file.write(f"{n + 1} 2 0.2 1.0 {width:.16g} -4.0 0.0\n")
 
 
-def loading_seconds(log):
-    """CPU seconds of the last run in a log: loop time x CPU share."""
+def timed_runs(log):
+    """[(CPU seconds = loop time x CPU share, steps)] of all runs in a log: preload, then loading."""
     with open(log) as file:
         text = file.read()
-    loops = re.findall(r"Loop time of (\S+) on", text)
+    loops = re.findall(r"Loop time of (\S+) on \S+ procs for (\d+) steps", text)
     shares = re.findall(r"([\d.]+)% CPU use", text)
-    return float(loops[-1]) * float(shares[-1]) / 100
+    return [(float(seconds) * float(share) / 100, int(steps)) for (seconds, steps), share in zip(loops, shares)]
 
 
 def run(sample, folder, stiffness, inertial_number, strain, *, fraction=0.2, friction=0.4, rolling_friction=0.):
@@ -145,4 +145,4 @@ def run(sample, folder, stiffness, inertial_number, strain, *, fraction=0.2, fri
     sxx, syy, sxy = (rows[:, k] / area for k in (4, 5, 6))
     columns = {"axial_strain": rows[:, 1], "t": numpy.hypot((syy - sxx) / 2, sxy), "s": (sxx + syy) / 2,
                "volumetric_strain": 1 - area / area[0], "kinetic_energy": rows[:, 7]}
-    return columns, loading_seconds(os.path.join(folder, "log.lammps"))
+    return columns, timed_runs(os.path.join(folder, "log.lammps"))[-1][0]

@@ -55,7 +55,7 @@ namespace diptych::discrete
         if (!go_on(double(k) / double(n)))
           return {};
         pressed.last_step = implicit ? advance(state, press.setting, cache)
-                                     : advance_penalty(state, springs, press.setting, press.penalty);
+                                     : advance_penalty(state, springs, press.setting, press.penalty, k == n - 1);
         if (pressed.last_step.solve.status == SolveStatus::blown_up)
           break;
         rests = implicit && k >= least_steps && pressed.last_step.unbalanced_force < unbalanced_at_rest;

@@ -49,8 +49,12 @@ namespace diptych::discrete
     // another length. Its impulses then start as springs; clear them to start without springs.
     double impulse_step = 0;
 
-    NeighbourList  neighbours;
-    ContactProblem problem; // reused for its memory
+    NeighbourList neighbours;
+
+    // Only their memory is reused.
+    State               trial;
+    ContactProblem      problem;
+    std::vector<double> margin;
   };
 
   // One step of length setting.step (Cundall & Strack 1979). The leapfrog has the form of `advance`, so that momentum and the
@@ -72,5 +76,10 @@ namespace diptych::discrete
   // The method does not iterate: `solve` is converged with no sweeps. In a blow-up a grain is not finite or travels more than
   // its radius in a step. Then `solve` is blown_up with an infinite residual, and the state stays unchanged. Throws
   // std::invalid_argument if kn = options.stiffness x setting.pressure or the step is not positive.
-  StepResult advance_penalty(State &state, PenaltyState &penalty, const StepSetting &setting, const PenaltyOptions &options);
+  // `with_ledger` = false saves the time of the ledger, whose part of the result then is empty.
+  StepResult advance_penalty(State                &state,
+                             PenaltyState         &penalty,
+                             const StepSetting    &setting,
+                             const PenaltyOptions &options,
+                             bool                  with_ledger = true);
 } // namespace diptych::discrete

@@ -30,7 +30,10 @@ namespace
       setting.pressure = 1;
     }
 
-    StepResult advance(State &state) { return advance_penalty(state, kept, setting, options); }
+    StepResult advance(State &state, const bool with_ledger = true)
+    {
+      return advance_penalty(state, kept, setting, options, with_ledger);
+    }
   };
 
   struct Collision
