@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """step_cost.py PROGRAM... [--repeats 5]
 
-Loads one dense sample of 1000 discs by `method = penalty` and by LAMMPS in turn (kn/P = 1e4, step fraction 0.2, a row
-every 28 steps) and prints nanoseconds of CPU time per grain and step. Several programs compare builds. Needs lmp."""
+Loads one dense sample of 1000 discs by `method = penalty` and by LAMMPS in turn. Prints nanoseconds of CPU time per
+grain and step: kn/P = 1e4, step fraction 0.2, a row every 28 steps. Several programs compare builds. Needs lmp."""
 import argparse
 import json
 import os

@@ -152,31 +152,26 @@ namespace diptych::discrete
     std::vector<Disc> disc(n);
     for (int i = 0; i < n; ++i)
       disc[i] = {g.position[i], g.radius[i], margin[i]};
-    const auto add = [&](const Pair &pair, const auto &images) {
-      const Disc &a = disc[pair.i];
-      if (pair.j >= n)
-        {
-          const Contact contact = make_contact(state, pair.i, pair.j);
-          if (contact.gap < a.margin)
-            contacts.push_back(contact);
-          return;
-        }
-      const Disc           &b      = disc[pair.j];
-      const Image           image  = images.nearest_image(a.position - b.position);
-      const Eigen::Vector2d branch = a.position - b.position - image.shift;
-      const double          alert = a.margin + b.margin, distance = a.radius + b.radius + alert;
-      if (branch.squaredNorm() >= distance * distance)
-        return;
-      contacts.emplace_back() = contact_of_discs({pair.i, pair.j, 0, {}, {}, image}, a, b, branch);
-      if (!(contacts.back().gap < alert))
-        contacts.pop_back();
-    };
-    std::visit(
-      [&](const auto &images) {
-        for (const Pair &pair : pairs_)
-          add(pair, images);
-      },
-      state.periodicity);
+    for (const Pair &pair : pairs_)
+      {
+        const Disc &a = disc[pair.i];
+        if (pair.j >= n)
+          {
+            const Contact contact = make_contact(state, pair.i, pair.j);
+            if (contact.gap < a.margin)
+              contacts.push_back(contact);
+            continue;
+          }
+        const Disc           &b      = disc[pair.j];
+        const Image           image  = nearest_image(state, a.position, b.position);
+        const Eigen::Vector2d branch = a.position - b.position - image.shift;
+        const double          alert = a.margin + b.margin, distance = a.radius + b.radius + alert;
+        if (branch.squaredNorm() >= distance * distance)
+          continue;
+        const Contact contact = contact_of_discs({pair.i, pair.j, 0, {}, {}, image}, a, b, branch);
+        if (contact.gap < alert)
+          contacts.push_back(contact);
+      }
     return contacts;
   }
 

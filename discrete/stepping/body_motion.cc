@@ -55,13 +55,15 @@ namespace diptych::discrete
     for (const int k : acting)
       {
         const Impulse &r = impulses[k], &before = previous[k];
-        PairImpulse   &pair = keep_impulse(contacts[k], r, state.impulses);
+        PairImpulse    pair{contacts[k].i, contacts[k].j, r.normal, r.tangential};
+        pair.rolling = r.rolling;
         if (before.normal > 0 && r.normal > 0)
           {
             pair.normal_change     = r.normal - before.normal;
             pair.tangential_change = r.tangential - before.tangential;
             pair.rolling_change    = r.rolling - before.rolling;
           }
+        state.impulses.push_back(pair);
       }
   }
 } // namespace diptych::discrete

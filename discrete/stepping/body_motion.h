@@ -14,18 +14,6 @@ namespace diptych::discrete
 
   void take_velocities(const std::vector<BodyVelocity> &v, State &state);
 
-  // Stores the impulse of one contact.
-  inline PairImpulse &keep_impulse(const Contact &c, const Impulse &r, std::vector<PairImpulse> &impulses)
-  {
-    PairImpulse &pair = impulses.emplace_back(); // a copy from the stack would wait for its own stores
-    pair.i            = c.i;
-    pair.j            = c.j;
-    pair.normal       = r.normal;
-    pair.tangential   = r.tangential;
-    pair.rolling      = r.rolling;
-    return pair;
-  }
-
   // Stores the impulses of the acting contacts, and their change from `previous`, for the first guess of the next step.
   // `previous` holds the impulses of the last step. `contacts` ascend in (i, j).
   void keep_impulses(const std::vector<Contact> &contacts,

@@ -11,6 +11,7 @@
 #include "discrete/stepping/body_motion.h"
 #include "discrete/contacts/contact_law.h"
 #include "discrete/stepping/step_problem.h"
+#include "discrete/stepping/warm_start.h"
 
 namespace diptych::discrete
 {
@@ -29,8 +30,7 @@ namespace diptych::discrete
     {
       const Grains &g = state.grains;
       for (std::size_t i = 0; i < g.size(); ++i)
-        if (!(h * h * g.velocity[i].squaredNorm() <= g.radius[i] * g.radius[i]) || !g.position[i].allFinite() ||
-            !std::isfinite(g.spin[i]))
+        if (!(h * g.velocity[i].norm() <= g.radius[i]) || !g.position[i].allFinite() || !std::isfinite(g.spin[i]))
           return true;
       for (const Wall &wall : state.walls)
         if (!wall.velocity.allFinite() || !wall.point.allFinite())
@@ -53,23 +53,6 @@ namespace diptych::discrete
       double damping;       // fraction of critical
       double previous_step; // length of the step whose impulse holds the spring
     };
-
-    SpringLaw law_of(const StepSetting &setting, const PenaltyOptions &options, const double impulse_step)
-    {
-      const double kn = options.stiffness * setting.pressure;
-      return {kn, tangential_over_normal_stiffness * kn, options.damping, impulse_step > 0 ? impulse_step : setting.step};
-    }
-
-    // Impulse of the last step; 0 for a new contact. Contacts and `springs` ascend in (i, j), so `at` goes on from one contact to
-    // the next.
-    Impulse spring_of(const Contact &c, const std::vector<PairImpulse> &springs, std::size_t &at)
-    {
-      while (at < springs.size() && (springs[at].i < c.i || (springs[at].i == c.i && springs[at].j < c.j)))
-        ++at;
-      if (at == springs.size() || springs[at].i != c.i || springs[at].j != c.j)
-        return {};
-      return {springs[at].normal, springs[at].tangential, springs[at].rolling};
-    }
 
     // A spring with a bound: its force, and the work that the bound took since the preceding q_m.
     struct Slider
@@ -121,50 +104,37 @@ namespace diptych::discrete
                              const bool            with_ledger)
   {
     validate(setting, options);
-    const double h = setting.step;
+    const double h = setting.step, kn = options.stiffness * setting.pressure;
     if (has_blown_up(state, h))
       return blown_up();
-    State &trial = penalty.trial;
-    trial        = state;
+    State trial = state;
     drift(trial, 0.5 * h);
 
     StepResult result;
     result.applied_force = applied_forces(trial, setting);
-    penalty.margin.resize(trial.grains.size(), 0.);
-    result.contacts     = penalty.neighbours.find_contacts(trial, penalty.margin);
-    const SpringLaw law = law_of(setting, options, penalty.impulse_step);
+    result.contacts      = penalty.neighbours.find_contacts(trial, std::vector<double>(trial.grains.size(), 0.));
+    result.impulses      = first_guess(trial.impulses, result.contacts).impulses;
 
-    const std::vector<BodyVelocity> v       = body_velocities(trial);
-    ContactProblem                 &problem = penalty.problem;
-    problem.free_velocity                   = free_velocities(trial, v, result.applied_force, setting);
-    problem.lattice                         = lattice_problem(trial, h);
-    std::vector<BodyVelocity> v_new         = problem.free_velocity;
-    const std::size_t         n             = result.contacts.size();
-    problem.contacts.resize(n);
-    result.impulses.resize(n);
-    std::vector<BoundWork> lost(n);
-    std::vector<int>       acting;
-    acting.reserve(n);
-    trial.impulses.clear();
-    std::size_t spring = 0;
-    for (std::size_t k = 0; k < n; ++k)
+    const std::vector<BodyVelocity> v = body_velocities(trial);
+    penalty.problem.free_velocity     = free_velocities(trial, v, result.applied_force, setting);
+    penalty.problem                   = make_problem(trial, setting, result.contacts, v, std::move(penalty.problem));
+    const ContactProblem &problem     = penalty.problem;
+    SpringLaw             law;
+    law.kn            = kn;
+    law.kt            = tangential_over_normal_stiffness * kn;
+    law.damping       = options.damping;
+    law.previous_step = penalty.impulse_step > 0 ? penalty.impulse_step : h;
+    std::vector<BoundWork> lost;
+    lost.reserve(result.contacts.size());
+    for (std::size_t k = 0; k < result.contacts.size(); ++k)
       {
-        const Contact &c   = result.contacts[k];
-        ContactRow    &row = problem.contacts[k];
-        Impulse       &r   = result.impulses[k];
-        r                  = spring_of(c, state.impulses, spring);
-        set_row(trial, setting, c, v, row);
-        lost[k]                    = apply_law(law, row, c.gap, v, h, r);
-        result.largest_penetration = std::max(result.largest_penetration, -c.gap);
-        if (r.normal == 0)
-          continue;
-        acting.push_back(int(k));
-        keep_impulse(c, r, trial.impulses);
-        if (!problem.lattice)
-          apply_impulse(row, r, v_new);
+        const double gap = result.contacts[k].gap;
+        lost.push_back(apply_law(law, problem.contacts[k], gap, v, h, result.impulses[k]));
+        result.largest_penetration = std::max(result.largest_penetration, -gap);
       }
-    if (problem.lattice)
-      v_new = velocities(problem, result.impulses, acting);
+
+    const std::vector<int>          acting = acting_contacts(result.impulses);
+    const std::vector<BodyVelocity> v_new  = velocities(problem, result.impulses, acting);
     if (with_ledger)
       {
         static_cast<StepLedger &>(result) = step_ledger(
@@ -175,8 +145,9 @@ namespace diptych::discrete
     drift(trial, 0.5 * h);
     if (has_blown_up(trial, h))
       return blown_up();
+    keep_impulses(result.contacts, result.impulses, result.impulses, acting, trial);
     trial.time += h;
-    std::swap(state, trial);
+    state                = std::move(trial);
     penalty.impulse_step = h;
     return result;
   }

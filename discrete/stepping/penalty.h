@@ -49,12 +49,8 @@ namespace diptych::discrete
     // another length. Its impulses then start as springs; clear them to start without springs.
     double impulse_step = 0;
 
-    NeighbourList neighbours;
-
-    // Only their memory is reused.
-    State               trial;
-    ContactProblem      problem;
-    std::vector<double> margin;
+    NeighbourList  neighbours;
+    ContactProblem problem; // reused for its memory
   };
 
   // One step of length setting.step (Cundall & Strack 1979). The leapfrog has the form of `advance`, so that momentum and the

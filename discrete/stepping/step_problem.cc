@@ -179,26 +179,6 @@ namespace diptych::discrete
     return r.rolling * effective_radius(grains, c.i, c.j);
   }
 
-  std::optional<LatticeProblem> lattice_problem(const State &state, const double step)
-  {
-    const Lattice *lattice = state.lattice();
-    if (!lattice)
-      return {};
-    return LatticeProblem{places(state.grains, *lattice), lattice_motion(*lattice, state.time, step).mobility};
-  }
-
-  void set_row(const State                     &state,
-               const StepSetting               &setting,
-               const Contact                   &c,
-               const std::vector<BodyVelocity> &v,
-               ContactRow                      &row)
-  {
-    set_kinematics(state, c, v, row);
-    const Friction f = friction_of(state, setting, c.j);
-    row.friction     = f.sliding;
-    add_rolling(state.grains, c, f.rolling, row);
-  }
-
   ContactProblem make_problem(const State                     &state,
                               const StepSetting               &setting,
                               const std::vector<Contact>      &contacts,
@@ -207,16 +187,22 @@ namespace diptych::discrete
   {
     problem.order = sweep_order(contacts, setting.mean_diameter);
     problem.contacts.resize(contacts.size());
-    problem.lattice    = lattice_problem(state, setting.step);
+    problem.lattice.reset();
+    if (const Lattice *lattice = state.lattice())
+      problem.lattice = LatticeProblem{places(state.grains, *lattice),
+                                       lattice_motion(*lattice, state.time, setting.step).mobility};
     const double share = corrected_share(setting.stepping);
     for (std::size_t k = 0; k < contacts.size(); ++k)
       {
         const Contact &c   = contacts[k];
         ContactRow    &row = problem.contacts[k];
-        set_row(state, setting, c, v, row);
+        set_kinematics(state, c, v, row);
         const RelativeVelocity u = relative_velocity(row, v);
+        const Friction         f = friction_of(state, setting, c.j);
+        row.friction             = f.sliding;
         row.normal_term          = normal_term(c, u.normal, setting.law.normal_restitution, share, setting.step);
         row.tangential_term      = setting.law.tangential_restitution * u.tangential;
+        add_rolling(state.grains, c, f.rolling, row);
       }
     return problem;
   }

@@ -21,16 +21,6 @@ namespace diptych::discrete
                                             const std::vector<Eigen::Vector2d> &force,
                                             const StepSetting                  &setting);
 
-  // Lattice of the contact problem; none without a lattice.
-  std::optional<LatticeProblem> lattice_problem(const State &state, double step);
-
-  // Bodies, kinematics and friction of a contact between bodies with the velocities `v`.
-  void set_row(const State                     &state,
-               const StepSetting               &setting,
-               const Contact                   &c,
-               const std::vector<BodyVelocity> &v,
-               ContactRow                      &row);
-
   // Rows in the order of `contacts`, to be swept upward. `v` is the velocity at the beginning of the step, which decides on
   // impacts. `problem` holds the free velocities, and perhaps rows of the last step; their memory is reused.
   ContactProblem make_problem(const State                     &state,
