@@ -215,7 +215,8 @@ def write_folder(folder):
     """Two stages (the first without bands) and one window."""
     write_arrays(folder)
     write_json(folder, "comparison.json", comparison_of_two_stages())
-    write_json(folder, "provenance.json", {"program": "diptych", "phases": [{"name": "discrete", "cpu_s": 1.0}]})
+    phases = [{"name": "discrete", "cpu_s": 1.0, "peak_memory_mb": 100}]
+    write_json(folder, "provenance.json", {"program": "diptych", "phases": phases})
     columns = ("progress,stress_ratio,volumetric_strain,lower_fy,upper_fy,axial_strain,shear_strain,time,walk,sweeps,"
                "residual,kinetic_energy_ratio,external_work,dissipation")
     for name in ("discrete.csv", "continuum.csv"):
