@@ -152,7 +152,8 @@ def _stress_maps(snapshot: Any, sheet: Sheet) -> dict[str, Array]:
     return maps
 
 
-def _band(band: Band, field: Any) -> dict[str, Any]:
+def band_numbers(band: Band, field: Any) -> dict[str, Any]:
+    """A band of an increment in units of its mean diameter and platen increment, with strips along it."""
     d = field.mean_diameter
     cut = strips(field.points, field.displacement, d, band, weight=field.weight,
                  platen_increment=field.platen_increment)
@@ -184,7 +185,7 @@ def _between(start: Any, end: Any, maps: tuple[Array, Array], missing: list[dict
     except ValueError as error:
         missing.append({"quantity": f"band from {start.progress:g} to {end.progress:g}", "reason": str(error)})
         return row | {"band_verdict": "not computed", "bands": []}
-    return row | {"band_verdict": report.verdict, "bands": [_band(band, field) for band in report.bands]}
+    return row | {"band_verdict": report.verdict, "bands": [band_numbers(band, field) for band in report.bands]}
 
 
 def _sheets(frames: list[Any], size: float) -> list[Sheet]:

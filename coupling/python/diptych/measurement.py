@@ -20,6 +20,7 @@ from .files import part_of, read_json
 
 FIELD = "measured.h5"
 FACTS = "measured.json"
+HISTORY = "measured.csv"  # axial_strain, volumetric_strain and, if measured, stress_ratio
 # name -> title, unit and meaning of the arrays of measured.h5
 ARRAYS = {"position": ("position", "length", "of the points at every instant (k, n, 2), y upwards; nan: lost"),
           "deviation": ("standard deviation", "length", "of a component of the displacement since the first instant "

@@ -1,0 +1,101 @@
+# diptych: both panels as an image correlation would see them
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""An image correlation returns the mean displacement of a small square, the subset, at each of its points. A panel that
+is compared with a measurement is averaged over the same squares at the same points."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import LinearNDInterpolator
+from scipy.spatial import cKDTree
+
+from .arrays import Array, Band, BandReport, Interval
+from .measurement import gradient_of, Measurement
+from .operators import find_bands, increment
+
+ALONG = 5  # places along a side of a subset
+NEAR = 0.5  # mean diameters: a place farther from every grain is outside of the sample
+DRAWS = 20  # of the measurement's noise; their standard deviation is then known to a sixth
+# 10-90 % width over subset of a jump that a square averages, at 0 and at 45 degrees: 0.80 and 0.78
+OF_A_JUMP = 0.8
+
+Field = Callable[[Array], Array]  # places (m, 2) at the end of an increment -> displacement (m, 2), NaN outside
+
+
+def field_of(start: Any, end: Any) -> Field:
+    """The displacement between two snapshots of a panel. A grain is rigid, and pores move with the nearest grain. The
+    continuum is linear between its nodes."""
+    moved = increment(start, end).displacement
+    if hasattr(end, "cells"):
+        return LinearNDInterpolator(end.position, moved)
+    tree, turn, reach = cKDTree(end.position), end.rotation - start.rotation, NEAR * end.mean_diameter
+
+    def at(places: Array) -> Array:
+        _, near = tree.query(places, k=min(6, len(end.position)))
+        arm = places[:, None] - end.position[near]
+        gap = np.hypot(*np.moveaxis(arm, -1, 0)) - end.radius[near]
+        rows, nearest = np.arange(len(places)), gap.argmin(axis=1)
+        grain, (x, y) = near[rows, nearest], arm[rows, nearest].T
+        found = moved[grain] + turn[grain, None] * np.column_stack([-y, x])
+        found[gap.min(axis=1) > reach] = np.nan
+        return found
+
+    return at
+
+
+def levelled(field: Field, points: Array, subset: float) -> Array:
+    """(n, 2): means of a field over squares of side `subset` [length] around the points; NaN where less than half of a
+    square is in the sample."""
+    steps = subset * ((np.arange(ALONG) + 0.5) / ALONG - 0.5)
+    offsets = np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
+    values = field((points[:, None] + offsets).reshape(-1, 2)).reshape(len(points), -1, 2)
+    known = np.isfinite(values[..., 0])
+    total = np.where(known[..., None], values, 0).sum(axis=1)
+    count = known.sum(axis=1)
+    return np.where(2 * count[:, None] >= len(offsets), total / np.maximum(count, 1)[:, None], np.nan)
+
+
+def resolution(subset: float, spacing: float) -> float:
+    """The 10-90 % width at which a jump appears, and below which nothing is seen [as the arguments]."""
+    return max(OF_A_JUMP * subset, 2 * spacing)
+
+
+def on_sample(measurement: Measurement, k: int, points: Array, centre: Array, mean_diameter: float) -> Array:
+    """Points of a measurement at its instant k, in the coordinates of a sample with this centre and mean diameter.
+
+    The measured centre follows the affine motion since the first instant."""
+    since = measurement.increment(0, k)
+    before = since.points - since.displacement
+    motion = since.displacement.mean(0) + gradient_of(since.points, since.displacement) @ (
+        measurement.centre - before.mean(0))
+    return centre + (points - measurement.centre - motion) * (mean_diameter / measurement.mean_diameter)
+
+
+def bands_of(points: Array, displacement: Array, frame: Mapping[str, Any], options: Mapping[str, Any]) -> BandReport:
+    """find_bands() of the points that are known. frame: mean_diameter, centre, width and height of the sample."""
+    known = np.isfinite(displacement).all(axis=1)
+    return find_bands(points[known], displacement[known], **frame, **options)
+
+
+def with_noise(report: BandReport, points: Array, displacement: Array, deviation: Array,
+               options: Mapping[str, Any]) -> BandReport:
+    """The bands of a measurement with the noise of its points in their intervals. Bands are searched again in fields
+    with further noise of this deviation (n) [length]; half widths add in squares. NaN: unknown, and nothing is
+    added."""
+    if not report.bands or not np.isfinite(deviation).all():
+        return report
+    generator, again = np.random.default_rng(1), {**options, "band_resamples": 0}
+    draws = [bands_of(points, displacement + deviation[:, None] * generator.standard_normal(points.shape),
+                      report.frame, again).bands for _ in range(DRAWS)]
+    return replace(report, bands=[_widened(band, draws) for band in report.bands])
+
+
+def _widened(band: Band, draws: Sequence[Sequence[Band]]) -> Band:
+    same = [min(found, key=lambda one: abs(one.angle_deg - band.angle_deg)) for found in draws if found]
+    interval = dict(band.interval)
+    for name, (value, low, high) in band.interval.items():
+        half = 1.96 * np.std([getattr(one, name) for one in same], ddof=1)
+        interval[name] = Interval(value, value - np.hypot(value - low, half), value + np.hypot(high - value, half))
+    return replace(band, interval=interval)
