@@ -91,6 +91,14 @@ namespace diptych::coupling
       void add_quiet(CLI::App *to) { to->add_flag("--quiet", line.quiet, "print neither progress nor notes"); }
       // clang-format on
 
+      // An option with which Python parses the words.
+      void add_for_python(CLI::App *to, const char *option, const char *type, const char *meaning)
+      {
+        to->add_option_function<std::string>(
+            option, [](const std::string &) {}, meaning)
+          ->type_name(type);
+      }
+
       // To be called after add_resume().
       void add_overwrite(CLI::App *to)
       {
@@ -116,9 +124,7 @@ namespace diptych::coupling
         add_threads(run);
         add_resume(run, "an interrupted run, or other keys of the continuum or the comparison");
         add_overwrite(run);
-        const auto never = [](const std::string &) {}; // Python has the words with --seeds
-        run->add_option_function<std::string>("--seeds", never, "compute many samples: a list like 1-8 or 1,3,5-7")
-          ->type_name("LIST");
+        add_for_python(run, "--seeds", "LIST", "compute many samples: a list like 1-8 or 1,3,5-7");
         run->footer("Other options of many samples, such as --jobs and --levels: diptych run --seeds 1-8 --help");
         run->add_flag("--check", line.checks_only, "check the scene and print the resources; computes nothing");
         add_quiet(run);
@@ -180,6 +186,8 @@ namespace diptych::coupling
         CLI::App *compare = add(Command::compare, "compare the panels of a result folder again, or evaluate an ensemble again");
         compare->add_option("DIR", line.target, "result folder")->required()->type_name("");
         add_set(compare);
+        add_for_python(compare, "--measured", "DIR",
+                       "put the measurement in a folder of `diptych import field` beside the panels");
         add_quiet(compare);
       }
 

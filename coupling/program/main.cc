@@ -115,11 +115,15 @@ namespace
   // Commands of many runs and importers are written in Python, which alone parses their words.
   bool is_for_python(const std::vector<std::string> &words)
   {
-    const auto is_seeds = [](const std::string &word) { return word == "--seeds" || word.rfind("--seeds=", 0) == 0; };
+    const auto has = [&](const std::string &option) {
+      return std::any_of(words.begin(), words.end(),
+                         [&](const std::string &word) { return word == option || word.rfind(option + "=", 0) == 0; });
+    };
     const auto is_named = [&](const PythonCommand &command) { return words[0] == command.name; };
-    return !words.empty() && (std::any_of(std::begin(python_commands), std::end(python_commands), is_named) ||
-                              (words[0] == "run" && std::any_of(words.begin(), words.end(), is_seeds)) ||
-                              (words[0] == "compare" && std::any_of(words.begin(), words.end(), is_ensemble_folder)));
+    return !words.empty() &&
+           (std::any_of(std::begin(python_commands), std::end(python_commands), is_named) ||
+            (words[0] == "run" && has("--seeds")) ||
+            (words[0] == "compare" && (has("--measured") || std::any_of(words.begin(), words.end(), is_ensemble_folder))));
   }
 
   int execute_command(const CommandLine &line, char **argv)

@@ -4,7 +4,7 @@
 
 import pandas as pd
 
-PRINTED = ["grains", "continuum", "difference", "difference_low", "difference_high", "unit", "verdict"]
+PRINTED = ["measured", "grains", "continuum", "difference", "difference_low", "difference_high", "unit", "verdict"]
 
 
 class Summary(pd.DataFrame):
@@ -13,4 +13,4 @@ class Summary(pd.DataFrame):
     def __repr__(self) -> str:
         with pd.option_context("display.max_columns", None, "display.max_colwidth", None, "display.float_format",
                                "{:.4g}".format):
-            return repr(pd.DataFrame(self[PRINTED].dropna(axis=1, how="all")))
+            return repr(pd.DataFrame(self.reindex(columns=PRINTED).dropna(axis=1, how="all")))

@@ -5,7 +5,7 @@
 import argparse
 
 from ..importers import exports, readers
-from ..words import Parser, add_output, add_overwrite, add_quiet, number
+from ..words import Parser, add_output, add_overwrite, add_quiet, filled, number
 
 _LEVELS = "auto, or two accuracies: means of the grains in the limit of short steps"
 
@@ -51,8 +51,10 @@ def add_run(parser: Parser) -> None:
 
 
 def add_compare(parser: Parser) -> None:
-    parser.add_argument("target", metavar="DIR", help="folder of an ensemble")
+    parser.add_argument("target", metavar="DIR", help="folder of an ensemble, or with --measured of a run")
     _add_set(parser)
+    parser.add_argument("--measured", metavar="DIR", type=filled, default="",
+                        help="put the measurement in a folder of `diptych import field` beside the panels")
     add_quiet(parser)
 
 

@@ -13,7 +13,7 @@ from .runs.engine import Options
 
 # command: function that adds its arguments; module and function that do it
 COMMANDS = {"run": (arguments.add_run, "ensembles.ensemble", "run_ensemble"),
-            "compare": (arguments.add_compare, "ensembles.ensemble", "compare_again"),
+            "compare": (arguments.add_compare, "exchange.compare", "run_compare"),
             "study": (arguments.add_study, "studies.study", "run_study"),
             "plan": (arguments.add_plan, "plans.plan", "main_plan"),
             "calibrate": (arguments.add_calibrate, "calibration.calibration", "run_calibration"),

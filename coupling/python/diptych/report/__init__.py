@@ -15,6 +15,7 @@ DRAWINGS = {
     "study": ("study", "study.json, study_cost.json, study.h5"),
     "calibration": ("calibration", "calibration.json, calibration_cost.json"),
     "element": ("element", "element.json, element.csv"),
+    "measured": ("measured", "levelled.json, levelled.h5, provenance.json"),
     "homogenised": ("homogenised", "homogenised.json, fields_*.vtu, provenance.json"),
 }
 

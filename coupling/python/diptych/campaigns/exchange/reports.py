@@ -14,7 +14,8 @@ from ..runs.folders import Folder, draw
 _PAGES: dict[str, tuple[str, tuple[str, ...]]] = {
     "study": ("study_input.json", ()), "calibration": ("calibration_input.json", ()),
     "ensemble": ("ensemble.prm", ("ensemble",)), "homogenised": ("homogenised.json", ()),
-    "element": ("element.json", ()), "page": ("comparison.json", ("", "comparison"))}
+    "element": ("element.json", ()), "page": ("comparison.json", ("", "comparison")),
+    "measured": ("levelled.json", ())}
 
 
 def run_report(line: argparse.Namespace, options: Options) -> None:
@@ -25,7 +26,7 @@ def run_report(line: argparse.Namespace, options: Options) -> None:
     page = next((page for page, (name, _) in _PAGES.items() if os.path.exists(os.path.join(folder, name))), None)
     if page is None:
         raise SceneError(f"{folder} is not a result folder (no comparison.json), nor the folder of an ensemble, a "
-                         "study, a calibration, an element or homogenised grains")
+                         "study, a calibration, an element, homogenised grains or a measurement")
     if line.movie and page != "page":
         raise SceneError(f"report {folder} --movie: only a result folder with both panels has a movie")
     for part in _PAGES[page][1]:

@@ -53,6 +53,10 @@ def _both(result, columns, scale, label, caption):
         drawn.append(PANEL_NAMES[panel])
     if not drawn:
         return None, caption
+    measured = result.levelled.get("history", {})
+    if every in measured:
+        axes.plot(100 * np.array(measured["axial_strain"]), scale * np.array(measured[every], dtype=float), "D",
+                  color=THIRD, markersize=4, label="Measurement")
     axes.set(xlim=(0, None))
     if every == "stress_ratio":
         axes.set(ylim=(0, None))

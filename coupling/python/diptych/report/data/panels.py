@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 
 PANEL_NAMES = {"discrete": "Grains", "continuum": "Continuum"}
+PANE_NAMES = {**PANEL_NAMES, "measured": "Measurement"}
 DIFFUSE = "diffuse: no band"
 DIFFUSE_ZONE = "diffuse zone"
 # key of "theory" -> name and formula of the line

@@ -9,7 +9,7 @@ import h5py
 import numpy as np
 
 from ...errors import InputError
-from ...files import read_json, read_provenance
+from ...files import LEVELLED, levelled_from, read_json, read_provenance
 from .files import open_arrays, read_csv, read_text, require
 from .numbers import Description, Descriptions, LoadingVariable, Units, loading_variable_of
 from .panels import PANEL_NAMES
@@ -41,6 +41,7 @@ class Increment:
     centre: np.ndarray = None
     displacement_unit: float = None
     velocity_unit: float = None
+    levelled: dict = field(default_factory=dict)  # window of levelled.json
 
     def panel(self, name):
         """A group of the record, also "difference", or {}."""
@@ -88,6 +89,7 @@ class Result:
     arrays: dict
     scene_text: str   # the resolved scene, or ""
     imported: dict    # import.json of an imported sample, or {}
+    levelled: dict    # levelled.json of a comparison with a measurement, or {}
 
     @property
     def loading_variable(self) -> LoadingVariable:
@@ -142,8 +144,9 @@ def load(folder, next_folder):
         for panel, columns in histories.items():
             columns.update(_arrays(file[f"histories/{panel}"], units, described))
         platens = {panel: _arrays(group, units, described) for panel, group in file.get("platens", {}).items()}
-    imported = os.path.join(folder, "import.json")
-    return Result(comparison=comparison, provenance=read_provenance(path_of("provenance.json")), histories=histories,
+    imported, provenance = os.path.join(folder, "import.json"), read_provenance(path_of("provenance.json"))
+    return Result(comparison=comparison, provenance=provenance, histories=histories,
+                  levelled=_levelled(folder, levelled_from(provenance), increments, (units, described)),
                   platens=platens, increments=increments, units=units, numbers=numbers, arrays=described,
                   scene_text=read_text(path_of("scene.prm")),
                   imported=read_json(imported) if os.path.exists(imported) else {})
@@ -170,6 +173,24 @@ def _increments(comparison, file, units, described):
         if same:
             increment.state, increment.end_record = same[0].arrays, same[0].record
     return increments
+
+
+def _levelled(folder, made_from, increments, shown):
+    """levelled.json, whose arrays become "points/..." of its windows; {} without one of these snapshots. shown: units,
+    and the descriptions of the arrays."""
+    path = os.path.join(folder, LEVELLED)
+    record = read_json(path, 1) if os.path.exists(path) else {}
+    if record.get("made_from") != made_from:
+        return {}
+    with open_arrays(os.path.join(folder, "levelled.h5")) as file:
+        for window, i in [(window, i) for window in record["windows"] for i in increments if i.kind == "window"
+                          and abs(i.start - window["from"]) + abs(i.end - window["to"]) < SAME]:
+            arrays, i.levelled = _arrays(file[window["key"]], shown[0], shown[1]), window
+            i.arrays |= {f"points/{name}": values for name, values in arrays.items()}
+            for name in [name for name in arrays if name.endswith("_displacement_increment") and i.displacement_unit]:
+                size = np.linalg.norm(arrays[name], axis=1) / i.displacement_unit
+                i.arrays["points/" + name.replace("displacement_increment", "displacement_over_platen")] = size
+    return record
 
 
 def _group(file, name, end):

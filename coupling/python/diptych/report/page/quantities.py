@@ -10,8 +10,9 @@ import numpy as np
 from ..data.panels import PANEL_NAMES
 from ..tables.wording import suffix, typeset
 
-# the grains are shown as discs, or as means on the cells of the mesh or of a regular grid
-PLACES = ("discs", "cells", "grid")
+# The grains are shown as discs, or as means on the cells of the mesh or of a regular grid. At the points of a
+# measurement all panels are levelled.
+PLACES = ("discs", "cells", "grid", "points")
 BOTH = "{panel}_"                    # prefix of a dataset on cells that both panels may have
 DEGREES = 180 / np.pi
 MARGIN = 2.0                         # d, around the sample
@@ -47,6 +48,8 @@ class Quantity:
         """Path of the dataset in the group of an increment."""
         if place == "discs" and panel == "discrete":
             return "discrete/" + self.name
+        if place == "points" or panel == "measured":
+            return f"points/{panel}_{self.name}"
         name = self.continuum or self.name if panel == "continuum" else self.name
         return f"{'grid' if place == 'grid' else 'cells'}/{self.prefix.format(panel=panel)}{name}"
 

@@ -3,12 +3,13 @@
 
 from types import SimpleNamespace
 
-from ..charts import chains, circular, histories, platens, probes, profiles, resolution, strips, trends
+from ..charts import chains, circular, histories, measured, platens, probes, profiles, resolution, strips, trends
 from ..charts.style import Pair
 from ..data.result import load
 from . import viewer
 from .writing import write
 from ..tables import accuracy, bands, stage, summary, wording
+from ..tables import measured as measured_tables
 
 
 def end_of(increments):
@@ -37,9 +38,15 @@ def _part(name, title, increments, end, content, *, maps=""):
 def parts(result):
     """The parts in the order of the page. A new part is an entry here and its explanation in templates/result.html."""
     every, stages, end = result.increments, result.stages, end_of(result.increments)
+    beside = [_part("measured", "Beside the measurement", found, end, lambda i: {
+        "pair": Pair(measured.profile(i.levelled), measured.thickness(i.levelled)),
+        "tables": [measured_tables.bands(i.levelled), measured_tables.thickness(i.levelled)],
+        "notes": measured_tables.notes(result.levelled, i.levelled)})
+              for found in [[i for i in every if i.levelled]] if found]
     return [
         _part("maps", "Grains and continuum at the same instant", every, end, lambda i: {
             "tables": [bands.bands(result, i)], "notes": bands.notes(result, i)}, maps="quantity"),
+        *beside,
         _part("difference", "Difference on the same cells", every, end, lambda i: {
             "tables": [stage.stress_difference(result, i), stage.dissipation(result, i)],
             "notes": paragraph(i.panel("difference").get("stress_verdict"))}, maps="difference"),
@@ -75,7 +82,8 @@ def draw(folder, next_folder=None):
           trends=trends.figures(result), resolution=resolution.figures(study),
           resolution_verdict=paragraph(study.get("verdict")), stages=bands.stages(result),
           mapping=stage.mapping(result), accuracy=accuracy.table(result), checks=accuracy.checks(result),
-          first=summary.first(result.comparison),
+          first=summary.first(result.comparison), levelled=result.levelled,
+          beside=measured_tables.summary(result.levelled) if result.levelled else None,
           discrete_summary=summary.table(result, "discrete_summary"),
           continuum_summary=summary.table(result, "continuum_summary"),
           coarse=result.part("continuum_coarse"), cost=accuracy.cost(result), provenance=accuracy.provenance(result),

@@ -6,11 +6,12 @@ paper. Glyphs are entries of a Store; {} or None: nothing is stored."""
 import base64
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from ..charts import colour_maps
 from ..charts.style import NO_VALUE, PANEL_COLOURS
 from ..data.numbers import plain
-from ..data.panels import PANEL_NAMES
+from ..data.panels import PANE_NAMES, PANEL_NAMES
 from .quantities import PLACES, QUANTITIES, box, corners, limits
 
 SPACING = 2.5       # d, of the grid with one arrow per square, in both panels
@@ -28,7 +29,8 @@ def data(result):
     increments = [{**_frame(i, store), "values": {q.key: _values(q, i, result, rules, store) for q in used},
                    "arrows": arrows(i, store), "crosses": crosses(i, store),
                    "forces": forces(i, store), "probes": probes(i)} for i in drawn]
-    return {"box": short(box(drawn)), "panels": PANEL_NAMES, "colours": PANEL_COLOURS, "no_value": NO_VALUE,
+    return {"box": short(box(drawn)), "panels": PANE_NAMES if result.levelled else PANEL_NAMES,
+            "colours": PANEL_COLOURS, "no_value": NO_VALUE,
             "maps": {name: colour_maps.table(name) for name in sorted({q.colour_map for q in used} | {"RdBu_r"})},
             "quantities": [_quantity(q, places[q.key], result) for q in used],
             "cross_unit": cross_unit(drawn), "force_unit": force_unit(drawn),
@@ -45,17 +47,31 @@ def _quantity(quantity, places, result):
 def _frame(increment, store):
     """Places of grains, cells, outline and bands."""
     position, state = increment.arrays["discrete/position"], increment.state
+    bands = {panel: increment.bands(panel) for panel in PANEL_NAMES}
+    bands |= {"measured": pane["bands"] for panel, pane in increment.levelled.get("levelled", {}).items()
+              if panel == "measured"}
     return {"key": increment.key, "kind": increment.kind, "label": increment.label, "title": increment.title,
             "end": f"{increment.end:.9g}",
             "discs": {"x": store.add(position[:, 0]), "y": store.add(position[:, 1]),
                       "r": store.add(increment.arrays["discrete/radius"])},
+            "points": _points(increment, store),
             "cells": store.add(corners(increment, "cells")), "grid": store.add(corners(increment, "grid")),
             "centre": short(increment.centre),
             "outline": [short(state[side]) for side in ("outline/left", "outline/right") if len(state.get(side, ()))],
             # a diffuse zone has no angle, so the map draws no line
             "bands": {panel: [[None if key == "angle_deg" and band.get("diffuse") else short(plain(band.get(key)))
                                for key in ("angle_deg", "offset_d", "width_10_90_d", "jump")]
-                              for band in increment.bands(panel)] for panel in PANEL_NAMES}}
+                              for band in found] for panel, found in bands.items()}}
+
+
+def _points(increment, store):
+    """The points of a measurement as discs that leave no gap; None: nothing was measured."""
+    position = increment.arrays.get("points/position")
+    if position is None:
+        return None
+    x, y = position.T
+    spacing = np.median(cKDTree(position).query(position, k=2)[0][:, 1])
+    return {"x": store.add(x), "y": store.add(y), "r": store.add(np.full(len(x), 0.7 * spacing))}
 
 
 def _values(quantity, increment, result, rules, store):
@@ -64,7 +80,7 @@ def _values(quantity, increment, result, rules, store):
     for place in PLACES:
         if not rules[quantity.key, place]:
             continue
-        values = {panel: quantity.values(increment, result, place, panel) for panel in PANEL_NAMES}
+        values = {panel: quantity.values(increment, result, place, panel) for panel in PANE_NAMES}
         if any(v is not None for v in values.values()):
             found[place] = {"limits": rules[quantity.key, place](increment),
                             **{panel: store.add(v) for panel, v in values.items()}}

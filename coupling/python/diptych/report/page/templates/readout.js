@@ -28,7 +28,7 @@ function cellAt(id, x, y) {
 function valueAt(increment, panel, x, y) {
   const { numbers, discs, cells } = shown(increment, panel, chosen.quantity, chosen.place);
   if (!numbers) return "–";
-  const k = discs ? discAt(increment.discs, x, y) : cellAt(cells, x, y);
+  const k = discs ? discAt(discs, x, y) : cellAt(cells, x, y);
   if (k < 0 || !(numbers[k] === numbers[k])) return "–";
   return numeral(numbers[k], Math.max(0, 2 - Math.floor(Math.log10(Math.abs(numbers[k]) || 1))));  // three digits
 }
@@ -47,8 +47,8 @@ document.addEventListener("pointermove", (event) => {
   const scale = Math.max(0.1, (frame.width - 44) / (x1 - x0));
   const x = x0 + (event.clientX - frame.left - 38) / scale, y = y1 - (event.clientY - frame.top - 6) / scale;
   hover.part.querySelector("output.readout").textContent =
-    "x " + numeral(x, 1) + " d, y " + numeral(y, 1) + " d: grains " +
-    valueAt(increment, "discrete", x, y) + ", continuum " + valueAt(increment, "continuum", x, y);
+    "x " + numeral(x, 1) + " d, y " + numeral(y, 1) + " d: " +
+    Object.entries(data.panels).map(([panel, name]) => name.toLowerCase() + " " + valueAt(increment, panel, x, y)).join(", ");
   for (const hair of all(".hair", hover.part)) {
     hair.hidden = false;
     hair.style.left = event.clientX - frame.left + "px";
@@ -62,9 +62,9 @@ function fillSheet() {
   sheet.replaceChildren(...data.increments.map((increment) => {
     const cell = document.createElement("div"), words = document.createElement("p");
     cell.className = "thumbnail";
-    words.textContent = increment.title + ": grains | continuum";
+    words.textContent = increment.title + ": " + Object.values(data.panels).join(" | ").toLowerCase();
     words.className = "caption";
-    for (const panel of ["discrete", "continuum"]) {
+    for (const panel of Object.keys(data.panels)) {
       const frame = document.createElement("span"), canvas = document.createElement("canvas");
       frame.style.width = "160px";
       canvas.dataset.panel = panel;

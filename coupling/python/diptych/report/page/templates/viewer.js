@@ -10,24 +10,25 @@ let pixels = Math.min(3, Math.max(2, window.devicePixelRatio || 1));
 function shown(increment, panel, quantity, place) {
   const stored = (increment.values[quantity.key] || {})[place];
   const cells = place === "grid" ? increment.grid : increment.cells;
-  return { limits: stored ? stored.limits : null, numbers: stored ? values(stored[panel]) : null,
-           discs: place === "discs" && panel === "discrete", cells };
+  const discs = place === "points" || panel === "measured" ? increment.points
+              : place === "discs" && panel === "discrete" ? increment.discs : null;
+  return { limits: stored ? stored.limits : null, numbers: stored ? values(stored[panel]) : null, discs, cells };
 }
 
 function bandText(increment, panel) {
-  const bands = increment.bands[panel];
+  const bands = increment.bands[panel] || [];
   return bands.map(([angle]) => angle === null ? "diffuse zone" : "band at " + numeral(angle, 0) + " degrees").join("; ") || "no band detected";
 }
 
 function drawQuantity(view, increment, panel, canvas) {
   const { limits, numbers, discs, cells } = shown(increment, panel, chosen.quantity, chosen.place);
   if (!numbers) return "";
-  if (discs) drawDiscs(view, increment.discs, numbers, chosen.quantity.map, limits);
+  if (discs) drawDiscs(view, discs, numbers, chosen.quantity.map, limits);
   else (chosen.place === "discs" ? drawSmooth : drawCells)(view, cells, numbers, chosen.quantity.map, limits);
   drawOutline(view, increment);
   drawBands(view, increment, panel, true);
   Object.assign(canvas.dataset, { quantity: chosen.quantity.key, low: limits[0], high: limits[1] });
-  const what = numbers.length + (discs ? " grains as discs" : " cells");
+  const what = numbers.length + (!discs ? " cells" : discs === increment.points ? " points" : " grains as discs");
   return chosen.quantity.label + ", " + what + "; " + bandText(increment, panel);
 }
 
@@ -82,7 +83,7 @@ function drawMap(canvas, drawing, increment) {
   drawAxes(view);
   canvas.dataset.key = increment.key;
   canvas.dataset.drawn = words ? "yes" : "no";
-  const reason = increment.kind === "window" ? "only stages store this; choose a stage"
+  const reason = panel === "measured" ? "not measured" : increment.kind === "window" ? "only stages store this; choose a stage"
                : panel === "continuum" ? "not defined for the continuum" : "not stored";
   canvas.setAttribute("aria-label",
                       (data.panels[panel] || canvas.dataset.title) + ", " + increment.title + ": " + (words || reason));
@@ -98,7 +99,7 @@ function drawBarOf(bar, increment) {
     if (!bar.hidden) drawBar(bar, width, pixels, found.quantity, found.limits, beyond([found.numbers], found.limits));
     return;
   }
-  const both = ["discrete", "continuum"].map((panel) => shown(increment, panel, chosen.quantity, chosen.place));
+  const both = Object.keys(data.panels).map((panel) => shown(increment, panel, chosen.quantity, chosen.place));
   const limits = both[0].limits;
   bar.hidden = !limits;
   if (limits) drawBar(bar, width, pixels, chosen.quantity, limits, beyond(both.map((b) => b.numbers), limits));
@@ -166,7 +167,8 @@ function chooseQuantity(key) {
 }
 
 function offerPlaces() {
-  const names = { discs: "grains as discs", cells: "both on the cells of the mesh", grid: "both on a regular grid" };
+  const names = { discs: "grains as discs", cells: "both on the cells of the mesh", grid: "both on a regular grid",
+                  points: "all at the measured points, levelled" };
   const place = document.getElementById("place");
   place.replaceChildren(
     ...chosen.quantity.places.map((key) => new Option(names[key], key, false, key === chosen.place)));

@@ -1,0 +1,42 @@
+# diptych: the command `compare`, for ensembles and measurements
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The program itself compares the panels of one run."""
+
+import argparse
+import os
+import shlex
+import resource
+import time
+
+from ... import _diptych
+from ...errors import SceneError
+from ..ensembles.ensemble import compare_again
+from ..measured.folder import compare_folder, text_of
+from ..runs.engine import Options, say
+from ..runs.folders import draw, Folder
+
+
+def run_compare(line: argparse.Namespace, options: Options) -> None:
+    """diptych compare ENSEMBLE, or diptych compare DIR --measured MEASUREMENT."""
+    if os.path.exists(os.path.join(line.target, "ensemble.prm")):
+        compare_again(line, options)
+        return
+    folder, prm = line.target, os.path.join(line.target, "scene.prm")
+    if line.set or line.set_file:
+        raise SceneError("compare --measured: --set would have no effect; change the comparison first by diptych "
+                         f"compare {folder} --set KEY=VALUE")
+    if not os.path.exists(prm):
+        raise SceneError(f"{folder} is not a result folder; diptych run SCENE makes one")
+    began = time.perf_counter(), time.process_time()
+    with Folder(folder):
+        scene = _diptych.read_computed_scene(prm, [], False)
+        record = compare_folder(folder, scene, line.measured)
+        cost = ("measurement", time.perf_counter() - began[0], time.process_time() - began[1],
+                resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
+        keys = scene.dict()
+        _diptych.record_phase(folder, (_diptych.recorded_scene(folder), [keys["sample"]["seed"]],
+                                       shlex.join(["diptych", *options.words])), cost)
+        say(options, text_of(record))
+        if keys["output"]["report"]:
+            both = os.path.exists(os.path.join(folder, "comparison.json"))
+            draw(options, folder, "page" if both else "measured")
