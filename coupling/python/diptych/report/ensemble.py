@@ -36,7 +36,8 @@ def draw(folder):
               "Volumetric strain 1 − V/V₀; dilation is negative." + thin)]
     across = profiles.of_means(results.profile, "means over the samples") if results.profile else None
     write(folder, "ensemble.html", record=results.record, first=summary.first(results.record), verdicts=rows,
-          validation=tables.validation_table(results), differences=differences(labelled), dots=marks, curves=lines,
+          validation=tables.validation_table(results), measured=tables.measured_table(results),
+          differences=differences(labelled), dots=marks, curves=lines,
           across=across, bands=tables.band_table(results), members=tables.members(results),
           quantities=tables.quantity_table(results), provenance=tables.provenance(results),
           checks=tables.checks(results.record), regularised=_regularised(results.profile),

@@ -21,6 +21,8 @@ from ...errors import NotConverged, SceneError, Stopped
 from ...files import key_of_band, member_folders, number_name, read_ensemble, read_json
 from . import summary as summaries
 from . import validation
+from ..measured.folder import compare_folder
+from ..measured.validation import rows_of
 from ..runs.engine import Options, Outcome, say
 from .profiles import profile_arrays
 from ..runs.folders import Folder, Runs, SceneRun, draw, run_on, write_arrays, write_json, write_text
@@ -249,6 +251,17 @@ def run_ensemble(line: argparse.Namespace, options: Options) -> None:
         raise NotConverged(lost + kept)
 
 
+def _add_measured(scene: Any, record: dict[str, Any], source: str) -> None:
+    """Compares every finished member with the measurement in the folder `source`."""
+    found = []
+    for seed, folder in _done(scene, record).items():
+        with Folder(folder):
+            found.append(compare_folder(folder, scene.in_folder(folder, scene.name, seed), source))
+    if found:
+        record["measured"] = {"folder": os.path.abspath(source), "rows": rows_of(
+            found, record["validation"], record["margins"], record["folded"])}
+
+
 def compare_again(line: argparse.Namespace, options: Options) -> None:
     """diptych compare DIR of an ensemble: statistics and verdicts from the members' files; margins may be changed."""
     directory, settings = line.target, settings_of(line.set, line.set_file)
@@ -267,6 +280,8 @@ def compare_again(line: argparse.Namespace, options: Options) -> None:
         record = _complete(scene, earlier, earlier.get("continuum_runs", validation.NO_RUNS))
         if "levels" in earlier:
             add_summary(record, earlier["levels"])
+        if source := line.measured or earlier.get("measured", {}).get("folder"):
+            _add_measured(scene, record, source)
         _write(scene, record, options, ("statistics", begin))
         if scene.dict()["output"]["report"]:
             draw(options, directory, "ensemble")

@@ -6,7 +6,7 @@ import os
 from ..._diptych import key_quantities
 from ...files import key_of_band, member_folders, number_name
 from ..data.panels import PANEL_NAMES
-from .wording import DECIMALS, UNBROKEN, ending, fixed, number, rounded, shown_unit
+from .wording import DECIMALS, UNBROKEN, ending, fixed, number, rounded, shown_unit, suffix
 
 NAMES = {one["key"]: one["name"] for one in key_quantities()}
 MOST_CURVES = 200  # members with a drawn curve
@@ -74,6 +74,20 @@ def validation_table(results):
     return {"head": ["", ("S", "continuum"), ("D", "grains"), ("E", "S − D"), ("u_num", "grains’ step"),
                      ("u_num", "mesh"), ("u_num", "load step"), ("u_input", "parameters"), ("u_D", "samples"),
                      ("u_val", "together"), "|E| / u_val", "verdict"], "rows": rows}
+
+
+def measured_table(results):
+    """Errors of both panels against a measurement; None without one."""
+    rows = []
+    for one in results.record.get("measured", {}).get("rows", []):
+        unit = suffix(one["unit"])
+        cells = [_digits(one[name], 1, 3) for name in ("S", "D")] + [_digits(one["E"]["value"], 1, 3)]
+        cells += [_digits(one[name], 1, 2) for name in ("u_num", "u_input", "u_S", "u_D", "u_val")]
+        rows.append([f"{one['quantity']}{f' [{unit.strip()}]' if unit else ''}, {PANEL_NAMES[one['panel']].lower()}",
+                     *cells, one["verdict"]])
+    return {"head": ["", ("S", "panel"), ("D", "measured"), ("E", "S − D"), ("u_num", "methods"),
+                     ("u_input", "parameters"), ("u_S", "samples"), ("u_D", "measurement"), ("u_val", "together"),
+                     "verdict"], "rows": rows} if rows else None
 
 
 def _digits(value, factor, digits, before=""):

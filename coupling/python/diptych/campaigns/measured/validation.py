@@ -1,0 +1,84 @@
+# diptych: the panels of an ensemble against a measurement, as in ASME V&V 20
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""D is the measurement and S the mean of a panel over the samples. The parts of u_num and u_input are those of the
+validation of the panels; u_D is the uncertainty of the measurement."""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ...entries import describe
+from ...files import key_of_band, window_name
+from ..runs.key_numbers import OF_PANEL, QUANTITIES
+from ..runs.statistics import Difference, line_statistics, line_turn, statistics
+from .comparison import MEASURED, PANELS
+
+# key of a row of levelled.json -> key of the compared quantity
+_KEYS = {"volumetric_strain": "final_volumetric_strain", "angle_deg": "band_angle_deg",
+         "width_10_90_d": "band_width_10_90_d"}
+# parts of a row of `validation` that belong to a panel
+_PARTS = {"discrete": ("grains_step",), "continuum": ("mesh", "load_step")}
+
+describe("ensemble.json", """\
+measured/: with --measured only
+    folder (text): folder of the measurement
+    rows/: every panel against the measurement
+        quantity (text): name of the quantity
+        unit (text): unit of the numbers
+        panel (text): discrete or continuum
+        n: number of samples with a value
+        S [as in unit]: mean of the panel over the samples
+        D [as in unit]: measured value
+        E (interval) [as in unit]: error S - D; the interval holds all known parts of u_val
+        u_num [as in unit]: uncertainty of the numerical methods; null if unknown
+        u_input [as in unit]: uncertainty of the calibrated parameters; null if unknown
+        u_S [as in unit]: standard error of the mean over the samples; null for less than two
+        u_D [as in unit]: standard uncertainty of the measurement; null if unknown
+        u_val [as in unit]: root of the sum of the squares of the known parts
+        margin [as in unit]: largest error that counts as equivalent
+        verdict (text): equivalent, different or cannot tell; not in both panels without a value
+""")
+
+
+def rows_of(records: Sequence[Mapping[str, Any]], validation: Sequence[Mapping[str, Any]], margins: Mapping[str, float],
+            folded: bool) -> list[dict[str, Any]]:
+    """The rows of ensemble.json. records: levelled.json of every member. validation: rows of the panels. folded: mirror
+    images of a band count as one."""
+    last = records[0]["windows"][-1]
+    window, rows, of_panels = window_name(last["from"], last["to"]), [], {row["quantity"]: row for row in validation}
+    for k, first in enumerate(records[0]["summary"]):
+        key = _KEYS.get(first["key"], first["key"])
+        parts = of_panels.get(key if key in OF_PANEL else f"{window} band {key_of_band(key)}", {})
+        values = {pane: np.array([record["summary"][k][pane] for record in records], float)
+                  for pane in (MEASURED, *PANELS)}  # (members, 3): value, low, high
+        if folded and first["key"] == "angle_deg":
+            values = {pane: np.where(one[:, :1] < 0, -one[:, [0, 2, 1]], one) for pane, one in values.items()}
+        rows += [{"quantity": first["quantity"], "unit": first["unit"], "panel": panel,
+                  **_row(QUANTITIES[key], values[panel][:, 0], values[MEASURED], _uncertainties(parts, panel), margins)}
+                 for panel in PANELS]
+    return rows
+
+
+def _uncertainties(parts: Mapping[str, Any], panel: str) -> dict[str, float]:
+    known = [u for name in _PARTS[panel] if math.isfinite(u := parts.get("parts", {}).get(name, math.nan))]
+    return {"u_num": math.hypot(*known) if known else math.nan,
+            "u_input": parts.get("u_input", math.nan) if panel == "continuum" else math.nan}
+
+
+def _row(quantity: Mapping[str, Any], panel: np.ndarray, measured: np.ndarray, parts: Mapping[str, float],
+         margins: Mapping[str, float]) -> dict[str, Any]:
+    is_line = quantity["difference"] == "line"
+    average = line_statistics if is_line else statistics
+    data, found = average(measured[:, 0]).mean, average(panel)
+    halves = 0.5 * (measured[:, 2] - measured[:, 1])
+    u_d = float(np.mean(halves[np.isfinite(halves)])) / 1.96 if np.isfinite(halves).any() else math.nan
+    error = average(line_turn(panel, data) if is_line else panel - data)
+    more = [(u, math.inf) for u in (u_d, *parts.values()) if math.isfinite(u)]
+    total = Difference(error.n, error.interval(), error.interval(0.90)).with_errors(more)
+    margin = margins[quantity["margin"]] * (abs(data) if quantity["difference"] == "relative" else 1)
+    u_s = found.deviation / math.sqrt(found.n) if found.n > 1 else math.nan
+    known = [u for u in (u_s, u_d, *parts.values()) if math.isfinite(u)]
+    return {"n": error.n, "S": found.mean, "D": data, "E": total.difference, **parts, "u_S": u_s, "u_D": u_d,
+            "u_val": math.hypot(*known) if known else math.nan, "margin": margin, "verdict": total.verdict(margin)}
