@@ -1,7 +1,8 @@
 # diptych: files of result folders
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Reads JSON, and replaces a file by a complete one."""
+"""Reads JSON, replaces a file by a complete one, and takes checksums."""
 
+import hashlib
 import json
 import os
 from collections.abc import Iterator
@@ -26,6 +27,12 @@ def part_of(path: str) -> Iterator[str]:
         if os.path.isfile(part):
             os.remove(part)
         raise
+
+
+def sha256_of(path: str) -> str:
+    """Checksum of a file."""
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def read_json(path: str, format: int | None = None) -> Any:

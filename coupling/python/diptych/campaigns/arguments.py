@@ -159,5 +159,9 @@ def add_export(parser: Parser) -> None:
 
 def add_report(parser: Parser) -> None:
     parser.add_argument("target", metavar="DIR", help="result folder")
-    parser.add_argument("--movie", action="store_true", help="also draw both panels step by step: movie.gif")
+    either = parser.add_mutually_exclusive_group()
+    either.add_argument("--movie", action="store_true", help="also draw both panels step by step: movie.gif")
+    either.add_argument("--crate", metavar="FILE.zip", default="",
+                        help="draw nothing; store the folder as a zip file with ro-crate-metadata.json (RO-Crate), "
+                             "which repositories of research data read")
     add_quiet(parser)

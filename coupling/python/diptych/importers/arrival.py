@@ -11,6 +11,7 @@ import numpy as np
 from .. import _diptych
 from ..entries import describe
 from ..errors import SceneError
+from ..files import sha256_of
 from .checks import check_arrival
 from .frames import Frame, Options, completed, refused
 from .periods import is_cell
@@ -19,6 +20,7 @@ from .touching import Instant, take_contacts, total
 describe("import.json", """\
 format (text): format of the files
 files (list): files that were read
+sha256 (list): their SHA-256 checksums
 thickness [length]: thickness by which forces and masses were divided
 mean_diameter [length]: mean diameter d of the grains, or the value of --mean-diameter
 density [mass/length^2]: mass of the grains / their area, per unit thickness; null: unknown
@@ -71,7 +73,7 @@ class Arrival:
     def record(self) -> dict[str, Any]:
         """The content of import.json; nan: unknown."""
         return {name: value for name, value in vars(self).items() if name not in ("id", "checks")} | {
-            "frames": self.checks}
+            "sha256": [sha256_of(file) for file in self.files], "frames": self.checks}
 
 
 def _sorted_grains(frame: Frame) -> dict[str, np.ndarray]:
