@@ -17,6 +17,7 @@ from .operators import find_bands, increment
 
 ALONG = 5  # places along a side of a subset
 NEAR = 0.5  # mean diameters: a place farther from every grain is outside of the sample
+KEPT = 0.9  # of the draws must have a band, else an interval is unknown, as in the bootstrap
 DRAWS = 20  # of the measurement's noise; their standard deviation is then known to a sixth
 # 10-90 % width over subset of a jump that a square averages, at 0 and at 45 degrees: 0.80 and 0.78
 OF_A_JUMP = 0.8
@@ -96,6 +97,7 @@ def _widened(band: Band, draws: Sequence[Sequence[Band]]) -> Band:
     same = [min(found, key=lambda one: abs(one.angle_deg - band.angle_deg)) for found in draws if found]
     interval = dict(band.interval)
     for name, (value, low, high) in band.interval.items():
-        half = 1.96 * np.std([getattr(one, name) for one in same], ddof=1)
+        known = len(same) >= KEPT * DRAWS
+        half = 1.96 * np.std([getattr(one, name) for one in same], ddof=1) if known else np.nan
         interval[name] = Interval(value, value - np.hypot(value - low, half), value + np.hypot(high - value, half))
     return replace(band, interval=interval)

@@ -7,7 +7,7 @@ import math
 from typing import Any
 
 import numpy as np
-from scipy.optimize import curve_fit
+from scipy.optimize import least_squares
 from scipy.special import erf
 
 from .arrays import Array, Band
@@ -66,12 +66,9 @@ def thicknesses(points: Array, displacement: Array, band: Band, breadth: float) 
     found |= {"half_height": _crossing(middle, strain, 0.5), "threshold": _crossing(middle, strain, THRESHOLD),
               "tangent": jump / float(strain.max())}
 
-    def profile(x: Array, half: float, place: float, deviation: float, level: float) -> Array:
-        return np.asarray(level + half * erf((x - place) / (math.sqrt(2) * deviation)))
+    def misfit(p: Array) -> Array:  # half jump, place, standard deviation, level
+        return np.asarray(p[3] + p[0] * erf((x - p[1]) / (math.sqrt(2) * p[2])) - u)
 
-    try:
-        best, _ = curve_fit(profile, x, u, (0.5 * (u[-1] - u[0]), 0, 0.4 * band.width_10_90, 0), maxfev=2000)
-        found["error_function"] = float(4 * abs(best[2]))
-    except RuntimeError:  # no convergence: unknown
-        pass
+    best = least_squares(misfit, (0.5 * (u[-1] - u[0]), 0, 0.4 * band.width_10_90, 0))
+    found["error_function"] = float(4 * abs(best.x[2])) if best.success else math.nan
     return found
