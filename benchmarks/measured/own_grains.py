@@ -1,7 +1,8 @@
 # diptych: a measurement made of our own grains
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Samples the grains of a result folder as an image correlation would: means over square subsets on a grid, with noise.
-Writes FIELD/frame_K.csv, the displacements since the first stage, and FIELD/boundary.csv.
+Writes FIELD/frame_K.csv, the displacements since the first stage, and FIELD/boundary.csv, whose t/s is that of the
+forces on the platens and the pressure on the sides.
 
     PYTHONPATH=build/release/python python3 benchmarks/measured/own_grains.py RUN FIELD
 """
@@ -12,6 +13,7 @@ import numpy as np
 import pandas as pd
 
 import diptych
+from diptych.campaigns.runs.histories import nominal_stress_ratio
 from diptych.levelling import field_of, levelled
 
 SUBSET, SPACING, NOISE = 2.5, 1.5, 0.01  # [d]: a rod of 10 pixels, subsets of 25, points every 15, noise of 0.1 pixel
@@ -35,8 +37,8 @@ def main(run, folder):
                               "sigma": NOISE * d})
         table.dropna().to_csv(os.path.join(folder, f"frame_{k:02d}.csv"), index=False, float_format="%.6g")
     history = diptych.load(run).discrete.history.frame()
-    at = [0, *(int(np.argmin(abs(history["progress"] - s.progress))) for s in snapshots[1:])]
-    history.iloc[at][["axial_strain", "stress_ratio", "volumetric_strain"]].to_csv(
+    history["stress_ratio"] = nominal_stress_ratio(diptych.scenes.read(os.path.join(run, "scene.prm")), history)
+    history.iloc[::10][["axial_strain", "stress_ratio", "volumetric_strain"]].to_csv(
         os.path.join(folder, "boundary.csv"), index=False, float_format="%.6g")
     print(f"{folder}: {len(points)} points, {len(snapshots) - 1} frames")
 
