@@ -12,7 +12,6 @@ from typing import Any
 
 import h5py
 import numpy as np
-from scipy.interpolate import LinearNDInterpolator
 
 from .arrays import Array, Record
 from .errors import InputError, SceneError
@@ -33,11 +32,13 @@ class FieldFrame:
     """One displacement field of a file, as a reader returns it.
 
     name          of the frame: that of its file, or its number in the file
-    points        (n, 2), y upwards: places in the reference image
-    displacement  (n, 2) from the reference to this frame, y upwards; NaN where the correlation failed
+    points        (n, 2): places in the reference image
+    displacement  (n, 2) from the reference to this frame; NaN where the correlation failed
     deviation     (n) standard deviation of a component of the displacement; None: not in the file
     unit          of all lengths: "px" or a unit of length; "": not in the file
     path          of the file, for messages
+    y_down        True: y points down, as the rows of an image; read_fields() turns it
+    subset        side of the correlated squares, in the unit; None: not in the file
     """
 
     name: str
@@ -47,6 +48,8 @@ class FieldFrame:
     deviation: Array | None = None
     unit: str = ""
     path: str = ""
+    y_down: bool = False
+    subset: float | None = None
 
 
 @dataclass(kw_only=True)
@@ -119,6 +122,8 @@ def tracked(frames: Sequence[FieldFrame], to_first: bool) -> tuple[Array, Array]
 
     Raises SceneError if the frames have other points although they should not.
     """
+    from scipy.interpolate import LinearNDInterpolator  # loads slowly
+
     start = frames[0].points
     position, variance = [start], [np.zeros(len(start))]
     for frame in frames:

@@ -24,11 +24,11 @@ class _Once(argparse.Action):
 
 
 class Parser(argparse.ArgumentParser):
-    """The words of one command."""
+    """The words of one command. about: its description; an epilog replaces its example."""
 
-    def __init__(self, name: str) -> None:
+    def __init__(self, name: str, about: str = "compute many samples, and the statistics of all") -> None:
         super().__init__(prog="diptych " + name, allow_abbrev=False, add_help=False,
-                         description=_diptych.commands().get(name, "compute many samples, and the statistics of all"))
+                         description=_diptych.commands().get(name, about))
         self.name = name
         self.register("action", None, _Once)
         self._negative_number_matcher = re.compile(r"-[\d.]")  # --gravity -9.81,0
@@ -61,7 +61,7 @@ class Parser(argparse.ArgumentParser):
         places = [one for one in self._actions if not one.option_strings]
         usage = " ".join([self.prog, "[OPTIONS]", *(str(one.metavar).split()[0] for one in places)])
         blocks = [_block(title, rows) for title, rows in (("Positionals", places), ("Options", named)) if rows]
-        return "\n".join([f"{self.description}\nUsage: {usage}\n", *blocks, _diptych.example_of(self.name) + "\n"])
+        return "\n".join([f"{self.description}\nUsage: {usage}\n", *blocks, (self.epilog or _diptych.example_of(self.name)) + "\n"])
 
 
 def _block(title: str, actions: Sequence[argparse.Action]) -> str:

@@ -3,10 +3,14 @@
 """A function adds the arguments of a command. It loads nothing that only a run needs, so that help comes at once."""
 
 import argparse
+import functools
 
+from .. import _diptych
 from ..importers import exports, readers
+from ..importers.fields import readers as fields
 from ..words import Parser, add_output, add_overwrite, add_quiet, filled, number
 
+FIELD = "check a displacement field of an image correlation and store it as one panel beside others"
 _LEVELS = "auto, or two accuracies: means of the grains in the limit of short steps"
 
 
@@ -105,12 +109,23 @@ def add_homogenise(parser: Parser) -> None:
     _add_import_options(parser)
 
 
-def _vector(text: str) -> tuple[float, float]:
+def _vector(text: str, what: str = "GX,GY, two numbers such as 0,-9.81") -> tuple[float, float]:
     try:
-        x, y = (float(part) for part in text.split(","))
+        x, y = _numbers(text)
     except ValueError:
-        raise argparse.ArgumentTypeError(f"'{text}' is not GX,GY, two numbers such as 0,-9.81") from None
+        raise argparse.ArgumentTypeError(f"'{text}' is not {what}") from None
     return x, y
+
+
+def _numbers(text: str) -> list[float]:
+    return [float(part) for part in text.split(",")]
+
+
+def _strains(text: str) -> list[float]:
+    try:
+        return _numbers(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a list of numbers such as 0,0.01,0.02") from None
 
 
 def _add_import_options(parser: Parser) -> None:
@@ -142,10 +157,52 @@ def _add_import_options(parser: Parser) -> None:
 def add_import(parser: Parser) -> None:
     parser.add_argument("format", metavar=f"FORMAT {{{','.join(readers.FORMATS)}}}",
                         help="code that wrote the files; csv: tables of any origin; or a Python file (READER.py) that "
-                             "registers a reader of your own")
+                             "registers a reader of your own. For measured displacements: diptych import field")
     parser.add_argument("files", metavar="FILES", nargs="+", help="files of grains, contacts and walls, in any order")
     add_output(parser, "folder of the imported sample", required=True)
     _add_import_options(parser)
+    of_fields = Parser("import field", FIELD)
+    add_import_field(of_fields)
+    parser.epilog = f"{_diptych.example_of('import')}\n\ndiptych import field: {of_fields.format_help()}"
+
+
+def add_import_field(parser: Parser) -> None:
+    parser.add_argument("format", metavar=f"FORMAT {{{','.join(fields.FORMATS)}}}",
+                        help="program that wrote the files; csv: tables of any origin; or a Python file (READER.py) "
+                             "that registers a reader of your own")
+    parser.add_argument("files", metavar="FILES", nargs="+", help="files of one test, sorted by the last number in "
+                        "their names")
+    add_output(parser, "folder of the imported measurement", required=True)
+    positive = number(1e-30, 1e30)
+    for name, metavar, kind, meaning in (
+            ("scale", "S", positive, "factor of all lengths in the files: length of a pixel; required if they are "
+             "pixels, and 1 keeps them"),
+            ("subset", "LENGTH", number(0, 1e30), "side of the correlated squares in the unit of the files; 0: points "
+             "that were followed by themselves"),
+            ("spacing", "LENGTH", positive, "of the points, in the unit of the files (default: median distance of the "
+             "nearest)"),
+            ("time-between", "SECONDS", positive, "time between the images of a frame, if the files hold velocities"),
+            ("progress", "LIST", _strains, "axial strain of the first image and of every frame, such as 0,0.01,0.02 "
+             "(default: rows of --boundary if they are as many, else the vertical strain of the field)"),
+            ("centre", "X,Y", functools.partial(_vector, what="X,Y, two numbers such as 512,380"),
+             "centre of the sample at the first image, in unit and axes of the files (default: middle of the points)"),
+            ("boundary", "FILE", filled, "table of axial_strain, stress_ratio (or sxx and syy) and volumetric_strain"),
+            ("static", "A,B", functools.partial(_vector, what="A,B, two whole numbers such as 0,1"),
+             "two instants at rest, whose difference gives the standard deviation; 0: the first image"),
+            ("outliers", "T", number(0, 1e6), "threshold of the normalised median test (default: 2; 0 keeps all)")):
+        parser.add_argument("--" + name, metavar=metavar, type=kind, help=meaning,
+                            **({"default": 2.0} if name == "outliers" else {}))
+    parser.add_argument("--mean-diameter", metavar="D", type=positive, required=True,
+                        help="unit d of the results, in the unit after --scale")
+    parser.add_argument("--reference", choices=("first", "previous"), default="",
+                        help="frames hold displacements since the first image, or since the image before; required for "
+                             "several frames")
+    parser.add_argument("--y", choices=("down", "up"), default="",
+                        help="direction of y in the files (default: up for vtk and csv, else down, as in images)")
+    parser.add_argument("--columns", metavar="field=NAMES", action="append", default=[],
+                        help="field=NAME,NAME,...: names of columns that the files do not name; vtk: the displacement")
+    add_overwrite(parser)
+    add_quiet(parser)
 
 
 def add_export(parser: Parser) -> None:

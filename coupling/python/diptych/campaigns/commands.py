@@ -20,6 +20,7 @@ COMMANDS = {"run": (arguments.add_run, "ensembles.ensemble", "run_ensemble"),
             "element": (arguments.add_element, "element.element", "run_element"),
             "homogenise": (arguments.add_homogenise, "element.homogenise", "run_homogenise"),
             "import": (arguments.add_import, "exchange.imports", "run_import"),
+            "import field": (arguments.add_import_field, "exchange.fields", "run_import_field"),
             "export": (arguments.add_export, "exchange.exports", "run_export"),
             "report": (arguments.add_report, "exchange.reports", "run_report")}
 
@@ -34,10 +35,11 @@ def with_joined_per_cent(words: Sequence[str]) -> list[str]:
 
 def do(words: Sequence[str], pool: Any = None) -> None:
     """Does a command in this process, with runs also in `pool`. Raises SceneError for wrong words, or what failed."""
-    add_arguments, module, function = COMMANDS[words[0]]
-    parser = Parser(words[0])
+    name = " ".join(words[:2]) if " ".join(words[:2]) in COMMANDS else words[0]
+    add_arguments, module, function = COMMANDS[name]
+    parser = Parser(name, *([arguments.FIELD] if name == "import field" else []))
     add_arguments(parser)
-    line = parser.parse(with_joined_per_cent(words[1:]))
+    line = parser.parse(with_joined_per_cent(words[len(name.split()):]))
     loaded = importlib.import_module("." + module, __package__)
     shared = {name: value for name, value in vars(line).items() if name in Options.__dataclass_fields__}
     getattr(loaded, function)(line, Options(**shared, words=words, pool=pool))

@@ -4,7 +4,9 @@
 
 import importlib
 import os
-from typing import Any, Callable, Sequence
+import runpy
+import traceback
+from typing import Any, Callable, Mapping, Sequence, TypeVar
 
 from .. import _diptych
 from ..arrays import plain
@@ -16,6 +18,7 @@ from .periods import period_of
 from .walls import add_wall_tables
 
 Reader = Callable[[Options], "list[Frame]"]
+Read = TypeVar("Read")
 FORMATS = {"lammps": "lammps", "liggghts": "liggghts", "yade": "yade", "lmgc90": "lmgc90", "mercurydpm": "mercurydpm",
            "csv": "plain_csv"}
 registered: dict[str, Reader] = {}
@@ -29,14 +32,38 @@ def register(name: str) -> Callable[[Reader], Reader]:
     return keep
 
 
-def _reader(name: str) -> Reader:
-    if name in registered:
-        return registered[name]
-    if name in FORMATS:
-        return importlib.import_module("." + FORMATS[name], __package__).read
-    known = [*FORMATS, *registered]
-    raise SceneError(f"import {name}: unknown format; known are {', '.join(known)} (the nearest is "
+def reader_of(command: str, name: str, modules: Mapping[str, str], own: Mapping[str, Any]) -> Any:
+    """The reader of a format: of a module below this package, or one of the user's own. Raises SceneError."""
+    if name in own:
+        return own[name]
+    if name in modules:
+        return importlib.import_module("." + modules[name], __package__).read
+    known = [*modules, *own]
+    raise SceneError(f"{command} {name}: unknown format; known are {', '.join(known)} (the nearest is "
                      f"'{_diptych.nearest_name(name, known)}'), or a Python file that registers a reader")
+
+
+def read_with(word: str, own: Mapping[str, Any], mark: str, read: Callable[[str], Read]) -> Read:
+    """read(name of the format). A word that ends in .py is a file that registers a reader with the decorator `mark`;
+    an error in it shows its line. Raises SceneError."""
+    try:
+        if not word.endswith(".py"):
+            return read(word)
+        runpy.run_path(word)
+        if not own:
+            raise SceneError(f"{word} registers no reader; write @{mark}('NAME') above the function that takes the "
+                             "options and returns frames")
+        return read(next(reversed(own)))
+    except ValueError as error:
+        if word.endswith(".py") and not isinstance(error, SceneError):
+            traceback.print_exc()  # shows the line of the user's reader
+        raise
+
+
+def require_files(paths: Sequence[str]) -> None:
+    for path in paths:
+        if not os.path.isfile(path):
+            raise refused(path, "is not a regular file" if os.path.exists(path) else "there is no such file")
 
 
 def _selected(frames: list[Frame], text: str) -> list[Frame]:
@@ -76,10 +103,8 @@ def _add_period(frames: list[Frame], options: Options) -> None:
 
 def read_frames(format: str, options: Options) -> list[Frame]:
     """The frames that the options choose; those without grains are left out. Raises SceneError."""
-    reader = _reader(format)
-    for path in options.files:
-        if not os.path.isfile(path):
-            raise refused(path, "is not a regular file" if os.path.exists(path) else "there is no such file")
+    reader = reader_of("import", format, FORMATS, registered)
+    require_files(options.files)
     for text in options.columns:
         kind, _, names = text.partition("=")
         if kind not in ("particles", "contacts", "walls") or not names:

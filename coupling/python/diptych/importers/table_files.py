@@ -14,6 +14,9 @@ from .tables import names_in_plane, Table
 from .text import number_in_name, read_lines
 
 
+COMMENT = ("#", "***")  # DICe writes the second one
+
+
 def split(line: str, separator: str | None) -> list[str]:
     """The cells of a line, without their quotes."""
     if separator is None:
@@ -52,7 +55,7 @@ def head_of(lines: Sequence[str]) -> tuple[list[str], int]:
         words = split(plain, _separator(plain)) if plain.strip() else []
         if words and _is_names(words) and (marked or not line.strip().startswith("#")):
             names, marked = _expanded(words), line.strip().startswith("#")
-        elif words and not line.strip().startswith("#"):
+        elif words and not line.strip().startswith(COMMENT):
             return names, k
     return names, len(lines)
 
@@ -68,7 +71,7 @@ def read_table(path: str, names: Sequence[str] | None = None) -> Table:
     if separator == "\t" and names is None and not any("\t" in line for line in lines[:start]):
         separator = None  # names with blanks, numbers with tabs
     for k, line in enumerate(lines[start:], start + 1):
-        words = [] if line.lstrip().startswith("#") or not line.strip() else split(line, separator)
+        words = [] if line.lstrip().startswith(COMMENT) or not line.strip() else split(line, separator)
         if len(words) == len(columns) + 1 and not words[-1]:
             words = words[:-1]  # a separator ends the line
         elif len(words) == len(columns) + 1 and not rows:

@@ -30,7 +30,7 @@ def _put_in_place(root: Any) -> None:
     root.remove(appended)
 
 
-def _mesh(path: str) -> Any:
+def mesh_of(path: str) -> Any:
     """The points and lines of a file. meshio reads unstructured grids; lines of a .vtp are written as one."""
     try:
         tree = ElementTree.parse(path)
@@ -56,7 +56,7 @@ def _mesh(path: str) -> Any:
 
 
 def _spheres(path: str) -> dict[str, np.ndarray]:
-    mesh = _mesh(path)
+    mesh = mesh_of(path)
     found = mesh.point_data or {}
     for name in ("radii", "id"):
         if name not in found:
@@ -70,7 +70,7 @@ def _spheres(path: str) -> dict[str, np.ndarray]:
 
 def _interactions(path: str, frame: Frame) -> dict[str, np.ndarray]:
     """Lines join points: bodies in the order of their ids, including walls. Positions identify the grains."""
-    mesh = _mesh(path)
+    mesh = mesh_of(path)
     ends = np.concatenate([block.data for block in mesh.cells])
     if "forceN" not in mesh.cell_data:
         raise refused(path, "lacks the array forceN of its lines")

@@ -7,19 +7,16 @@ import json
 import math
 import os
 import resource
-import runpy
 import shlex
 import time
-import traceback
 from typing import Any
 
 from ... import _diptych
 from ...arrays import plain
-from ...errors import SceneError
 from ...importers.arrival import Arrival, arrive
 from ...importers.frames import Options as ImportOptions
 from ...importers.grain_results import facts_of, results_of, scene_of
-from ...importers.readers import read_frames, registered
+from ...importers.readers import read_frames, read_with, registered
 from ..runs.engine import Options, complain, say, stops_raised
 from ..runs.folders import Folder, write_json, write_text
 
@@ -28,31 +25,10 @@ HEAD = ("frame", "strain %", "grains", "contacts", "on walls", "solid fr.", "str
         "balance rms", "overlap/d")
 
 
-def import_options(line: argparse.Namespace) -> ImportOptions:
+def import_options(line: argparse.Namespace, kind: type[ImportOptions] = ImportOptions) -> ImportOptions:
     """The options of an import among the words."""
-    known = ImportOptions.__dataclass_fields__
-    return ImportOptions(**{name: value for name, value in vars(line).items() if name in known})
-
-
-def _format_of(word: str) -> str:
-    """The name of a format: the word itself, or that of the reader that a Python file registers. Raises SceneError."""
-    if not word.endswith(".py"):
-        return word
-    runpy.run_path(word)
-    if not registered:
-        raise SceneError(f"{word} registers no reader; write @importers.register('NAME') above the function that "
-                         "takes the options and returns frames")
-    return next(reversed(registered))
-
-
-def _read(word: str, given: ImportOptions) -> Arrival:
-    try:
-        format = _format_of(word)
-        return arrive(format, read_frames(format, given), given)
-    except ValueError as error:
-        if word.endswith(".py") and not isinstance(error, SceneError):
-            traceback.print_exc()  # shows the line of the user's reader
-        raise
+    known = kind.__dataclass_fields__
+    return kind(**{name: value for name, value in vars(line).items() if name in known})
 
 
 def _say_checks(arrival: Arrival, options: Options) -> None:
@@ -85,7 +61,8 @@ def import_files(word: str, given: ImportOptions, folder: str, options: Options)
     provenance.json; from two frames on also scene.prm. Raises SceneError, and then writes nothing."""
     began = time.perf_counter(), time.process_time()
     _diptych.require_usable(folder, False, options.overwrite, False)
-    arrival = _read(word, given)
+    arrival = read_with(word, registered, "importers.register",
+                        lambda format: arrive(format, read_frames(format, given), given))
     results = results_of(arrival)
     has_stress = any(len(frame.contacts["i"]) for frame in arrival.frames)
     why_no_scene = ("one frame is no loading, so there is no scene" if len(results.snapshots) == 1 else

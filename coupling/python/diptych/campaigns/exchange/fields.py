@@ -1,0 +1,100 @@
+# diptych: the command `import field`
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A measured displacement field, checked and stored as one panel beside others."""
+
+import argparse
+import hashlib
+import os
+import resource
+import shlex
+import time
+from typing import Any
+
+import numpy as np
+
+from ... import _diptych
+from ...entries import describe
+from ...importers.fields.frames import FieldOptions
+from ...importers.fields.measure import measure
+from ...importers.fields.readers import read_fields, registered
+from ...importers.readers import read_with
+from ...measurement import ARRAYS, FACTS, FIELD, Measurement
+from ..runs.engine import Options, say, stops_raised
+from ..runs.folders import Folder, write_text
+from .imports import import_options
+
+CURVES = "measured.csv"
+LAYOUT = "%-24.24s %8s %6s %9s %10s %12s %10s %9s"
+HEAD = ("frame", "points", "lost", "outliers", "axial %", "volumetric %", "shear %", "sigma/d")
+
+describe(FIELD, "\n".join(f"{name} (numbers) [{unit}]: {meaning}" for name, (_, unit, meaning) in ARRAYS.items()))
+
+describe(FACTS, """\
+format (whole number): version of the layout
+source (text): format of the files
+files (list): path and SHA-256 of the files that were read
+mean_diameter [length]: mean diameter d of the grains
+subset [length]: side of the correlated squares; 0: points that were followed by themselves
+spacing [length]: of the points
+centre (numbers) [length]: of the sample at the first instant
+scale [length]: by which all lengths of the files were multiplied
+reference (text): first: frames hold displacements since the first image; previous: since the image before
+notes (list): defaults, and data that were turned, sorted or left out
+frames/: one per frame
+    frame (text): name of the frame in the files
+    points: number of points in the files
+    lost: number of points whose correlation failed
+    outliers: number of points that failed the normalised median test
+    axial_strain: axial strain of this instant
+    volumetric_strain: of the affine fit since the first instant; dilation is negative
+    shear_strain: eps_1 - eps_2 of the affine fit since the first instant
+    deviation_d [mean diameters]: median standard deviation of a component of the displacement since the first instant; \
+        null: unknown
+""")
+
+describe(CURVES, """\
+axial_strain (numbers): axial strain, of the boundary table or of every instant
+volumetric_strain (numbers): 1 - V/V0, dilation negative; of the boundary table, else of the affine fit
+stress_ratio (numbers): t/s; of the boundary table, else left out
+""")
+
+
+def _sha256(path: str) -> str:
+    with open(path, "rb") as file:
+        return hashlib.sha256(file.read()).hexdigest()
+
+
+def _say_frames(result: Measurement, options: Options) -> None:
+    say(options, LAYOUT % HEAD)
+    for row in result.facts["frames"]:
+        say(options, LAYOUT % (
+            row["frame"], row["points"], row["lost"], row["outliers"],
+            *(f"{100 * row[name + '_strain']:.4f}" for name in ("axial", "volumetric", "shear")),
+            "-" if row["deviation_d"] is None else f"{row['deviation_d']:.2g}"))
+    for text in result.facts["notes"]:
+        say(options, f"note: {text}")
+
+
+def run_import_field(line: argparse.Namespace, options: Options) -> None:
+    """The command `diptych import field`: writes measured.h5, measured.json, measured.csv and provenance.json. Raises
+    SceneError, and then writes nothing."""
+    began, folder = (time.perf_counter(), time.process_time()), line.output
+    _diptych.require_usable(folder, False, options.overwrite, False)
+    given: Any = import_options(line, FieldOptions)
+    with stops_raised("import field: stopped on request"):
+        result, curves = read_with(line.format, registered, "fields.register",
+                                   lambda format: measure(read_fields(format, given), given))
+    inputs = [*given.files, *([given.boundary] if given.boundary else [])]
+    result.facts |= {"source": line.format, "reference": given.reference or "first", "notes": given.notes,
+                     "files": [{"path": path, "sha256": _sha256(path)} for path in inputs]}
+    with Folder(folder) as locked:
+        if options.overwrite and not _diptych.is_empty_folder(folder):
+            locked.set_aside([("the file", file) for file in inputs])
+        result.write(folder)
+        rows = "".join(",".join(f"{value:.10g}" for value in row) + "\n" for row in np.column_stack([*curves.values()]))
+        write_text(os.path.join(folder, CURVES), ",".join(curves) + "\n" + rows)
+        cost = ("import", time.perf_counter() - began[0], time.process_time() - began[1],
+                resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
+        _diptych.record_phase(folder, ("", [], shlex.join(["diptych", *options.words])), cost)
+    _say_frames(result, options)
+    say(options, f"written to {folder}; beside a run: diptych compare RUN --measured {folder}")

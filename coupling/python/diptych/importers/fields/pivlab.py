@@ -1,0 +1,82 @@
+# diptych: reads the text and Tecplot output of PIVlab
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A file a frame. The columns' units tell pixels or metres, and displacement or velocity. A line above them may hold the
+factors of the calibration. They are surer: some versions write m/s above displacements, and m/frame above velocities."""
+
+from __future__ import annotations
+
+import os
+import re
+
+import numpy as np
+
+from ...measurement import FieldFrame
+from ..frames import refused
+from ..tables import Table
+from ..text import float_of, read_lines
+from .frames import FieldOptions, numbers_where, vectors_where
+
+VALID = 1  # other vectors were masked, rejected or interpolated
+NAMES = "x [px],y [px],u [px/frame],v [px/frame],Vector type [-]"
+FACTORS = re.compile(r"\(px -> m\): *([^,\s]+), .*\(px/frame -> m/s\): *([^,\s]+)")
+
+
+def _columns(text: str) -> dict[str, str]:
+    """Units by the names of the columns. Names hold blanks, which may also separate them."""
+    found = re.findall(r"([^\[\]]+)\[([^\[\]]*)\]", text.replace("isNaN?", "isNaN [-]"))
+    return {name.strip(" \t,#"): unit for name, unit in found}
+
+
+def _table(path: str, options: FieldOptions) -> tuple[Table, dict[str, str], list[str]]:
+    """The numbers, the units of their columns, and the lines above them."""
+    lines = read_lines(path)
+    head = max((k for k, line in enumerate(lines) if re.match(r"[#\s]*x \[", line)), default=-1)
+    units = _columns(lines[head] if head >= 0 else ",".join(options.columns_of("field") or []))
+    if not units:
+        raise refused(path, f"no line names the columns with their units; name them: --columns 'field={NAMES}'")
+    rows, places = [], []
+    for k, line in enumerate(lines[head + 1:], head + 2):
+        words = [] if line.startswith(("#", "TITLE", "VARIABLES", "ZONE")) else line.replace(",", " ").split()
+        if words and len(words) != len(units):
+            raise refused(path, f"{len(words)} entries; expected {len(units)}: {', '.join(units)}", k)
+        if words:
+            rows.append(words)
+            places.append(k)
+    return Table(path, list(units), rows, places), units, lines[:max(head, 0)]
+
+
+def _time(path: str, unit: str, above: list[str], options: FieldOptions) -> float:
+    """Factor from u and v to displacements. unit: of u."""
+    factors = [(k, match) for k, line in enumerate(above, 1) if (match := FACTORS.search(line))]
+    if unit.startswith("px"):
+        return 1.0
+    for k, match in factors:
+        length, velocity = (float_of(path, k, word, "conversion factor") for word in match.groups())
+        if velocity <= 0:
+            raise refused(path, f"conversion factor {velocity:g}: x points to the left; export with x to the right", k)
+        options.note(f"{os.path.basename(path)}: displacement = u x {length / velocity:.6g}, from the conversion "
+                     "factors in its head")
+        return length / velocity
+    if unit == "m/frame":
+        return 1.0
+    if options.time_between is None:
+        raise refused(path, f"u is a velocity [{unit}], and no head holds the conversion factors; give --time-between "
+                      "SECONDS, the time between the two images of a frame", len(above) + 1)
+    options.used.add("time_between")
+    return options.time_between
+
+
+def _frame(path: str, options: FieldOptions) -> FieldFrame:
+    table, units, above = _table(path, options)
+    time = _time(path, units.get("u", ""), above, options)
+    valid = table.numbers("isNaN") == 0 if table.has("isNaN") else table.numbers("Vector type") == VALID
+    deviation = time * numbers_where(table, valid, "uncertainty") if table.has("uncertainty") else None
+    return FieldFrame(os.path.basename(path), table.vectors("x", "y"),
+                      time * vectors_where(table, valid, ("u",), ("v",)), deviation=deviation,
+                      unit=units.get("x", ""), path=path, y_down=True)
+
+
+def read(options: FieldOptions) -> list[FieldFrame]:
+    """A frame a file. Raises SceneError."""
+    options.note("only vectors of type 1 count; the others were masked, rejected or interpolated")
+    return [_frame(path, options) for path in options.files]
