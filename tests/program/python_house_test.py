@@ -16,9 +16,10 @@ PACKAGE = os.path.join(SOURCE, "coupling", "python", "diptych")
 # The rooms of the package from the ground up: a folder or a module. A room imports itself and those before it.
 ROOMS = ("errors", "words", "files", "entries", "compiled", "scenes", "plotting", "arrays", "sheets", "operators",
          "laws", "panels", "problems", "summaries", "results", "averaging_width", "homogenisation", "shipped",
-         "measurement", "levelling", "thickness", "importers", "report/data", "report/charts", "report/tables",
-         "report/page", "report", "campaigns/runs", "campaigns/measured", "campaigns/studies", "campaigns/ensembles",
-         "campaigns/calibration", "campaigns/plans", "campaigns/exchange", "campaigns/element", "campaigns", "")
+         "measurement", "levelling", "thickness", "importers", "importers/fields", "report/data", "report/charts",
+         "report/tables", "report/page", "report", "campaigns/runs", "campaigns/measured", "campaigns/studies",
+         "campaigns/ensembles", "campaigns/calibration", "campaigns/plans", "campaigns/exchange", "campaigns/element",
+         "campaigns", "")
 
 
 def sources(root=SOURCE, folders=FOLDERS):

@@ -38,6 +38,7 @@ subset [length]: side of the correlated squares; 0: points that were followed by
 spacing [length]: of the points
 centre (numbers) [length]: of the sample at the first instant
 scale [length]: by which all lengths of the files were multiplied
+curves (text): boundary or field, from which measured.csv comes
 reference (text): first: frames hold displacements since the first image; previous: since the image before
 notes (list): defaults, and data that were turned, sorted or left out
 frames/: one per frame
@@ -86,6 +87,7 @@ def run_import_field(line: argparse.Namespace, options: Options) -> None:
                                    lambda format: measure(read_fields(format, given), given))
     inputs = [*given.files, *([given.boundary] if given.boundary else [])]
     result.facts |= {"source": line.format, "reference": given.reference or "first", "notes": given.notes,
+                     "curves": "boundary" if given.boundary else "field",
                      "files": [{"path": path, "sha256": _sha256(path)} for path in inputs]}
     with Folder(folder) as locked:
         if options.overwrite and not _diptych.is_empty_folder(folder):
