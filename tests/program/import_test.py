@@ -137,6 +137,47 @@ class Import(Case):
         self.assertNotIn(b"NaN", content(self.path("both", "comparison.json")))
 
 
+class Fields(Case):
+    """PIVlab's text: 10 x 12 points 16 px apart, 2 % shorter and 1 % wider in the second frame, half of it before."""
+
+    def files(self):
+        x, y = (grid.ravel() for grid in numpy.meshgrid(16.0 * numpy.arange(10), 16.0 * numpy.arange(12)))
+        head = "x [px],y [px],u [px/frame],v [px/frame],Vector type [-]\r\n"
+        return [write(self.path(f"piv_{k}.txt"), head + "".join(f"{a},{b},{k * 0.005 * a!r},{k * -0.01 * b!r},1\r\n"
+                                                                for a, b in zip(x, y))) for k in (1, 2)]
+
+    def test_a_measurement_from_the_command_line(self):
+        words = ["import", "field", "pivlab", *self.files(), "--mean-diameter", "5", "--scale", "0.5", "--subset", "32"]
+        self.refused(*words, "--output", self.path("dic"), says="--reference is required for 2 frames")
+        self.refused(*words[:-2], "--reference", "first", "--output", self.path("dic"), says="--subset is required")
+        told = self.done(*words, "--reference", "first", "--output", self.path("dic"))
+        self.assertRegex(told, r"piv_2.txt +120 +0 +0 +2\.0000 +1\.0200 +3\.0000 +-\n")
+        for text in ("note: y points down in the files", "note: --spacing = 16", "note: --centre = 72,88"):
+            self.assertIn(text, told)
+        record = read_json(self.path("dic"), "measured.json")
+        self.assertEqual((record["subset"], record["spacing"], record["centre"]), (16, 8, [36, -44]))
+        self.assertEqual(len(record["files"][0]["sha256"]), 64)
+        numpy.testing.assert_allclose(history(self.path("dic"), "measured.csv")["axial_strain"], [0, 0.01, 0.02])
+        self.assertEqual(read_json(self.path("dic"), "provenance.json")["phases"][0]["name"], "import")
+        self.refused(*words, "--reference", "first", "--output", self.path("dic"), says="--overwrite")
+        self.done(*words, "--reference", "first", "--output", self.path("dic"), "--overwrite", "--quiet")
+
+    def test_a_reader_in_a_file(self):
+        reader = write(self.path("reader.py"), """
+from diptych.importers import fields
+@fields.register("mine")
+def read(options):
+    return [fields.FieldFrame(path, (t := fields.table_of(path, options)).vectors("x", "y"), t.vectors("u", "w"))
+            for path in options.files]
+""")
+        words = ["--mean-diameter", "5", "--subset", "32", "--output", self.path("mine"),
+                 "--columns", "field=x,y,u,w,kind"]
+        self.assertIn("y points up in the files", self.done("import", "field", reader, self.files()[0], *words,
+                                                            "--progress", "0,0.01"))
+        write(reader, "registered = False\n")
+        self.refused("import", "field", reader, self.files()[0], *words, "--overwrite", says="@fields.register('NAME')")
+
+
 class Refused(Case):
     def test_wrong_input_writes_nothing(self):
         out = self.path("out")

@@ -1,6 +1,7 @@
 # diptych: outliers of a measured displacement field
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The normalised median test of Westerweel & Scarano, Exp. Fluids 39 (2005), 1096."""
+"""The normalised median test of Westerweel & Scarano, Exp. Fluids 39 (2005), 1096, after the plane that fits the
+neighbours best was taken out. Without this, the median of one-sided neighbours makes a strained edge an outlier."""
 
 from __future__ import annotations
 
@@ -9,8 +10,7 @@ from scipy.spatial import cKDTree
 
 from ...arrays import Array
 
-NEIGHBOURS, REACH = 8, 1.6  # nearest points, within that many spacings: the squares around a point of a grid
-FEWEST = 3  # neighbours to judge by
+NEIGHBOURS, REACH = 8, 3.0  # nearest points: the squares around a point of a grid; if within that many spacings
 
 
 def spacing_of(points: Array) -> float:
@@ -19,17 +19,19 @@ def spacing_of(points: Array) -> float:
 
 
 def outliers(points: Array, displacement: Array, *, spacing: float, threshold: float, noise: float) -> Array:
-    """(n) True: |u - median of the neighbours| / (median of |neighbour - median| + noise) exceeds the threshold. The
-    ratios of both components are added as squares. points, displacement: (n, 2), NaN where lost."""
-    flags = np.zeros(len(points), bool)
+    """(n) True: |r - median of the neighbours| / (median of |neighbour - median| + noise) exceeds the threshold, with
+    the residuals r from the plane of the neighbours. The ratios of both components are added as squares. points,
+    displacement: (n, 2), NaN where lost. Points without enough neighbours are no outliers."""
     known = np.flatnonzero(np.isfinite(displacement).all(axis=1))
-    tree = cKDTree(points[known])
-    index = tree.query(points[known], NEIGHBOURS + 1, distance_upper_bound=REACH * spacing)[1][:, 1:]
-    judged = (index < len(known)).sum(axis=1) >= FEWEST
-    u = np.vstack([displacement[known], [np.nan, np.nan]])  # the index of a missing neighbour is len(known)
-    around = u[index[judged]]
-    median = np.nanmedian(around, axis=1)
-    spread = np.nanmedian(abs(around - median[:, None]), axis=1) + noise
-    ratio = np.linalg.norm((u[:-1][judged] - median) / spread, axis=1)
-    flags[known[judged]] = ratio > threshold
+    places, u = points[known] / spacing, displacement[known]
+    distance, index = cKDTree(places).query(places, NEIGHBOURS + 1)
+    judged = distance[:, -1] <= REACH
+    around, own = index[judged, 1:], u[judged]
+    plane = np.insert(places[around] - places[judged][:, None], 0, 1, axis=2)  # (m, 8, 3): 1, x, y from the point
+    fit = np.linalg.pinv(plane) @ u[around]
+    left = u[around] - plane @ fit
+    median = np.median(left, axis=1)
+    spread = np.median(abs(left - median[:, None]), axis=1) + noise
+    flags = np.zeros(len(points), bool)
+    flags[known[judged]] = np.linalg.norm((own - fit[:, 0] - median) / spread, axis=1) > threshold
     return flags
