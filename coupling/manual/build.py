@@ -27,7 +27,8 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 UNUSED = ("404.html", "sitemap.xml", "sitemap.xml.gz", "assets/javascripts/lunr", "assets/javascripts/workers")
 PAGES = [("index", "Start"), ("install", "Install"), ("cluster", "Clusters, no root"),
          ("first_comparison", "First comparison"), ("gallery", "Gallery"),
-         ("own_scene", "Your own scene"), ("own_data", "Your own data"), ("result_folders", "Result folders"),
+         ("own_scene", "Your own scene"), ("own_data", "Your own data"),
+         ("dic_data", "My DIC data in ten minutes"), ("result_folders", "Result folders"),
          ("ensembles", "Ensembles"), ("studies", "Studies and plans"),
          ("calibration", "Calibration"), ("python", "Python"),
          ("conventions", "Conventions"), ("platens", "Platens and sides"),

@@ -18,7 +18,7 @@ namespace diptych::coupling
      "determine"},
     {"element", "drive grains and the law's point along one path and draw them beside each other"},
     {"homogenise", "stress, strain, fabric and band of grains without a continuum"},
-    {"import", "check a sample of another code and store it like results of the grains"},
+    {"import", "check a sample of another code, or a measured displacement field, and store it like results"},
     {"export", "write a sample of a result folder for another code, or all stages for OVITO"},
     {"report", "draw report.html again, of any folder of results"}};
 } // namespace diptych::coupling

@@ -61,7 +61,8 @@ class Parser(argparse.ArgumentParser):
         places = [one for one in self._actions if not one.option_strings]
         usage = " ".join([self.prog, "[OPTIONS]", *(str(one.metavar).split()[0] for one in places)])
         blocks = [_block(title, rows) for title, rows in (("Positionals", places), ("Options", named)) if rows]
-        return "\n".join([f"{self.description}\nUsage: {usage}\n", *blocks, (self.epilog or _diptych.example_of(self.name)) + "\n"])
+        return "\n".join([f"{self.description}\nUsage: {usage}\n", *blocks,
+                          (self.epilog or _diptych.example_of(self.name)) + "\n"])
 
 
 def _block(title: str, actions: Sequence[argparse.Action]) -> str:

@@ -49,8 +49,8 @@ frames/: one per frame
     axial_strain: axial strain of this instant
     volumetric_strain: of the affine fit since the first instant; dilation is negative
     shear_strain: eps_1 - eps_2 of the affine fit since the first instant
-    deviation_d [mean diameters]: median standard deviation of a component of the displacement since the first instant; \
-        null: unknown
+    deviation_d [mean diameters]: median standard deviation of a component of the displacement since the first \
+        instant; null: unknown
 """)
 
 describe(CURVES, """\

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Readers of SPAM, DICe, PIVlab, Ncorr, VTK and tables, and the place for a reader of your own.
 
-A reader is a function that takes FieldOptions and returns a list of FieldFrame in the order of time; register() gives it
-a name.
+A reader is a function that takes FieldOptions and returns a list of FieldFrame in the order of time; register() gives
+it a name.
 """
 
 from ...measurement import FieldFrame

@@ -1,7 +1,7 @@
 # diptych: reads the text output of DICe
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A file a frame, or a file a subset with a column FRAME. SIGMA is the predicted standard deviation of the displacement;
--1: the correlation failed."""
+"""A file a frame, or a file a subset with a column FRAME. SIGMA is the predicted standard deviation of the
+displacement; -1: the correlation failed."""
 
 from __future__ import annotations
 

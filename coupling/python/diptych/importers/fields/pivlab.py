@@ -1,7 +1,8 @@
 # diptych: reads the text and Tecplot output of PIVlab
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""A file a frame. The columns' units tell pixels or metres, and displacement or velocity. A line above them may hold the
-factors of the calibration. They are surer: some versions write m/s above displacements, and m/frame above velocities."""
+"""A file a frame. The columns' units tell pixels or metres, and displacement or velocity. A line above them may hold
+the factors of the calibration. They are surer: the writers put m/s above some displacements, and m/frame above some
+velocities."""
 
 from __future__ import annotations
 
