@@ -15,8 +15,8 @@ from diptych.campaigns.commands import result_entries
 
 X, Y = (grid.ravel() for grid in np.meshgrid(20.0 * np.arange(12), 20.0 * np.arange(15), indexing="ij"))
 GRID, FAILED = np.column_stack([X, Y]), 7
-HEAD = ("PIVlab, ASCII chart output - 01-Jan-2026\r\nFRAME: 1, filenames: a.png & b.png, conversion factor xy (px -> m): "
-        "0.5, conversion factor uv (px/frame -> m/s): 0.25\r\n")
+HEAD = ("PIVlab, ASCII chart output - 01-Jan-2026\r\nFRAME: 1, filenames: a.png & b.png, "
+        "conversion factor xy (px -> m): 0.5, conversion factor uv (px/frame -> m/s): 0.25\r\n")
 
 
 def moved(points, share=1.0):
@@ -115,12 +115,14 @@ def measured(frames, **options):
 
 
 CASES = {  # format, writer and its options
-    "spam grains": ("spam", spam, {}), "spam grid, old names": ("spam", spam, {"old": True, "grains": False}),
+    "spam grains": ("spam", spam, {}),
+    "spam grid, old names": ("spam", spam, {"old": True, "grains": False}),
     "dice": ("dice", dice, {}), "dice blanks": ("dice", dice, {"mark": " "}),
     "pivlab": ("pivlab", pivlab, {}), "pivlab tabs": ("pivlab", pivlab, {"mark": "\t", "top": ""}),
     "pivlab blanks": ("pivlab", pivlab, {"mark": " "}), "tecplot": ("pivlab", tecplot, {}),
     "ncorr": ("ncorr", ncorr, {}), "ncorr, object": ("ncorr", ncorr, {"mask": False}),
-    "vtu": ("vtk", vtk, {}), "vtk": ("vtk", vtk, {}), "csv": ("csv", csv, {}), "semicolons": ("csv", csv, {"mark": ";"})}
+    "vtu": ("vtk", vtk, {}), "vtk": ("vtk", vtk, {}), "csv": ("csv", csv, {}),
+    "semicolons": ("csv", csv, {"mark": ";"})}
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -190,13 +192,24 @@ def test_both_references_give_the_same_instants():
         measured(frames_of(steps))
 
 
+def test_a_hole_is_not_filled():
+    """A single lost point is followed between its neighbours; in the middle of 9 lost ones a point is lost."""
+    frames = frames_of([np.diag([0.0, -0.01])] * 2)
+    hole = (abs(GRID - (100, 100)) < 30).all(axis=1)
+    frames[1].displacement[hole | (GRID == (180, 220)).all(axis=1)] = np.nan
+    result, _, _ = measured(frames, reference="previous")
+    known = np.isfinite(result.position[2]).all(axis=1)
+    at = {tuple(place): k for k, place in enumerate(result.position[0].tolist())}
+    assert known[at[180, 220]] and not known[at[100, 100]]
+
+
 def test_lengths_are_scaled_and_y_is_turned(tmp_path):
     frames = read("spam", spam(tmp_path / "a.tsv", moved(GRID)))
     result, _, notes = measured(frames, scale=0.1, centre=(110, -140), progress=[0.02, 0.03], outliers=0)
     assert (result.subset, result.spacing) == pytest.approx((3.1, 2)) and result.centre == pytest.approx([11, 14])
     step = result.increment(0, 1)
     np.testing.assert_allclose(step.displacement, 0.1 * np.delete(moved(GRID), FAILED, axis=0), atol=1e-12)
-    assert result.progress.tolist() == [0.02, 0.03] and "1 points were lost in every frame, and left out" in notes
+    assert result.progress.tolist() == [0.02, 0.03] and any(text.endswith("left out: 1 of 180") for text in notes)
     result.write(tmp_path)
     again = measurement.read_measurement(tmp_path)
     assert np.array_equal(again.position, result.position) and again.facts["frames"] == result.facts["frames"]

@@ -54,7 +54,7 @@ def _sizes(frames: Sequence[FieldFrame], scale: float, options: FieldOptions) ->
     if options.spacing is not None:
         return subset, scale * options.spacing
     spacing = spacing_of(frames[0].points[np.isfinite(frames[0].displacement).all(axis=1)])
-    options.note(f"--spacing = {text_of(spacing / scale)}, the median distance of the nearest points")
+    options.note(f"--spacing = {spacing / scale:.6g}, the median distance of the nearest points")
     return subset, spacing
 
 
@@ -180,7 +180,7 @@ def measure(frames: list[FieldFrame], options: FieldOptions) -> tuple[Measuremen
     seen = np.isfinite(position[1:]).all(axis=2).any(axis=0)
     position, deviation = position[:, seen], deviation[:, seen]
     if not seen.all():
-        options.note(f"{(~seen).sum()} points were lost in every frame, and left out")
+        options.note(f"points that were lost in every frame, and left out: {(~seen).sum()} of {len(seen)}")
     static = sorted(_instant(one, len(position), "--static") for one in options.static or ())
     if static:
         deviation = _static_deviation(position, to_first, (static[0], static[-1]))
