@@ -163,7 +163,7 @@ def add_import(parser: Parser) -> None:
     _add_import_options(parser)
     of_fields = Parser("import field", FIELD)
     add_import_field(of_fields)
-    parser.epilog = f"{_diptych.example_of('import')}\n\ndiptych import field: {of_fields.format_help()}"
+    parser.epilog = f"{_diptych.example_of('import')}\n\ndiptych import field: {of_fields.format_help().rstrip()}"
 
 
 def add_import_field(parser: Parser) -> None:
