@@ -18,12 +18,11 @@ from ...importers.fields.frames import FieldOptions
 from ...importers.fields.measure import measure
 from ...importers.fields.readers import read_fields, registered
 from ...importers.readers import read_with
-from ...measurement import ARRAYS, FACTS, FIELD, Measurement
+from ...measurement import ARRAYS, FACTS, FIELD, HISTORY, Measurement
 from ..runs.engine import Options, say, stops_raised
 from ..runs.folders import Folder, write_text
 from .imports import import_options
 
-CURVES = "measured.csv"
 LAYOUT = "%-24.24s %8s %6s %9s %10s %12s %10s %9s"
 HEAD = ("frame", "points", "lost", "outliers", "axial %", "volumetric %", "shear %", "sigma/d")
 
@@ -53,7 +52,7 @@ frames/: one per frame
         instant; null: unknown
 """)
 
-describe(CURVES, """\
+describe(HISTORY, """\
 axial_strain (numbers): axial strain, of the boundary table or of every instant
 volumetric_strain (numbers): 1 - V/V0, dilation negative; of the boundary table, else of the affine fit
 stress_ratio (numbers): t/s; of the boundary table, else left out
@@ -94,7 +93,7 @@ def run_import_field(line: argparse.Namespace, options: Options) -> None:
             locked.set_aside([("the file", file) for file in inputs])
         result.write(folder)
         rows = "".join(",".join(f"{value:.10g}" for value in row) + "\n" for row in np.column_stack([*curves.values()]))
-        write_text(os.path.join(folder, CURVES), ",".join(curves) + "\n" + rows)
+        write_text(os.path.join(folder, HISTORY), ",".join(curves) + "\n" + rows)
         cost = ("import", time.perf_counter() - began[0], time.process_time() - began[1],
                 resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
         _diptych.record_phase(folder, ("", [], shlex.join(["diptych", *options.words])), cost)
