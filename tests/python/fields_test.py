@@ -280,7 +280,9 @@ def test_wrong_files_are_refused_with_their_line(kind, writer, change, says, tmp
 @pytest.mark.parametrize("options, says", [
     ({"scale": None}, "lengths are pixels; give --scale"), ({"subset": None}, "--subset is required"),
     ({"progress": [0.0]}, "--progress has 1 values; expected 2"), ({"progress": [0.02, 0.01]}, "at instant 0 to 0.01"),
-    ({"static": (0, 2)}, "2 is not a whole number from 0 (the reference image) to 1"),
+    ({"static": (0, 2)}, "--static 0,2: give two different whole numbers from 0 (the first image) to 1"),
+    ({"static": (1, 1)}, "--static 1,1: give two different"),
+    ({"boundary": "absent.csv"}, "absent.csv: there is no such file"),
     ({"boundary": "force.csv"}, "force.csv, line 3: column axial_strain does not ascend")])
 def test_wrong_options_are_refused(options, says, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)

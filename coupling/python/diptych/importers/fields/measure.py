@@ -16,6 +16,7 @@ from ...arrays import Array, rms
 from ...errors import SceneError
 from ...measurement import FieldFrame, Measurement, gradient_of, tracked
 from ..frames import refused
+from ..readers import require_files
 from ..table_files import read_table
 from .frames import FieldOptions
 from .outliers import outliers, spacing_of
@@ -74,24 +75,18 @@ def _take_out_outliers(frames: Sequence[FieldFrame], spacing: float, scale: floa
     return counts
 
 
-def _is_to_first(frames: Sequence[FieldFrame], options: FieldOptions) -> bool:
-    if len(frames) > 1 and not options.reference:
-        raise SceneError(f"--reference is required for {len(frames)} frames: give first, if every frame holds the "
-                         "displacement since the first image, or previous, if since the image before. The files do not "
-                         "tell it, and the increments differ")
-    return len(frames) == 1 or options.reference == "first"
+def _instants(position: Array, options: FieldOptions) -> list[int]:
+    """The two instants of --static, ascending; [] without it."""
+    pair = sorted(options.static or ())
+    if any(number not in range(len(position)) for number in pair) or len(set(pair)) == 1:
+        raise SceneError(f"--static {','.join(map(text_of, pair))}: give two different whole numbers from 0 (the first "
+                         f"image) to {len(position) - 1}")
+    return [int(number) for number in pair]
 
 
-def _instant(number: float, count: int, what: str) -> int:
-    if number not in range(count):
-        raise SceneError(f"{what}: {text_of(number)} is not a whole number from 0 (the reference image) to {count - 1}")
-    return int(number)
-
-
-def _static_deviation(position: Array, to_first: bool, pair: tuple[int, int]) -> Array:
+def _static_deviation(position: Array, to_first: bool, start: int, end: int) -> Array:
     """(k, n) from two instants at rest. Without its affine part their difference is the noise of both fields against
     the first image, or of all fields between them."""
-    start, end = sorted(pair)
     moved = position[end] - position[start]
     known = np.isfinite(moved).all(axis=1)
     if known.sum() < 4:
@@ -107,6 +102,7 @@ def _static_deviation(position: Array, to_first: bool, pair: tuple[int, int]) ->
 
 def boundary_of(path: str) -> dict[str, Array]:
     """axial_strain and, if they are there, stress_ratio and volumetric_strain of a table. Raises SceneError."""
+    require_files([path])
     table = read_table(path)
     curves = {"axial_strain": table.numbers("axial_strain")}
     table.refuse(np.diff(curves["axial_strain"], prepend=-np.inf) < 0, lambda k: "column axial_strain does not ascend")
@@ -150,7 +146,8 @@ def _progress(strains: Array, boundary: dict[str, Array], static: list[int], opt
         progress, source = boundary["axial_strain"], "the boundary table, row by row"
     else:
         progress, source = strains[:, 0].copy(), "the vertical strain of the affine fit to the field"
-        progress[static[1:]] = progress[static[:1]]  # at rest
+        if static:
+            progress[static[0]:static[1] + 1] = progress[static[0]]  # at rest
     if options.progress is None:
         options.note(f"the axial strain of every instant is {source}")
     for k in np.flatnonzero(np.diff(progress) < 0)[:1]:
@@ -171,7 +168,11 @@ def _centre(points: Array, scale: float, turned: bool, options: FieldOptions) ->
 
 def measure(frames: list[FieldFrame], options: FieldOptions) -> tuple[Measurement, dict[str, Array]]:
     """The measurement, and the curves of measured.csv by their names. Raises SceneError."""
-    to_first = _is_to_first(frames, options)
+    if len(frames) > 1 and not options.reference:
+        raise SceneError(f"--reference is required for {len(frames)} frames: give first, if every frame holds the "
+                         "displacement since the first image, or previous, if since the image before. The files do not "
+                         "tell it, and the increments differ")
+    to_first = options.reference != "previous"  # a single frame is both
     scale = _scaled(frames, options)
     subset, spacing = _sizes(frames, scale, options)
     lost = [int((~np.isfinite(frame.displacement).all(axis=1)).sum()) for frame in frames]
@@ -181,9 +182,9 @@ def measure(frames: list[FieldFrame], options: FieldOptions) -> tuple[Measuremen
     position, deviation = position[:, seen], deviation[:, seen]
     if not seen.all():
         options.note(f"points that were lost in every frame, and left out: {(~seen).sum()} of {len(seen)}")
-    static = sorted(_instant(one, len(position), "--static") for one in options.static or ())
+    static = _instants(position, options)
     if static:
-        deviation = _static_deviation(position, to_first, (static[0], static[-1]))
+        deviation = _static_deviation(position, to_first, *static)
     elif not np.isfinite(deviation[1:]).any():
         options.note("the standard deviation of the displacements is unknown; --static A,B finds it from two images "
                      "at rest")

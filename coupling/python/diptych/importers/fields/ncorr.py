@@ -29,7 +29,7 @@ def _frames(path: str, result: Any, options: FieldOptions) -> list[FieldFrame]:
     unit = "".join(map(chr, np.ravel(info["units"])))
     frames = []
     listed = zip(*(_elements(fields, name) for name in ("plot_u_ref_formatted", "plot_v_ref_formatted",
-                                                        "roi_ref_formatted")))
+                                                        "roi_ref_formatted")), strict=True)
     for number, (u, v, roi) in enumerate(listed, 1):
         moved = np.stack([u[()].T, v[()].T], axis=-1).astype(float)
         if isinstance(roi, h5py.Group) and "mask" in roi:

@@ -9,8 +9,6 @@ from __future__ import annotations
 import os
 import re
 
-import numpy as np
-
 from ...measurement import FieldFrame
 from ..frames import refused
 from ..tables import Table
