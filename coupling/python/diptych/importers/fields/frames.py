@@ -44,7 +44,7 @@ def numbers_where(table: Table, good: Array, *names: str) -> Array:
     """(n) of the first of these columns that exists; NaN where `good` is false, or where the cell is empty or nan."""
     k = table.find(*names)
     if k is not None:
-        good = good & [row[k].lower() not in ("", "nan", "-nan") for row in table.rows]
+        good = good & np.array([row[k].lower() not in ("", "nan", "-nan") for row in table.rows], bool)
     values = np.full(len(table.rows), np.nan)
     values[good] = table.part(good).numbers(*names)
     return values
