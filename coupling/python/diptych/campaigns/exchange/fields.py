@@ -3,7 +3,6 @@
 """A measured displacement field, checked and stored as one panel beside others."""
 
 import argparse
-import hashlib
 import os
 import resource
 import shlex
@@ -14,6 +13,7 @@ import numpy as np
 
 from ... import _diptych
 from ...entries import describe
+from ...files import sha256_of
 from ...importers.fields.frames import FieldOptions
 from ...importers.fields.measure import measure
 from ...importers.fields.readers import read_fields, registered
@@ -31,7 +31,8 @@ describe(FIELD, "\n".join(f"{name} (numbers) [{unit}]: {meaning}" for name, (_, 
 describe(FACTS, """\
 format (whole number): version of the layout
 source (text): format of the files
-files (list): path and SHA-256 of the files that were read
+files (list): files that were read
+sha256 (list): their SHA-256 checksums
 mean_diameter [length]: mean diameter d of the grains
 subset [length]: side of the correlated squares; 0: points that were followed by themselves
 spacing [length]: of the points
@@ -59,11 +60,6 @@ stress_ratio (numbers): t/s; of the boundary table, else left out
 """)
 
 
-def _sha256(path: str) -> str:
-    with open(path, "rb") as file:
-        return hashlib.sha256(file.read()).hexdigest()
-
-
 def _say_frames(result: Measurement, options: Options) -> None:
     say(options, LAYOUT % HEAD)
     for row in result.facts["frames"]:
@@ -87,7 +83,7 @@ def run_import_field(line: argparse.Namespace, options: Options) -> None:
     inputs = [*given.files, *([given.boundary] if given.boundary else [])]
     result.facts |= {"source": line.format, "reference": given.reference or "first", "notes": given.notes,
                      "curves": "boundary" if given.boundary else "field",
-                     "files": [{"path": path, "sha256": _sha256(path)} for path in inputs]}
+                     "files": inputs, "sha256": [sha256_of(path) for path in inputs]}
     with Folder(folder) as locked:
         if options.overwrite and not _diptych.is_empty_folder(folder):
             locked.set_aside([("the file", file) for file in inputs])
