@@ -15,7 +15,7 @@ import pytest
 import diptych
 from conftest import SMALL, program
 from diptych import scenes
-from diptych.campaigns.measured.comparison import alone, compared, windows_of
+from diptych.campaigns.measured.comparison import compared, increments, windows_of
 from diptych.campaigns.measured.validation import rows_of
 from diptych.errors import SceneError
 from diptych.levelling import bands_of, field_of, levelled, on_sample, with_noise
@@ -153,7 +153,7 @@ def test_a_band_that_may_be_as_narrow_as_the_subset_has_no_width():
     narrow = Measurement(position=position, deviation=np.full(position.shape[:2], np.nan), progress=np.array([0, 0.01]),
                          mean_diameter=1.0, subset=3.0, spacing=1.0, centre=np.zeros(2))
     keys = scenes.read(SMALL).dict()["comparison"]
-    record, _ = compared(narrow, alone(narrow), keys)
+    record, _ = compared(narrow, increments(narrow), keys)
     band, = record["windows"][0]["levelled"]["measured"]["bands"]
     assert "resolution of 2.4 d" in band["unresolved"]
     assert math.isnan(band["width_10_90_d"].value) and band["thickness_d"] == {}

@@ -189,9 +189,9 @@ def add_import_field(parser: Parser) -> None:
             ("boundary", "FILE", filled, "table of axial_strain, stress_ratio (or sxx and syy) and volumetric_strain"),
             ("static", "A,B", functools.partial(_vector, what="A,B, two whole numbers such as 0,1"),
              "two instants at rest, whose difference gives the standard deviation; 0: the first image"),
-            ("outliers", "T", number(0, 1e6), "threshold of the normalised median test (default: 2; 0 keeps all)")):
+            ("outliers", "T", number(0, 1e6), "threshold of the normalised median test (default: 5; 0 keeps all)")):
         parser.add_argument("--" + name, metavar=metavar, type=kind, help=meaning,
-                            **({"default": 2.0} if name == "outliers" else {}))
+                            **({"default": 5.0} if name == "outliers" else {}))
     parser.add_argument("--mean-diameter", metavar="D", type=positive, required=True,
                         help="unit d of the results, in the unit after --scale")
     parser.add_argument("--reference", choices=("first", "previous"), default="",

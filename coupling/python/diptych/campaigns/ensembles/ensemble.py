@@ -23,7 +23,7 @@ from . import summary as summaries
 from . import validation
 from ..measured.folder import compare_folder
 from ..measured.validation import rows_of
-from ..runs.engine import Options, Outcome, say
+from ..runs.engine import Options, Outcome, counted, say
 from .profiles import profile_arrays
 from ..runs.folders import Folder, Runs, SceneRun, draw, run_on, write_arrays, write_json, write_text
 from ..runs.histories import curve_of, panel_table
@@ -251,10 +251,10 @@ def run_ensemble(line: argparse.Namespace, options: Options) -> None:
         raise NotConverged(lost + kept)
 
 
-def _add_measured(scene: Any, record: dict[str, Any], source: str) -> None:
+def _add_measured(scene: Any, record: dict[str, Any], source: str, options: Options) -> None:
     """Compares every finished member with the measurement in the folder `source`."""
     found = []
-    for seed, folder in _done(scene, record).items():
+    for seed, folder in counted([*_done(scene, record).items()], "samples", options.quiet):
         with Folder(folder):
             found.append(compare_folder(folder, scene.in_folder(folder, scene.name, seed), source))
     if found:
@@ -281,7 +281,7 @@ def compare_again(line: argparse.Namespace, options: Options) -> None:
         if "levels" in earlier:
             add_summary(record, earlier["levels"])
         if source := line.measured or earlier.get("measured", {}).get("folder"):
-            _add_measured(scene, record, source)
+            _add_measured(scene, record, source, options)
         _write(scene, record, options, ("statistics", begin))
         if scene.dict()["output"]["report"]:
             draw(options, directory, "ensemble")

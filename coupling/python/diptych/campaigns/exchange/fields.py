@@ -19,8 +19,9 @@ from ...importers.fields.measure import measure
 from ...importers.fields.readers import read_fields, registered
 from ...importers.readers import read_with
 from ...measurement import ARRAYS, FACTS, FIELD, HISTORY, Measurement
+from ..measured.folder import alone, write_levelled
 from ..runs.engine import Options, say, stops_raised
-from ..runs.folders import Folder, write_text
+from ..runs.folders import draw, Folder, write_text
 from .imports import import_options
 
 LAYOUT = "%-24.24s %8s %6s %9s %10s %12s %10s %9s"
@@ -80,6 +81,7 @@ def run_import_field(line: argparse.Namespace, options: Options) -> None:
     with stops_raised("import field: stopped on request"):
         result, curves = read_with(line.format, registered, "fields.register",
                                    lambda format: measure(read_fields(format, given), given))
+        found = alone(result, options.quiet)
     inputs = [*given.files, *([given.boundary] if given.boundary else [])]
     result.facts |= {"source": line.format, "reference": given.reference or "first", "notes": given.notes,
                      "curves": "boundary" if given.boundary else "field",
@@ -90,8 +92,10 @@ def run_import_field(line: argparse.Namespace, options: Options) -> None:
         result.write(folder)
         rows = "".join(",".join(f"{value:.10g}" for value in row) + "\n" for row in np.column_stack([*curves.values()]))
         write_text(os.path.join(folder, HISTORY), ",".join(curves) + "\n" + rows)
+        write_levelled(folder, folder, *found)
         cost = ("import", time.perf_counter() - began[0], time.process_time() - began[1],
                 resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
         _diptych.record_phase(folder, ("", [], shlex.join(["diptych", *options.words])), cost)
-    _say_frames(result, options)
+        _say_frames(result, options)
+        draw(options, folder, "measured")
     say(options, f"written to {folder}; beside a run: diptych compare RUN --measured {folder}")

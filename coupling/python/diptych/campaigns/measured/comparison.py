@@ -6,7 +6,7 @@ at its points. Lengths are those of the sample, stress and strain positive in co
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -65,14 +65,14 @@ def _box(points: Array, mean_diameter: float) -> dict[str, Any]:
             "height": high[1] - low[1]}
 
 
-def alone(measurement: Measurement) -> list[Window]:
+def increments(measurement: Measurement) -> list[Window]:
     """The increments between successive instants of a measurement without a sample."""
     pairs, progress = range(len(measurement.progress) - 1), measurement.progress
     return [Window(start=progress[k], end=progress[k + 1], instants=(k, k + 1), frame=_box(
         measurement.increment(k, k + 1).points, measurement.mean_diameter)) for k in pairs]
 
 
-def compared(measurement: Measurement, windows: Sequence[Window], keys: Mapping[str, Any],
+def compared(measurement: Measurement, windows: Iterable[Window], keys: Mapping[str, Any],
              folded: bool = False) -> tuple[dict[str, Any], dict[str, dict[str, Array]]]:
     """Numbers of every window, and its fields at the points: window -> name -> array.
 

@@ -15,11 +15,11 @@ from ...entries import describe
 from ...files import LEVELLED, levelled_from, read_json, read_provenance
 from ...measurement import HISTORY, Measurement, read_measurement
 from ...results import load
-from ..runs.engine import columns_text
+from ..runs.engine import columns_text, counted
 from ..runs.folders import write_arrays, write_json, write_text
 from ..runs.histories import mean_over, panel_table, peak_of_running_mean
 from ..runs.key_numbers import panel_values
-from .comparison import alone, compared, MEASURED, PANELS, windows_of
+from .comparison import compared, increments, MEASURED, PANELS, windows_of
 
 PEAK = "peak_nominal_stress_ratio"  # as a test with platens and a pressure on the sides gives it
 WORDS = {"position": ("position", "length", "of the points at the end of the window"),
@@ -106,20 +106,22 @@ def compare_folder(folder: str, scene: Any, source: str) -> dict[str, Any]:
     table = pd.read_csv(os.path.join(source, HISTORY))
     record |= {"made_from": levelled_from(read_provenance(os.path.join(folder, "provenance.json"))),
                "summary": _summary(folder, scene, table, record["windows"])}
-    _write(folder, source, record, fields)
+    write_levelled(folder, source, record, fields)
     if os.path.exists(os.path.join(folder, "comparison.json")):
         _add_to_comparison(folder, record["summary"])
     return record
 
 
-def measure(folder: str) -> None:
-    """Bands and strains of the measurement in a folder, between its instants: writes levelled.json and levelled.h5."""
-    measurement, defaults = read_measurement(folder), _diptych.read_scene(None, [], False).dict()
-    record, fields = compared(measurement, alone(measurement), defaults["comparison"])
-    _write(folder, folder, record | {"made_from": {}, "summary": []}, fields)
+def alone(measurement: Measurement, quiet: bool) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
+    """levelled.json and the arrays of levelled.h5 of a measurement without a sample: bands and strains between its
+    instants."""
+    windows = counted(increments(measurement), "increments", quiet)
+    record, fields = compared(measurement, windows, _diptych.read_scene(None, [], False).dict()["comparison"])
+    return record | {"made_from": {}, "summary": []}, fields
 
 
-def _write(folder: str, source: str, record: dict[str, Any], fields: Mapping[str, Mapping[str, Any]]) -> None:
+def write_levelled(folder: str, source: str, record: dict[str, Any], fields: Mapping[str, Mapping[str, Any]]) -> None:
+    """Writes levelled.json and levelled.h5 to a folder. source: folder of the measurement."""
     history = pd.read_csv(os.path.join(source, HISTORY))
     record |= {"format": 1, "folder": os.path.abspath(source),
                "history": {name: values.tolist() for name, values in history.items()}}

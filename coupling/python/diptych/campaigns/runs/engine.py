@@ -21,12 +21,13 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import timedelta
-from typing import Any
+from typing import Any, TypeVar
 
 from ... import _diptych
 from ...errors import NotConverged, Stopped
 
 DONE, WRONG_INPUT, NOT_CONVERGED, SYSTEM_FAILURE = 0, 2, 3, 4  # exit codes of the program
+Item = TypeVar("Item")
 _JOB_VARIABLES = ("OMPI_", "PMIX_", "PMI_", "PRTE_", "ORTE_")
 
 
@@ -268,6 +269,17 @@ class _Progress:
     def clear(self) -> None:
         if self.terminal and not self.quiet:
             _write("stderr", "\r\033[K")
+
+
+def counted(items: Sequence[Item], noun: str, quiet: bool) -> Iterator[Item]:
+    """The items one after another, with progress and time left. noun: of the items."""
+    progress = _Progress(quiet, noun, len(items), 0)
+    for item in items:
+        began = time.monotonic()
+        progress.show([began], 1)
+        yield item
+        progress.ended(Outcome(seconds=time.monotonic() - began))
+    progress.clear()
 
 
 def n_seats(options: Options) -> int:

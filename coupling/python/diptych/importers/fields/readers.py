@@ -19,7 +19,7 @@ FieldReader = Callable[[FieldOptions], "list[FieldFrame]"]
 FORMATS = {name: f"fields.{module}" for name, module in (
     ("spam", "spam"), ("dice", "dice"), ("pivlab", "pivlab"), ("ncorr", "ncorr"), ("vtk", "vtk"),
     ("csv", "plain_csv"))}
-FEWEST = 10  # points of a field
+FEWEST = 30  # points of a field, as find_bands() needs
 registered: dict[str, FieldReader] = {}
 
 
