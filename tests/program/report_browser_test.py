@@ -7,7 +7,7 @@ import tempfile
 import unittest
 
 import browser
-from report_folder import STAGES, WINDOWS, number_of_figures, run, write_folder
+from report_folder import STAGES, WINDOWS, number_of_figures, run, write_folder, write_levelled
 
 DESK, PHONE, A4 = (1400, 900), (390, 844), (688, 1016)  # CSS pixels; A4 without margins of 14 mm, at 96 dpi
 PAIR = '.pair[data-draw="quantity"] canvas.map'
@@ -162,4 +162,29 @@ class Browser(unittest.TestCase):
         self.page.command("Emulation.setEmulatedMedia", media="screen")
         self.assertEqual(self.page.run("document.querySelectorAll('#sheet canvas').length"), 0)
         self.assertTrue(self.page.pdf().startswith(b"%PDF"))
+        self.assertEqual(self.page.messages, [])
+
+    def test_a_measurement_is_a_third_map_on_the_same_scale(self):
+        folder = self.enterContext(tempfile.TemporaryDirectory())
+        write_folder(folder)
+        write_levelled(folder)
+        outcome = run(folder)
+        self.assertEqual((outcome.returncode, outcome.stderr), (0, ""))
+        self.page.open(os.path.join(folder, "report.html"))
+        self.assertEqual(self.page.run(f"[...document.querySelectorAll('{PAIR}')].map((c) => c.dataset.drawn)"),
+                         ["yes"] * 3)
+        self.choose("#place", "points")  # all panes have the 28 points, so their limits agree
+        self.assertEqual(len(set(self.limits())), 1)
+        self.assertIn("28 points; band at −45 degrees", self.page.run(
+            "document.querySelector('canvas[data-panel=measured]').getAttribute('aria-label')"))
+        words = self.page.run("document.getElementById('measured-section').textContent")
+        for told in ("not resolved", "diffuse: no band", "Grains: too narrow.", "Continuum − measurement"):
+            self.assertIn(told, words)
+        self.page.run("document.getElementById('maps-stage-0').click()")
+        self.assertIn("not measured", self.page.run(
+            "document.querySelector('canvas[data-panel=measured]').getAttribute('aria-label')"))
+        for size in (PHONE, DESK):
+            self.page.size(*size)
+            self.page.run("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+            self.assertLessEqual(self.page.run("document.documentElement.scrollWidth"), size[0])
         self.assertEqual(self.page.messages, [])

@@ -11,6 +11,8 @@ import sys
 import h5py
 import numpy as np
 
+from diptych.thickness import CONVENTIONS
+
 STAGES, WINDOWS, PROBES = 2, 1, 3
 PLATEN = 0.5  # d per unit of progress, the reference of displacements
 BAND = {"angle_deg": -45.0, "half_width_d": 1.0, "width_10_90_d": 2.197, "offset_d": 0.0, "jump": 0.9,
@@ -226,6 +228,32 @@ def write_folder(folder):
                 row = [0.0005 * k, 0.3, -0.001 * k, 10, -10.05, 0.0005 * k, 0.0, k, "axial_strain", 20, 1e-5, 1.2,
                        0.1 * k, 0.1 * k]
                 stream.write(",".join(map(str, row)) + "\n")
+
+
+def write_levelled(folder):
+    """A measurement beside both panels: 4 x 7 points, one band that is resolved in the measurement only."""
+    ends = dict.fromkeys(("angle_deg", "width_10_90_d", "offset_d", "jump"), within(2.0, 1.5, 2.5))
+    band = {**ends, "angle_deg": within(-45.0, -47.0, -43.0), "diffuse": False, "middle": [2.5, 4.0],
+            "thickness_d": dict.fromkeys(CONVENTIONS, 2.0), "profile": {"distance_d": [-2, 2], "displacement": [0, 1]}}
+    narrow = {**band, "width_10_90_d": within(None, None, None), "thickness_d": {}, "unresolved": "too narrow"}
+    strains = {"volumetric_strain": -0.001, "shear_strain": 0.02}
+    panes = {"measured": {"bands": [band], **strains}, "discrete": {"bands": [narrow], **strains},
+             "continuum": {"bands": [], **strains}}
+    unblurred = {panel: panes[panel] for panel in ("discrete", "continuum")}
+    window = {"key": "window_0", "from": 0.0, "to": 0.01, "points": 28, "levelled": panes, "unblurred": unblurred,
+              "difference": {panel: {"shear_strain": 0.0} for panel in unblurred}}
+    row = {"quantity": "width", "unit": "mean diameters", "measured": within(2.0, 1.5, 2.5),
+           "discrete": within(None, None, None), "continuum": within(3.0, None, None)}
+    write_json(folder, "levelled.json", {
+        "format": 1, "made_from": {}, "subset_d": 1.0, "spacing_d": 1.0, "resolution_d": 2.0, "summary": [row],
+        "windows": [window], "history": {"axial_strain": [0, 0.01], "volumetric_strain": [0, -0.001]}})
+    x, y = (v.ravel() + 1.0 for v in np.meshgrid(np.arange(4.0), np.arange(7.0)))
+    with h5py.File(os.path.join(folder, "levelled.h5"), "w") as file:
+        group = file.create_group("window_0")
+        store(group, "position", np.column_stack([x, y]), "length")
+        for pane, end in (("measured", 0.02), ("discrete", 0.03), ("continuum", 0.04)):
+            store(group, f"{pane}_shear_strain_increment", np.linspace(0, end, 28))
+            store(group, f"{pane}_displacement_increment", np.column_stack([y, -y]) * 0.01, "length")
 
 
 def write_json(folder, name, value):

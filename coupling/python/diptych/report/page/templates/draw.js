@@ -4,6 +4,7 @@
 const INK = "#222222", FONT = '11px Arial, "Liberation Sans", Helvetica, "DejaVu Sans", sans-serif';
 const data = JSON.parse(document.getElementById("map-data").textContent);
 const decoded = new Map();
+const panes = ["discrete", "continuum", "measured"].filter((pane) => pane in data.panels);
 
 // Values of one stored array; NaN: no value.
 function values(id) {

@@ -97,7 +97,7 @@ function drawForces(view, increment, panel) {
 function stressArm(increment, rectangles) {
   const extents = rectangles.flatMap((p) =>
     [0, 1].map((n) => p.polygon.map((q) => q[n])).map((u) => Math.max(...u) - Math.min(...u)));
-  const stresses = Object.keys(data.panels).flatMap((panel) =>
+  const stresses = Object.keys(increment.probes).flatMap((panel) =>
     increment.probes[panel].rectangles.map((p) => p.s1 || 0));
   return 0.46 * Math.min(...extents) / Math.max(1e-9, ...stresses);
 }

@@ -48,7 +48,7 @@ document.addEventListener("pointermove", (event) => {
   const x = x0 + (event.clientX - frame.left - 38) / scale, y = y1 - (event.clientY - frame.top - 6) / scale;
   hover.part.querySelector("output.readout").textContent =
     "x " + numeral(x, 1) + " d, y " + numeral(y, 1) + " d: " +
-    Object.entries(data.panels).map(([panel, name]) => name.toLowerCase() + " " + valueAt(increment, panel, x, y)).join(", ");
+    panes.map((pane) => data.panels[pane].toLowerCase() + " " + valueAt(increment, pane, x, y)).join(", ");
   for (const hair of all(".hair", hover.part)) {
     hair.hidden = false;
     hair.style.left = event.clientX - frame.left + "px";
@@ -62,9 +62,9 @@ function fillSheet() {
   sheet.replaceChildren(...data.increments.map((increment) => {
     const cell = document.createElement("div"), words = document.createElement("p");
     cell.className = "thumbnail";
-    words.textContent = increment.title + ": " + Object.values(data.panels).join(" | ").toLowerCase();
+    words.textContent = increment.title + ": " + panes.map((pane) => data.panels[pane]).join(" | ").toLowerCase();
     words.className = "caption";
-    for (const panel of Object.keys(data.panels)) {
+    for (const panel of panes) {
       const frame = document.createElement("span"), canvas = document.createElement("canvas");
       frame.style.width = "160px";
       canvas.dataset.panel = panel;

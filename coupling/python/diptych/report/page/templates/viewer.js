@@ -99,7 +99,7 @@ function drawBarOf(bar, increment) {
     if (!bar.hidden) drawBar(bar, width, pixels, found.quantity, found.limits, beyond([found.numbers], found.limits));
     return;
   }
-  const both = Object.keys(data.panels).map((panel) => shown(increment, panel, chosen.quantity, chosen.place));
+  const both = panes.map((panel) => shown(increment, panel, chosen.quantity, chosen.place));
   const limits = both[0].limits;
   bar.hidden = !limits;
   if (limits) drawBar(bar, width, pixels, chosen.quantity, limits, beyond(both.map((b) => b.numbers), limits));
