@@ -38,15 +38,15 @@ def _part(name, title, increments, end, content, *, maps=""):
 def parts(result):
     """The parts in the order of the page. A new part is an entry here and its explanation in templates/result.html."""
     every, stages, end = result.increments, result.stages, end_of(result.increments)
-    beside = [_part("measured", "Beside the measurement", found, end, lambda i: {
-        "pair": Pair(measured.profile(i.levelled), measured.thickness(i.levelled)),
-        "tables": [measured_tables.bands(i.levelled), measured_tables.thickness(i.levelled)],
-        "notes": measured_tables.notes(result.levelled, i.levelled)})
-              for found in [[i for i in every if i.levelled]] if found]
+    measured_windows = [i for i in every if i.levelled]
     return [
         _part("maps", "Grains and continuum at the same instant", every, end, lambda i: {
             "tables": [bands.bands(result, i)], "notes": bands.notes(result, i)}, maps="quantity"),
-        *beside,
+        *([_part("measured", "Beside the measurement", measured_windows, end, lambda i: {
+            "pair": Pair(*(measured.profile(i.levelled[of], f"Displacement across the band, {of}.")
+                           for of in ("levelled", "unblurred")), "Displacement across the band: levelled, unblurred."),
+            "tables": [measured_tables.bands(i.levelled), measured_tables.thickness(i.levelled)],
+            "notes": measured_tables.notes(result.levelled, i.levelled)})] if measured_windows else []),
         _part("difference", "Difference on the same cells", every, end, lambda i: {
             "tables": [stage.stress_difference(result, i), stage.dissipation(result, i)],
             "notes": paragraph(i.panel("difference").get("stress_verdict"))}, maps="difference"),
