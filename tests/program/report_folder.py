@@ -245,8 +245,11 @@ def write_levelled(folder):
     row = {"quantity": "width", "unit": "mean diameters", "measured": within(2.0, 1.5, 2.5),
            "discrete": within(None, None, None), "continuum": within(3.0, None, None)}
     write_json(folder, "levelled.json", {
-        "format": 1, "made_from": {}, "subset_d": 1.0, "spacing_d": 1.0, "resolution_d": 2.0, "summary": [row],
+        "format": 1, "subset_d": 1.0, "spacing_d": 1.0, "resolution_d": 2.0, "summary": [row],
         "windows": [window], "history": {"axial_strain": [0, 0.01], "volumetric_strain": [0, -0.001]}})
+    with open(os.path.join(folder, "comparison.json"), encoding="utf-8") as stream:
+        comparison = json.load(stream)
+    write_json(folder, "comparison.json", comparison | {"measured": [row]})
     x, y = (v.ravel() + 1.0 for v in np.meshgrid(np.arange(4.0), np.arange(7.0)))
     with h5py.File(os.path.join(folder, "levelled.h5"), "w") as file:
         group = file.create_group("window_0")

@@ -102,9 +102,3 @@ def number_name(panel: str, key: str, window: str = "") -> str:
         return f"{panel}_summary {key}"
     of = f"{panel} {window}" if panel == "continuum_coarse" else f"{window} {panel}"
     return f"{of} band {key_of_band(key)}"
-
-
-def levelled_from(provenance: Any) -> dict[str, str]:
-    """The checksums of the snapshots of both panels, which levelled.json repeats. provenance: of read_provenance()."""
-    return {panel: provenance[panel + "_files"]["snapshots"] for panel in ("discrete", "continuum")
-            if panel + "_files" in provenance}

@@ -12,7 +12,7 @@ import pandas as pd
 from ... import _diptych
 from ...arrays import Interval
 from ...entries import describe
-from ...files import LEVELLED, levelled_from, read_json, read_provenance
+from ...files import LEVELLED, read_json
 from ...measurement import HISTORY, Measurement, read_measurement
 from ...results import load
 from ..runs.engine import columns_text, counted
@@ -31,7 +31,6 @@ UNKNOWN = Interval(math.nan, math.nan, math.nan)
 describe("levelled.json", """\
 format: version of this file's format
 folder (text): folder of the measurement
-made_from/: checksums of the snapshots that were compared; empty for a measurement alone
 history/: columns of measured.csv
 subset_d [mean diameters]: side of the squares over which the correlation averages
 spacing_d [mean diameters]: distance of the points
@@ -104,8 +103,7 @@ def compare_folder(folder: str, scene: Any, source: str) -> dict[str, Any]:
     record, fields = compared(measurement, windows_of(measurement, scene, panels), scene.dict()["comparison"],
                               scene.is_mirror_symmetric())
     table = pd.read_csv(os.path.join(source, HISTORY))
-    record |= {"made_from": levelled_from(read_provenance(os.path.join(folder, "provenance.json"))),
-               "summary": _summary(folder, scene, table, record["windows"])}
+    record["summary"] = _summary(folder, scene, table, record["windows"])
     write_levelled(folder, source, record, fields)
     if os.path.exists(os.path.join(folder, "comparison.json")):
         _add_to_comparison(folder, record["summary"])
@@ -117,7 +115,7 @@ def alone(measurement: Measurement, quiet: bool) -> tuple[dict[str, Any], dict[s
     instants."""
     windows = counted(increments(measurement), "increments", quiet)
     record, fields = compared(measurement, windows, _diptych.read_scene(None, [], False).dict()["comparison"])
-    return record | {"made_from": {}, "summary": []}, fields
+    return record | {"summary": []}, fields
 
 
 def write_levelled(folder: str, source: str, record: dict[str, Any], fields: Mapping[str, Mapping[str, Any]]) -> None:

@@ -9,7 +9,7 @@ import h5py
 import numpy as np
 
 from ...errors import InputError
-from ...files import LEVELLED, levelled_from, read_json, read_provenance
+from ...files import LEVELLED, read_json, read_provenance
 from .files import open_arrays, read_csv, read_text, require
 from .numbers import Description, Descriptions, LoadingVariable, Units, loading_variable_of
 from .panels import PANEL_NAMES
@@ -144,9 +144,9 @@ def load(folder, next_folder):
         for panel, columns in histories.items():
             columns.update(_arrays(file[f"histories/{panel}"], units, described))
         platens = {panel: _arrays(group, units, described) for panel, group in file.get("platens", {}).items()}
-    imported, provenance = os.path.join(folder, "import.json"), read_provenance(path_of("provenance.json"))
-    return Result(comparison=comparison, provenance=provenance, histories=histories,
-                  levelled=_levelled(folder, levelled_from(provenance), increments, (units, described)),
+    imported = os.path.join(folder, "import.json")
+    return Result(comparison=comparison, provenance=read_provenance(path_of("provenance.json")), histories=histories,
+                  levelled=_add_levelled(folder, increments, units) if "measured" in comparison else {},
                   platens=platens, increments=increments, units=units, numbers=numbers, arrays=described,
                   scene_text=read_text(path_of("scene.prm")),
                   imported=read_json(imported) if os.path.exists(imported) else {})
@@ -175,21 +175,20 @@ def _increments(comparison, file, units, described):
     return increments
 
 
-def _levelled(folder, made_from, increments, shown):
-    """levelled.json, whose arrays become "points/..." of its windows; {} without one of these snapshots. shown: units,
-    and the descriptions of the arrays."""
-    path = os.path.join(folder, LEVELLED)
-    record = read_json(path, 1) if os.path.exists(path) else {}
-    if record.get("made_from") != made_from:
-        return {}
+def _add_levelled(folder, increments, units):
+    """Returns levelled.json. Its windows are added to the increments of the same windows: as `levelled`, as the panel
+    "measured", and with the arrays "points/..."."""
+    record = read_json(os.path.join(folder, LEVELLED), 1)
     with open_arrays(os.path.join(folder, "levelled.h5")) as file:
         for window, i in [(window, i) for window in record["windows"] for i in increments if i.kind == "window"
                           and abs(i.start - window["from"]) + abs(i.end - window["to"]) < SAME]:
-            arrays, i.levelled = _arrays(file[window["key"]], shown[0], shown[1]), window
+            i.levelled, i.record["measured"] = window, window["levelled"]["measured"]
+            arrays = _arrays(file[window["key"]], units, {})
+            arrays["radius"] = np.full(len(arrays["position"]), 0.7 * record["spacing_d"])  # discs that leave no gap
+            for pane in window["levelled"] if i.displacement_unit else ():
+                arrays[f"{pane}_displacement_over_platen"] = np.linalg.norm(
+                    arrays[f"{pane}_displacement_increment"], axis=1) / i.displacement_unit
             i.arrays |= {f"points/{name}": values for name, values in arrays.items()}
-            for name in [name for name in arrays if name.endswith("_displacement_increment") and i.displacement_unit]:
-                size = np.linalg.norm(arrays[name], axis=1) / i.displacement_unit
-                i.arrays["points/" + name.replace("displacement_increment", "displacement_over_platen")] = size
     return record
 
 

@@ -6,7 +6,6 @@ paper. Glyphs are entries of a Store; {} or None: nothing is stored."""
 import base64
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from ..charts import colour_maps
 from ..charts.style import NO_VALUE, PANEL_COLOURS
@@ -46,32 +45,24 @@ def _quantity(quantity, places, result):
 
 def _frame(increment, store):
     """Places of grains, cells, outline and bands."""
-    position, state = increment.arrays["discrete/position"], increment.state
-    bands = {panel: increment.bands(panel) for panel in PANEL_NAMES}
-    bands |= {"measured": pane["bands"] for panel, pane in increment.levelled.get("levelled", {}).items()
-              if panel == "measured"}
+    state = increment.state
     return {"key": increment.key, "kind": increment.kind, "label": increment.label, "title": increment.title,
             "end": f"{increment.end:.9g}",
-            "discs": {"x": store.add(position[:, 0]), "y": store.add(position[:, 1]),
-                      "r": store.add(increment.arrays["discrete/radius"])},
-            "points": _points(increment, store),
+            "discs": _discs(increment, "discrete", store), "points": _discs(increment, "points", store),
             "cells": store.add(corners(increment, "cells")), "grid": store.add(corners(increment, "grid")),
             "centre": short(increment.centre),
             "outline": [short(state[side]) for side in ("outline/left", "outline/right") if len(state.get(side, ()))],
             # a diffuse zone has no angle, so the map draws no line
             "bands": {panel: [[None if key == "angle_deg" and band.get("diffuse") else short(plain(band.get(key)))
                                for key in ("angle_deg", "offset_d", "width_10_90_d", "jump")]
-                              for band in found] for panel, found in bands.items()}}
+                              for band in increment.bands(panel)] for panel in PANE_NAMES}}
 
 
-def _points(increment, store):
-    """The points of a measurement as discs that leave no gap; None: nothing was measured."""
-    position = increment.arrays.get("points/position")
-    if position is None:
-        return None
-    x, y = position.T
-    spacing = np.median(cKDTree(position).query(position, k=2)[0][:, 1])
-    return {"x": store.add(x), "y": store.add(y), "r": store.add(np.full(len(x), 0.7 * spacing))}
+def _discs(increment, name, store):
+    """Grains, or points of a measurement; None: nothing was measured."""
+    position = increment.arrays.get(name + "/position")
+    return None if position is None else {"x": store.add(position[:, 0]), "y": store.add(position[:, 1]),
+                                          "r": store.add(increment.arrays[name + "/radius"])}
 
 
 def _values(quantity, increment, result, rules, store):

@@ -166,7 +166,7 @@ function drawOutline(view, increment) {
 // with a dark rim. Bands with less than half of the largest jump are fainter.
 function drawBands(view, increment, panel, onColour) {
   const c = view.c, far = 4 * (data.box[1] - data.box[0] + data.box[3] - data.box[2]);
-  const bands = increment.bands[panel] || [], strongest = Math.max(0, ...bands.map((band) => Math.abs(band[3] || 0)));
+  const bands = increment.bands[panel], strongest = Math.max(0, ...bands.map((band) => Math.abs(band[3] || 0)));
   for (const [angle, offset, width, jump] of bands) {
     if (angle === null) continue;
     const a = angle * Math.PI / 180, half = (width || 0) / 2;

@@ -16,7 +16,7 @@ function shown(increment, panel, quantity, place) {
 }
 
 function bandText(increment, panel) {
-  const bands = increment.bands[panel] || [];
+  const bands = increment.bands[panel];
   return bands.map(([angle]) => angle === null ? "diffuse zone" : "band at " + numeral(angle, 0) + " degrees").join("; ") || "no band detected";
 }
 
