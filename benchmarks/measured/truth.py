@@ -13,7 +13,8 @@ from scipy.interpolate import RegularGridInterpolator
 from scipy.ndimage import gaussian_filter
 from scipy.optimize import brentq
 
-from diptych.levelling import bands_of, levelled, with_noise
+from diptych.levelling import levelled, with_noise
+from diptych.operators import find_bands
 from diptych.thickness import CONVENTIONS, thicknesses
 
 WIDTH, HEIGHT, D = 40.0, 80.0, 1.0  # of the sample
@@ -65,8 +66,8 @@ def case(seed):
     kept = ~hole & (draw.random(len(points)) > 0.05)
     deviation = np.full(kept.sum(), noise)
     options = {"band_resamples": 200}
-    report = with_noise(bands_of(points[kept], moved[kept], FRAME, options), points[kept], moved[kept], deviation,
-                        options)
+    points, moved = points[kept], moved[kept]
+    report = with_noise(find_bands(points, moved, **FRAME, **options), points, moved, deviation, options)
     if not report.bands:
         return None
     found = report.bands[0]
@@ -80,7 +81,7 @@ def conventions():
     for angle in (35, 45, 55, 65):
         for delta in (2.0, 3.0, 5.0):
             band, points = Band(angle, delta, 1.3), points_of(0.5)
-            report = bands_of(points, band(points), FRAME, {"band_resamples": 0})
+            report = find_bands(points, band(points), **FRAME, band_resamples=0)
             found = thicknesses(points, band(points), report.bands[0], 0.5)
             for name, (_, _, over_delta) in CONVENTIONS.items():
                 worst[name] = max(worst[name], abs(found[name] / (over_delta * delta) - 1))

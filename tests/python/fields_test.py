@@ -5,6 +5,7 @@
 import h5py
 import meshio
 import numpy as np
+import pandas as pd
 import pytest
 
 import diptych
@@ -12,6 +13,7 @@ from diptych import measurement
 from diptych.importers import fields
 from diptych.importers.fields import measure, outliers
 from diptych.campaigns.commands import result_entries
+from diptych.campaigns.measured.folder import alone, write_measured
 
 X, Y = (grid.ravel() for grid in np.meshgrid(20.0 * np.arange(12), 20.0 * np.arange(15), indexing="ij"))
 GRID, FAILED = np.column_stack([X, Y]), 7
@@ -205,12 +207,12 @@ def test_a_hole_is_not_filled():
 
 def test_lengths_are_scaled_and_y_is_turned(tmp_path):
     frames = read("spam", spam(tmp_path / "a.tsv", moved(GRID)))
-    result, _, notes = measured(frames, scale=0.1, centre=(110, -140), progress=[0.02, 0.03], outliers=0)
+    result, curves, notes = measured(frames, scale=0.1, centre=(110, -140), progress=[0.02, 0.03], outliers=0)
     assert (result.subset, result.spacing) == pytest.approx((3.1, 2)) and result.centre == pytest.approx([11, 14])
     step = result.increment(0, 1)
     np.testing.assert_allclose(step.displacement, 0.1 * np.delete(moved(GRID), FAILED, axis=0), atol=1e-12)
     assert result.progress.tolist() == [0.02, 0.03] and any(text.endswith("left out: 1 of 180") for text in notes)
-    result.write(tmp_path)
+    write_measured(tmp_path, result, pd.DataFrame(curves), alone(result, True))
     again = measurement.read_measurement(tmp_path)
     assert np.array_equal(again.position, result.position) and again.facts["frames"] == result.facts["frames"]
     names = [*again.facts, *("frames/" + name for name in again.facts["frames"][0])]

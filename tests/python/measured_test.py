@@ -16,10 +16,12 @@ import diptych
 from conftest import SMALL, program
 from diptych import scenes
 from diptych.campaigns.measured.comparison import compared, increments, windows_of
+from diptych.campaigns.measured.folder import alone, write_measured
 from diptych.campaigns.measured.validation import rows_of
 from diptych.errors import SceneError
-from diptych.levelling import bands_of, field_of, levelled, on_sample, with_noise
+from diptych.levelling import field_of, levelled, on_sample, with_noise
 from diptych.measurement import FieldFrame, Measurement, read_measurement, tracked
+from diptych.operators import find_bands
 from diptych.thickness import CONVENTIONS, thicknesses
 
 FRAME = {"mean_diameter": 1.0, "centre": np.zeros(2), "width": 40.0, "height": 60.0}
@@ -75,7 +77,7 @@ def test_points_are_followed_alike_through_displacements_since_the_first_image_o
 
 def test_every_convention_of_thickness_is_its_multiple_of_the_half_width():
     points = grid(40, 60, 0.5)
-    band, = bands_of(points, tanh_band(points), FRAME, {"band_resamples": 0}).bands
+    band, = find_bands(points, tanh_band(points), **FRAME, band_resamples=0).bands
     for name, found in thicknesses(points, tanh_band(points), band, 0.5).items():
         assert found == pytest.approx(CONVENTIONS[name][2] * 3.0, rel=0.02), name
 
@@ -83,7 +85,7 @@ def test_every_convention_of_thickness_is_its_multiple_of_the_half_width():
 def test_noise_of_the_points_widens_the_intervals_and_unknown_noise_does_not():
     points, options = grid(40, 60, 1.5), {"band_resamples": 40}
     moved = tanh_band(points) + 0.02 * np.random.default_rng(1).standard_normal(points.shape)
-    report = bands_of(points, moved, FRAME, options)
+    report = find_bands(points, moved, **FRAME, **options)
 
     def half(found):
         _, low, high = found.bands[0].interval["angle_deg"]
@@ -111,10 +113,10 @@ def measured_folder(folder, tmp_path_factory):
     """The measurement of the grains of the small run."""
     path = tmp_path_factory.mktemp("measured")
     snapshots = diptych.load(folder).discrete.snapshots
-    measurement_of(snapshots).write(path)
-    pd.DataFrame({"axial_strain": [one.axial_strain for one in snapshots], "stress_ratio": 0.3,
-                  "volumetric_strain": [1 - one.area / snapshots[0].area for one in snapshots]}).to_csv(
-        path / "measured.csv", index=False)
+    measurement = measurement_of(snapshots)
+    curves = pd.DataFrame({"axial_strain": [one.axial_strain for one in snapshots], "stress_ratio": 0.3,
+                           "volumetric_strain": [1 - one.area / snapshots[0].area for one in snapshots]})
+    write_measured(path, measurement, curves, alone(measurement, True))
     return path
 
 
@@ -143,7 +145,7 @@ def test_a_scaled_and_moved_measurement_gives_the_same_places(folder):
     once, d, centre = measurement_of(snapshots), snapshots[0].mean_diameter, np.array([5.0, 6.0])
     twice = Measurement(position=2 * once.position + 7, deviation=once.deviation, progress=once.progress,
                         mean_diameter=2 * d, subset=1, spacing=1, centre=2 * once.centre + 7)
-    places = [on_sample(one, 2, one.position[2], centre, d) for one in (once, twice)]
+    places = [on_sample(one, 2, one.position[2], centre) for one in (once, twice.scaled(d))]
     assert places[1] == pytest.approx(places[0])
 
 

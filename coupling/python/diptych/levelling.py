@@ -19,8 +19,6 @@ ALONG = 5  # places along a side of a subset
 NEAR = 0.5  # mean diameters: a place farther from every grain is outside of the sample
 KEPT = 0.9  # of the draws must have a band, else an interval is unknown, as in the bootstrap
 DRAWS = 20  # of the measurement's noise; their standard deviation is then known to a sixth
-# 10-90 % width over subset of a jump that a square averages, at 0 and at 45 degrees: 0.80 and 0.78
-OF_A_JUMP = 0.8
 
 Field = Callable[[Array], Array]  # places (m, 2) at the end of an increment -> displacement (m, 2), NaN outside
 
@@ -52,32 +50,20 @@ def levelled(field: Field, points: Array, subset: float) -> Array:
     steps = subset * ((np.arange(ALONG) + 0.5) / ALONG - 0.5)
     offsets = np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
     values = field((points[:, None] + offsets).reshape(-1, 2)).reshape(len(points), -1, 2)
-    known = np.isfinite(values[..., 0])
-    total = np.where(known[..., None], values, 0).sum(axis=1)
-    count = known.sum(axis=1)
-    return np.where(2 * count[:, None] >= len(offsets), total / np.maximum(count, 1)[:, None], np.nan)
+    inside = np.isfinite(values[..., 0]).mean(axis=1) >= 0.5
+    means = np.full(points.shape, np.nan)
+    means[inside] = np.nanmean(values[inside], axis=1)
+    return means
 
 
-def resolution(subset: float, spacing: float) -> float:
-    """The 10-90 % width at which a jump appears, and below which nothing is seen [as the arguments]."""
-    return max(OF_A_JUMP * subset, 2 * spacing)
-
-
-def on_sample(measurement: Measurement, k: int, points: Array, centre: Array, mean_diameter: float) -> Array:
-    """Points of a measurement at its instant k, in the coordinates of a sample with this centre and mean diameter.
-
-    The measured centre follows the affine motion since the first instant."""
+def on_sample(measurement: Measurement, k: int, points: Array, centre: Array) -> Array:
+    """Points of a measurement at its instant k, in the coordinates of a sample with this centre. The measured centre
+    follows the affine motion since the first instant."""
     since = measurement.increment(0, k)
     before = since.points - since.displacement
     motion = since.displacement.mean(0) + gradient_of(since.points, since.displacement) @ (
         measurement.centre - before.mean(0))
-    return centre + (points - measurement.centre - motion) * (mean_diameter / measurement.mean_diameter)
-
-
-def bands_of(points: Array, displacement: Array, frame: Mapping[str, Any], options: Mapping[str, Any]) -> BandReport:
-    """find_bands() of the points that are known. frame: mean_diameter, centre, width and height of the sample."""
-    known = np.isfinite(displacement).all(axis=1)
-    return find_bands(points[known], displacement[known], **frame, **options)
+    return centre + points - measurement.centre - motion
 
 
 def with_noise(report: BandReport, points: Array, displacement: Array, deviation: Array,
@@ -88,14 +74,14 @@ def with_noise(report: BandReport, points: Array, displacement: Array, deviation
     if not report.bands or not np.isfinite(deviation).all():
         return report
     generator, again = np.random.default_rng(1), {**options, "band_resamples": 0}
-    draws = [bands_of(points, displacement + deviation[:, None] * generator.standard_normal(points.shape),
-                      report.frame, again).bands for _ in range(DRAWS)]
+    draws = [find_bands(points, displacement + deviation[:, None] * generator.standard_normal(points.shape),
+                        **report.frame, **again).bands for _ in range(DRAWS)]
     return replace(report, bands=[_widened(band, draws) for band in report.bands])
 
 
 def _widened(band: Band, draws: Sequence[Sequence[Band]]) -> Band:
     same = [min(found, key=lambda one: abs(one.angle_deg - band.angle_deg)) for found in draws if found]
-    interval = dict(band.interval)
+    interval = {}
     for name, (value, low, high) in band.interval.items():
         known = len(same) >= KEPT * DRAWS
         half = 1.96 * np.std([getattr(one, name) for one in same], ddof=1) if known else np.nan

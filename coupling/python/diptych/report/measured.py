@@ -55,7 +55,7 @@ def _map(points, values, high, bands, *, caption):
     figure = Figure(figsize=(WIDTH, min(TALLEST, WIDTH * size[1] / size[0] + 0.7)), layout="constrained")
     axes = figure.add_subplot(xlim=(low[0], low[0] + size[0]), ylim=(low[1], low[1] + size[1]), aspect="equal")
     axes.axis("off")
-    side = 1.4 * np.sqrt(np.prod(size) / len(points))  # discs that leave no gap
+    side = 1.5 * np.sqrt(np.prod(size) / len(points))  # discs that leave no gap
     discs = EllipseCollection(*np.full((2, len(points)), side), np.zeros(len(points)), units="xy", offsets=points,
                               transOffset=axes.transData, array=np.ma.masked_invalid(values))
     discs.set_clim(0, high)

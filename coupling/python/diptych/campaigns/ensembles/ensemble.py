@@ -7,8 +7,6 @@ from __future__ import annotations
 import argparse
 import math
 import os
-import resource
-import shlex
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -25,7 +23,8 @@ from ..measured.folder import compare_folder
 from ..measured.validation import rows_of
 from ..runs.engine import Options, Outcome, counted, say
 from .profiles import profile_arrays
-from ..runs.folders import Folder, Runs, SceneRun, draw, run_on, write_arrays, write_json, write_text
+from ..runs.folders import (Folder, Runs, SceneRun, draw, record_phase, run_on, write_arrays, write_json,
+                            write_text)
 from ..runs.histories import curve_of, panel_table
 from ..runs.input_file import seeds_of_line, settings_of
 from ..studies.level_runs import add_summary, demand_rule, ensemble_levels, fine_runs, read_levels
@@ -163,10 +162,7 @@ def _write(scene: Any, record: dict[str, Any], options: Options, phase: tuple[st
                                                                      lineterminator="\n"))
     write_text(os.path.join(directory, "summary.csv"), summaries.table_of(record).to_csv(
         index=False, float_format="%.9g", lineterminator="\n"))
-    (name, begin), end = phase, os.times()
-    cost = (name, end.elapsed - begin.elapsed, sum(end[:4]) - sum(begin[:4]),  # with the CPU time of the workers
-            resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
-    _diptych.record_phase(directory, (scene.name, record["seeds"], shlex.join(["diptych", *options.words])), cost)
+    record_phase(directory, *phase, (scene.name, record["seeds"]), options)
     _diptych.record_files(directory, "ensemble")
     if record["summary"]:
         say(options, summaries.text_of(record["summary"]))

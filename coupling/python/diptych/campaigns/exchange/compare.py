@@ -4,16 +4,13 @@
 
 import argparse
 import os
-import shlex
-import resource
-import time
 
 from ... import _diptych
 from ...errors import SceneError
 from ..ensembles.ensemble import compare_again
 from ..measured.folder import compare_folder, text_of
 from ..runs.engine import Options, say
-from ..runs.folders import draw, Folder
+from ..runs.folders import draw, Folder, record_phase
 
 
 def run_compare(line: argparse.Namespace, options: Options) -> None:
@@ -27,15 +24,12 @@ def run_compare(line: argparse.Namespace, options: Options) -> None:
                          f"compare {folder} --set KEY=VALUE")
     if not os.path.exists(prm):
         raise SceneError(f"{folder} is not a result folder; diptych run SCENE makes one")
-    began = time.perf_counter(), time.process_time()
+    began = os.times()
     with Folder(folder):
         scene = _diptych.read_computed_scene(prm, [], False)
         record = compare_folder(folder, scene, line.measured)
-        cost = ("measurement", time.perf_counter() - began[0], time.process_time() - began[1],
-                resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
         keys = scene.dict()
-        _diptych.record_phase(folder, (_diptych.recorded_scene(folder), [keys["sample"]["seed"]],
-                                       shlex.join(["diptych", *options.words])), cost)
+        record_phase(folder, "measurement", began, (_diptych.recorded_scene(folder), [keys["sample"]["seed"]]), options)
         say(options, text_of(record))
         if keys["output"]["report"]:
             both = os.path.exists(os.path.join(folder, "comparison.json"))

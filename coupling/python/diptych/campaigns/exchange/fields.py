@@ -4,12 +4,9 @@
 
 import argparse
 import os
-import resource
-import shlex
-import time
 from typing import Any
 
-import numpy as np
+import pandas as pd
 
 from ... import _diptych
 from ...entries import describe
@@ -19,12 +16,11 @@ from ...importers.fields.measure import measure
 from ...importers.fields.readers import read_fields, registered
 from ...importers.readers import read_with
 from ...measurement import ARRAYS, FACTS, FIELD, HISTORY, Measurement
-from ..measured.folder import alone, write_levelled
-from ..runs.engine import Options, say, stops_raised
-from ..runs.folders import draw, Folder, write_text
+from ..measured.folder import alone, write_measured
+from ..runs.engine import columns_text, Options, say, stops_raised
+from ..runs.folders import draw, Folder, record_phase
 from .imports import import_options
 
-LAYOUT = "%-24.24s %8s %6s %9s %10s %12s %10s %9s"
 HEAD = ("frame", "points", "lost", "outliers", "axial %", "volumetric %", "shear %", "sigma/d")
 
 describe(FIELD, "\n".join(f"{name} (numbers) [{unit}]: {meaning}" for name, (_, unit, meaning) in ARRAYS.items()))
@@ -61,21 +57,18 @@ stress_ratio (numbers): t/s; of the boundary table, else left out
 """)
 
 
-def _say_frames(result: Measurement, options: Options) -> None:
-    say(options, LAYOUT % HEAD)
-    for row in result.facts["frames"]:
-        say(options, LAYOUT % (
-            row["frame"], row["points"], row["lost"], row["outliers"],
-            *(f"{100 * row[name + '_strain']:.4f}" for name in ("axial", "volumetric", "shear")),
-            "-" if row["deviation_d"] is None else f"{row['deviation_d']:.2g}"))
-    for text in result.facts["notes"]:
-        say(options, f"note: {text}")
+def _text_of(result: Measurement) -> str:
+    """The table of the frames, and the notes."""
+    rows = [[row["frame"], *(str(row[name]) for name in ("points", "lost", "outliers")),
+             *(f"{100 * row[name + '_strain']:.4f}" for name in ("axial", "volumetric", "shear")),
+             "-" if row["deviation_d"] is None else f"{row['deviation_d']:.2g}"] for row in result.facts["frames"]]
+    return "\n".join([columns_text([HEAD, *rows]), *(f"note: {text}" for text in result.facts["notes"])])
 
 
 def run_import_field(line: argparse.Namespace, options: Options) -> None:
     """The command `diptych import field`: writes measured.h5, measured.json, measured.csv and provenance.json. Raises
     SceneError, and then writes nothing."""
-    began, folder = (time.perf_counter(), time.process_time()), line.output
+    began, folder = os.times(), line.output
     _diptych.require_usable(folder, False, options.overwrite, False)
     given: Any = import_options(line, FieldOptions)
     with stops_raised("import field: stopped on request"):
@@ -89,13 +82,8 @@ def run_import_field(line: argparse.Namespace, options: Options) -> None:
     with Folder(folder) as locked:
         if options.overwrite and not _diptych.is_empty_folder(folder):
             locked.set_aside([("the file", file) for file in inputs])
-        result.write(folder)
-        rows = "".join(",".join(f"{value:.10g}" for value in row) + "\n" for row in np.column_stack([*curves.values()]))
-        write_text(os.path.join(folder, HISTORY), ",".join(curves) + "\n" + rows)
-        write_levelled(folder, folder, *found)
-        cost = ("import", time.perf_counter() - began[0], time.process_time() - began[1],
-                resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
-        _diptych.record_phase(folder, ("", [], shlex.join(["diptych", *options.words])), cost)
-        _say_frames(result, options)
+        write_measured(folder, result, pd.DataFrame(curves), found)
+        record_phase(folder, "import", began, ("", []), options)
+        say(options, _text_of(result))
         draw(options, folder, "measured")
     say(options, f"written to {folder}; beside a run: diptych compare RUN --measured {folder}")

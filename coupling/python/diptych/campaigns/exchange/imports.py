@@ -6,10 +6,6 @@ import argparse
 import json
 import math
 import os
-import resource
-import shlex
-import time
-from typing import Any
 
 from ... import _diptych
 from ...arrays import plain
@@ -18,7 +14,7 @@ from ...importers.frames import Options as ImportOptions
 from ...importers.grain_results import facts_of, results_of, scene_of
 from ...importers.readers import read_frames, read_with, registered
 from ..runs.engine import Options, complain, say, stops_raised
-from ..runs.folders import Folder, write_json, write_text
+from ..runs.folders import Folder, record_phase, write_json, write_text
 
 LAYOUT = "%-18.18s %8s %7s %9s %9s %10s %10s %10s %10s %14s %12s %13s"
 HEAD = ("frame", "strain %", "grains", "contacts", "on walls", "solid fr.", "stress xx", "yy", "xy", "walls diff %",
@@ -59,7 +55,7 @@ def _say_checks(arrival: Arrival, options: Options) -> None:
 def import_files(word: str, given: ImportOptions, folder: str, options: Options) -> None:
     """Imports files with the reader of a format, or of a Python file. Writes the files of the grains, import.json and
     provenance.json; from two frames on also scene.prm. Raises SceneError, and then writes nothing."""
-    began = time.perf_counter(), time.process_time()
+    began = os.times()
     _diptych.require_usable(folder, False, options.overwrite, False)
     arrival = read_with(word, registered, "importers.register",
                         lambda format: arrive(format, read_frames(format, given), given))
@@ -78,10 +74,7 @@ def import_files(word: str, given: ImportOptions, folder: str, options: Options)
         _diptych.write_grains(results, folder)
         if scene:
             write_text(os.path.join(folder, "scene.prm"), scene)
-        cost = ("import", time.perf_counter() - began[0], time.process_time() - began[1],
-                resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
-        origin: Any = (os.path.basename(os.path.normpath(folder)), [1], shlex.join(["diptych", *options.words]))
-        _diptych.record_phase(folder, origin, cost)
+        record_phase(folder, "import", began, (os.path.basename(os.path.normpath(folder)), [1]), options)
         _diptych.record_grains(folder, json.dumps(plain(facts_of(arrival, results))))
     _say_checks(arrival, options)
     say(options, f"written to {folder}; both panels: diptych run {os.path.join(folder, 'scene.prm')}" if scene else

@@ -1,10 +1,11 @@
 # diptych: a result folder beside a measurement
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Writes the comparison of a result folder with a measurement: levelled.json, levelled.h5, and rows of the summary."""
+"""Writes measurements, and the comparison of a result folder with one: levelled.json, levelled.h5, rows of the
+summary."""
 
 import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import pandas as pd
@@ -13,7 +14,7 @@ from ... import _diptych
 from ...arrays import Interval
 from ...entries import describe
 from ...files import LEVELLED, read_json
-from ...measurement import HISTORY, Measurement, read_measurement
+from ...measurement import ARRAYS, FACTS, FIELD, HISTORY, Measurement, NUMBERS, read_measurement
 from ...results import load
 from ..runs.engine import columns_text, counted
 from ..runs.folders import write_arrays, write_json, write_text
@@ -21,12 +22,12 @@ from ..runs.histories import mean_over, panel_table, peak_of_running_mean
 from ..runs.key_numbers import panel_values
 from .comparison import compared, increments, MEASURED, PANELS, windows_of
 
+PANES = {MEASURED: "measured", "discrete": "grains", "continuum": "continuum"}
 PEAK = "peak_nominal_stress_ratio"  # as a test with platens and a pressure on the sides gives it
 WORDS = {"position": ("position", "length", "of the points at the end of the window"),
          "deviation": ("standard deviation", "length", "of a component of the measured displacement"),
          "displacement_increment": ("displacement increment", "length", "levelled: averaged over the subsets"),
          "shear_strain_increment": ("shear strain increment", "-", "eps_1 - eps_2 of the levelled displacements")}
-UNKNOWN = Interval(math.nan, math.nan, math.nan)
 
 describe("levelled.json", """\
 format: version of this file's format
@@ -46,52 +47,37 @@ windows/: windows of the comparison that were measured
     key (text): group of levelled.h5
     from [strain]: begin of the window
     to [strain]: end of the window
-    measured_from [strain]: axial strain of the measured instant nearest to the begin
-    measured_to [strain]: axial strain of the measured instant nearest to the end
     points: number of points that all panes have
-    levelled/: panes: measured, discrete, continuum; each has mean strains and bands as in homogenised.json
+    levelled/: panes: measured, discrete, continuum; each has mean strains, and bands as in homogenised.json
     unblurred/: bands of the panels without the blur of the measurement
     difference/: panel minus measurement; intervals hold those of both
 """)
 
 
-def _peak(table: pd.DataFrame | None, width: float) -> Interval:
-    if table is None or "stress_ratio" not in table:
-        return UNKNOWN
-    peak = peak_of_running_mean(table.rename(columns={"axial_strain": "progress"}), "stress_ratio", width)
-    return Interval(peak, math.nan, math.nan)
+def _single(value: float) -> Interval:
+    return Interval(float(value), math.nan, math.nan)
 
 
-def _summary(folder: str, scene: Any, measured: pd.DataFrame, windows: Sequence[Mapping[str, Any]]
-             ) -> list[dict[str, Any]]:
-    """Rows of the last measured window, and of the curves up to its end."""
-    last, tables = windows[-1], {panel: panel_table(folder, panel) for panel in PANELS}
-    tables = {panel: table for panel, table in tables.items() if table is not None}
-
-    def row(key: str, quantity: str, unit: str, values: Mapping[str, Interval]) -> dict[str, Any]:
-        return {"key": key, "quantity": quantity, "unit": unit,
-                **{pane: values.get(pane, UNKNOWN) for pane in (MEASURED, *PANELS)}}
-
-    def volume(x: Any, y: Any) -> Interval:
-        return Interval(float(mean_over(x, y, last["to"], last["to"])), math.nan, math.nan)
-
-    def of_bands(key: str) -> dict[str, Interval]:
-        return {pane: numbers["bands"][0][key] for pane, numbers in last["levelled"].items()
-                if numbers["bands"] and not (key == "angle_deg" and numbers["bands"][0]["diffuse"])}
-
-    where = f"{last['from']:g} to {last['to']:g}"
-    volumes = {panel: volume(table["progress"], table["volumetric_strain"]) for panel, table in tables.items()}
-    volumes[MEASURED] = volume(measured["axial_strain"], measured["volumetric_strain"])
-    rows = [row("volumetric_strain", f"volumetric strain at {last['to']:g}", "-", volumes),
-            row("angle_deg", f"inclination of the levelled band ({where})", "degrees", of_bands("angle_deg")),
-            row("width_10_90_d", f"10-90 % width of the levelled band ({where})", "mean diameters",
-                of_bands("width_10_90_d"))]
+def _summary(folder: str, scene: Any, measured: pd.DataFrame, window: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Rows of a window, and of the curves up to its end. measured: the curves of the measurement."""
+    end, where = window["to"], f"{window['from']:g} to {window['to']:g}"
+    tables = {panel: table for panel in PANELS if (table := panel_table(folder, panel)) is not None}
+    curves = {**tables, MEASURED: measured.rename(columns={"axial_strain": "progress"})}
+    bands = {pane: numbers["bands"][0] for pane, numbers in window["levelled"].items() if numbers["bands"]}
+    found = [("volumetric_strain", f"volumetric strain at {end:g}", "-", {
+        pane: _single(mean_over(curve["progress"], curve["volumetric_strain"], end, end))
+        for pane, curve in curves.items()})]
+    found += [("angle_deg", f"inclination of the levelled band ({where})", "degrees",
+               {pane: band["angle_deg"] for pane, band in bands.items() if not band["diffuse"]}),
+              ("width_10_90_d", f"10-90 % width of the levelled band ({where})", "mean diameters",
+               {pane: band["width_10_90_d"] for pane, band in bands.items()})]
     if "stress_ratio" in measured:
-        peaks = {panel: Interval(panel_values(scene, table)[PEAK], math.nan, math.nan)
-                 for panel, table in tables.items()}
-        rows.insert(0, row(PEAK, "nominal peak t/s beside the measurement", "-",
-                           peaks | {MEASURED: _peak(measured, scene.averaging_width())}))
-    return rows
+        peaks = {panel: panel_values(scene, table)[PEAK] for panel, table in tables.items()}
+        peaks[MEASURED] = peak_of_running_mean(curves[MEASURED], "stress_ratio", scene.averaging_width())
+        found.insert(0, (PEAK, "nominal peak t/s beside the measurement", "-",
+                         {pane: _single(peak) for pane, peak in peaks.items()}))
+    return [{"key": key, "quantity": quantity, "unit": unit,
+             **{pane: values.get(pane, _single(math.nan)) for pane in PANES}} for key, quantity, unit, values in found]
 
 
 def compare_folder(folder: str, scene: Any, source: str) -> dict[str, Any]:
@@ -102,9 +88,9 @@ def compare_folder(folder: str, scene: Any, source: str) -> dict[str, Any]:
     panels = {panel: getattr(results, panel).snapshots for panel in PANELS if getattr(results, panel) is not None}
     record, fields = compared(measurement, windows_of(measurement, scene, panels), scene.dict()["comparison"],
                               scene.is_mirror_symmetric())
-    table = pd.read_csv(os.path.join(source, HISTORY))
-    record["summary"] = _summary(folder, scene, table, record["windows"])
-    write_levelled(folder, source, record, fields)
+    curves = pd.read_csv(os.path.join(source, HISTORY))
+    record["summary"] = _summary(folder, scene, curves, record["windows"][-1])
+    _write_levelled(folder, source, curves, record, fields)
     if os.path.exists(os.path.join(folder, "comparison.json")):
         _add_to_comparison(folder, record["summary"])
     return record
@@ -118,11 +104,21 @@ def alone(measurement: Measurement, quiet: bool) -> tuple[dict[str, Any], dict[s
     return record | {"summary": []}, fields
 
 
-def write_levelled(folder: str, source: str, record: dict[str, Any], fields: Mapping[str, Mapping[str, Any]]) -> None:
+def write_measured(folder: str, measurement: Measurement, curves: pd.DataFrame,
+                   levelled: tuple[dict[str, Any], Mapping[str, Mapping[str, Any]]]) -> None:
+    """Writes the files of a measurement. levelled: of alone()."""
+    write_arrays(os.path.join(folder, FIELD),
+                 {name: (getattr(measurement, name), *words) for name, words in ARRAYS.items()}, {})
+    write_json(os.path.join(folder, FACTS), {"format": 1, **{name: getattr(measurement, name) for name in NUMBERS},
+                                             **measurement.facts})
+    write_text(os.path.join(folder, HISTORY), curves.to_csv(index=False, float_format="%.10g", lineterminator="\n"))
+    _write_levelled(folder, folder, curves, *levelled)
+
+
+def _write_levelled(folder: str, source: str, curves: pd.DataFrame, record: dict[str, Any],
+                    fields: Mapping[str, Mapping[str, Any]]) -> None:
     """Writes levelled.json and levelled.h5 to a folder. source: folder of the measurement."""
-    history = pd.read_csv(os.path.join(source, HISTORY))
-    record |= {"format": 1, "folder": os.path.abspath(source),
-               "history": {name: values.tolist() for name, values in history.items()}}
+    record |= {"format": 1, "folder": os.path.abspath(source), "history": curves.to_dict("list")}
     arrays = {f"{window}/{name}": (values, *WORDS[name.partition("_")[2] or name])
               for window, named in fields.items() for name, values in named.items()}
     write_arrays(os.path.join(folder, "levelled.h5"), arrays, {})
@@ -137,20 +133,17 @@ def _add_to_comparison(folder: str, rows: list[dict[str, Any]]) -> None:
     path = os.path.join(folder, "summary.csv")
     table = pd.read_csv(path)
     table = table[~table["quantity"].isin([row["quantity"] for row in rows])]
-    panes = {MEASURED: MEASURED, "discrete": "grains", "continuum": "continuum"}
     more = pd.DataFrame([{"quantity": row["quantity"], "unit": row["unit"], **{
-        name + end: value for pane, name in panes.items() for end, value in zip(("", "_low", "_high"), row[pane])}}
+        name + end: value for pane, name in PANES.items() for end, value in zip(("", "_low", "_high"), row[pane])}}
         for row in rows])
     write_text(path, pd.concat([table, more]).to_csv(index=False, float_format="%.9g", lineterminator="\n"))
 
 
 def text_of(record: Mapping[str, Any]) -> str:
     """The table of a terminal, and a line per band that is not resolved."""
-    panes = {MEASURED: "measured", "discrete": "grains", "continuum": "continuum"}
-    table = columns_text([["", *panes.values()], *(
-        [row["quantity"] + ("" if row["unit"] == "-" else f" [{row['unit']}]"), *(row[one].text() for one in panes)]
-        for row in record["summary"])])
-    unresolved = [f"{panes[pane]}, {window['from']:g} to {window['to']:g}: {band['unresolved']}"
+    rows = [[row["quantity"] + ("" if row["unit"] == "-" else f" [{row['unit']}]"), *(row[one].text() for one in PANES)]
+            for row in record["summary"]]
+    unresolved = [f"{PANES[pane]}, {window['from']:g} to {window['to']:g}: {band['unresolved']}"
                   for window in record["windows"] for pane, one in window["levelled"].items()
                   for band in one["bands"] if "unresolved" in band]
-    return "\n".join([table, *unresolved])
+    return "\n".join([columns_text([["", *PANES.values()], *rows]), *unresolved])

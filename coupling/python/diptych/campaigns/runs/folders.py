@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import json
 import os
+import resource
+import shlex
 import shutil
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -93,6 +95,15 @@ def write_arrays(path: str, arrays: Mapping[str, tuple[Any, str, str, str]],
             data.attrs.update(zip(("title", "unit", "meaning"), map(np.bytes_, words)))
         for group, numbers in attributes.items():
             file.require_group(group).attrs.update(numbers)
+
+
+def record_phase(folder: str, phase: str, began: os.times_result, origin: tuple[str, list[int]],
+                 options: Options) -> None:
+    """Adds a phase with its costs to provenance.json. began: os.times() at its start. origin: scene and seeds."""
+    end = os.times()
+    cost = (phase, end.elapsed - began.elapsed, sum(end[:4]) - sum(began[:4]),  # with the CPU time of the workers
+            resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
+    _diptych.record_phase(folder, (*origin, shlex.join(["diptych", *options.words])), cost)
 
 
 def draw(options: Options, directory: str, *pages: str) -> None:
