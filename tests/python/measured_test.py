@@ -15,9 +15,9 @@ import pytest
 import diptych
 from conftest import SMALL, program
 from diptych import scenes
+from diptych.campaigns.ensembles.measured import rows_of
 from diptych.campaigns.measured.comparison import compared, increments, windows_of
 from diptych.campaigns.measured.folder import alone, write_measured
-from diptych.campaigns.measured.validation import rows_of
 from diptych.errors import SceneError
 from diptych.levelling import field_of, levelled, on_sample, with_noise
 from diptych.measurement import FieldFrame, Measurement, read_measurement, tracked

@@ -20,8 +20,8 @@ from ...files import key_of_band, member_folders, number_name, read_ensemble, re
 from . import summary as summaries
 from . import validation
 from ..measured.folder import compare_folder
-from ..measured.validation import rows_of
 from ..runs.engine import Options, Outcome, counted, say
+from .measured import rows_of
 from .profiles import profile_arrays
 from ..runs.folders import (Folder, Runs, SceneRun, draw, record_phase, run_on, write_arrays, write_json,
                             write_text)

@@ -11,15 +11,17 @@ import numpy as np
 
 from ...entries import describe
 from ...files import key_of_band, window_name
+from ..measured.comparison import MEASURED, PANELS
 from ..runs.key_numbers import OF_PANEL, QUANTITIES
-from ..runs.statistics import Difference, line_statistics, line_turn, statistics
-from .comparison import MEASURED, PANELS
+from ..runs.statistics import line_statistics, statistics
+from .validation import DRAWS, validated
 
 # key of a row of levelled.json -> key of the compared quantity
 _KEYS = {"volumetric_strain": "final_volumetric_strain", "angle_deg": "band_angle_deg",
          "width_10_90_d": "band_width_10_90_d"}
-# parts of a row of `validation` that belong to a panel
-_PARTS = {"discrete": ("grains_step",), "continuum": ("mesh", "load_step")}
+# uncertainties of a row of `validation` that belong to a panel
+_PARTS = {"discrete": ("grains_step",), "continuum": ("mesh", "load_step", "parameters")}
+_UNKNOWN = dict.fromkeys(sum(_PARTS.values(), ()), math.nan)
 
 describe("ensemble.json", """\
 measured/: with --measured only
@@ -50,35 +52,25 @@ def rows_of(records: Sequence[Mapping[str, Any]], validation: Sequence[Mapping[s
     window, rows, of_panels = window_name(last["from"], last["to"]), [], {row["quantity"]: row for row in validation}
     for k, first in enumerate(records[0]["summary"]):
         key = _KEYS.get(first["key"], first["key"])
-        parts = of_panels.get(key if key in OF_PANEL else f"{window} band {key_of_band(key)}", {})
+        known = of_panels.get(key if key in OF_PANEL else f"{window} band {key_of_band(key)}", {})
+        parts = {**known.get("parts", {}), "parameters": known.get("u_input", math.nan)}
         values = {pane: np.array([record["summary"][k][pane] for record in records], float)
                   for pane in (MEASURED, *PANELS)}  # (members, 3): value, low, high
         if folded and first["key"] == "angle_deg":
             values = {pane: np.where(one[:, :1] < 0, -one[:, [0, 2, 1]], one) for pane, one in values.items()}
-        rows += [{"quantity": first["quantity"], "unit": first["unit"], "panel": panel,
-                  **_row(QUANTITIES[key], values[panel][:, 0], values[MEASURED], _uncertainties(parts, panel), margins)}
-                 for panel in PANELS]
+        rows += [{"quantity": first["quantity"], "unit": first["unit"], "panel": panel, **_row(
+            QUANTITIES[key], values[panel][:, 0], values[MEASURED], {name: parts.get(name, math.nan) for name in own},
+            margins)} for panel, own in _PARTS.items()]
     return rows
-
-
-def _uncertainties(parts: Mapping[str, Any], panel: str) -> dict[str, float]:
-    known = [u for name in _PARTS[panel] if math.isfinite(u := parts.get("parts", {}).get(name, math.nan))]
-    return {"u_num": math.hypot(*known) if known else math.nan,
-            "u_input": parts.get("u_input", math.nan) if panel == "continuum" else math.nan}
 
 
 def _row(quantity: Mapping[str, Any], panel: np.ndarray, measured: np.ndarray, parts: Mapping[str, float],
          margins: Mapping[str, float]) -> dict[str, Any]:
-    is_line = quantity["difference"] == "line"
-    average = line_statistics if is_line else statistics
-    data, found = average(measured[:, 0]).mean, average(panel)
-    halves = 0.5 * (measured[:, 2] - measured[:, 1])
-    u_d = float(np.mean(halves[np.isfinite(halves)])) / 1.96 if np.isfinite(halves).any() else math.nan
-    error = average(line_turn(panel, data) if is_line else panel - data)
-    more = [(u, math.inf) for u in (u_d, *parts.values()) if math.isfinite(u)]
-    total = Difference(error.n, error.interval(), error.interval(0.90)).with_errors(more)
-    margin = margins[quantity["margin"]] * (abs(data) if quantity["difference"] == "relative" else 1)
-    u_s = found.deviation / math.sqrt(found.n) if found.n > 1 else math.nan
-    known = [u for u in (u_s, u_d, *parts.values()) if math.isfinite(u)]
-    return {"n": error.n, "S": found.mean, "D": data, "E": total.difference, **parts, "u_S": u_s, "u_D": u_d,
-            "u_val": math.hypot(*known) if known else math.nan, "margin": margin, "verdict": total.verdict(margin)}
+    kind = quantity["difference"]
+    data = (line_statistics if kind == "line" else statistics)(measured[:, 0]).mean
+    u_d = statistics(0.5 * (measured[:, 2] - measured[:, 1])).mean / 1.96
+    total, row = validated(kind, (np.full(len(panel), data), panel), {**_UNKNOWN, **parts, "measurement": u_d}, DRAWS)
+    margin = margins[quantity["margin"]]
+    return {**{name: row[name] for name in ("n", "S", "E", "u_num", "u_input", "u_val")}, "u_S": row["u_D"],
+            "D": data, "u_D": u_d, "margin": margin * (abs(data) if kind == "relative" else 1),
+            "verdict": total.verdict(margin)}
