@@ -20,7 +20,8 @@ from diptych.campaigns.measured.comparison import compared, increments, windows_
 from diptych.campaigns.measured.folder import alone, write_measured
 from diptych.errors import SceneError
 from diptych.levelling import field_of, levelled, on_sample, with_noise
-from diptych.measurement import FieldFrame, Measurement, read_measurement, tracked
+from diptych.importers.fields.measure import tracked
+from diptych.measurement import FieldFrame, Measurement, read_measurement
 from diptych.operators import find_bands
 from diptych.thickness import CONVENTIONS, thicknesses
 

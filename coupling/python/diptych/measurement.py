@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass, field, replace
 from typing import Any
 
@@ -13,7 +12,7 @@ import h5py
 import numpy as np
 
 from .arrays import Array, Record
-from .errors import InputError, SceneError
+from .errors import InputError
 from .files import read_json
 
 FIELD = "measured.h5"
@@ -52,6 +51,11 @@ class FieldFrame:
     path: str = ""
     y_down: bool = False
     subset: float | None = None
+
+    @property
+    def known(self) -> Array:
+        """(n) True: the point has a displacement."""
+        return np.isfinite(self.displacement).all(axis=1)
 
 
 @dataclass(kw_only=True)
@@ -106,40 +110,6 @@ def read_measurement(folder: str | os.PathLike[str]) -> Measurement:
     except (OSError, KeyError, TypeError, ValueError) as error:
         raise InputError(f"{path}: is missing or damaged ({error}); import the measurement again") from error
     return Measurement(**arrays, **numbers, facts=facts)
-
-
-def tracked(frames: Sequence[FieldFrame], to_first: bool) -> tuple[Array, Array]:
-    """Positions (k + 1, n, 2) and deviations (k + 1, n) of the points of the first frame at every instant.
-
-    to_first  True: every frame holds the displacement since the first image, at the same points.
-              False: since the image before. A point is then followed through the frames by linear interpolation, and
-              the variances add up. It is lost 1.5 spacings away from all points of a frame.
-
-    Raises SceneError if the frames have other points although they should not.
-    """
-    from scipy.interpolate import LinearNDInterpolator  # loads slowly
-    from scipy.spatial import cKDTree
-
-    start = frames[0].points
-    position, variance = [start], [np.zeros(len(start))]
-    for frame in frames:
-        deviation = np.full(len(frame.points), np.nan) if frame.deviation is None else frame.deviation
-        if to_first:
-            if frame.points.shape != start.shape or not np.allclose(frame.points, start, atol=1e-6 * np.ptp(start)):
-                raise SceneError(f"{frame.path}: its points are not those of {frames[0].path}. If every frame holds "
-                                 "the displacement since the image before, give --reference previous")
-            position.append(start + frame.displacement)
-            variance.append(deviation**2)
-            continue
-        known = np.isfinite(frame.displacement).all(axis=1)
-        field_at = LinearNDInterpolator(frame.points[known], np.column_stack([frame.displacement,
-                                                                             deviation**2])[known])
-        moved, tree = field_at(position[-1]), cKDTree(frame.points[known])
-        spacing = np.median(tree.query(frame.points[known], 2)[0][:, 1])
-        moved[tree.query(np.nan_to_num(position[-1]))[0] > 1.5 * spacing] = np.nan
-        position.append(position[-1] + moved[:, :2])
-        variance.append(variance[-1] + moved[:, 2])
-    return np.array(position), np.sqrt(variance)
 
 
 def gradient_of(points: Array, displacement: Array) -> Array:

@@ -179,8 +179,6 @@ def add_import_field(parser: Parser) -> None:
              "pixels, and 1 keeps them"),
             ("subset", "LENGTH", number(0, 1e30), "side of the correlated squares in the unit of the files; 0: points "
              "that were followed by themselves"),
-            ("spacing", "LENGTH", positive, "of the points, in the unit of the files (default: median distance of the "
-             "nearest)"),
             ("time-between", "SECONDS", positive, "time between the images of a frame, if the files hold velocities"),
             ("progress", "LIST", _strains, "axial strain of the first image and of every frame, such as 0,0.01,0.02 "
              "(default: rows of --boundary if they are as many, else the vertical strain of the field)"),

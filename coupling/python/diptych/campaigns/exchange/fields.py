@@ -52,7 +52,7 @@ frames/: one per frame
 
 describe(HISTORY, """\
 axial_strain (numbers): axial strain, of the boundary table or of every instant
-volumetric_strain (numbers): 1 - V/V0, dilation negative; of the boundary table, else of the affine fit
+volumetric_strain (numbers): 1 - V/V0, dilation negative; of the boundary table; without a table of the affine fit
 stress_ratio (numbers): t/s; of the boundary table, else left out
 """)
 

@@ -66,7 +66,7 @@ def _summary(folder: str, scene: Any, measured: pd.DataFrame, window: Mapping[st
     bands = {pane: numbers["bands"][0] for pane, numbers in window["levelled"].items() if numbers["bands"]}
     found = [("volumetric_strain", f"volumetric strain at {end:g}", "-", {
         pane: _single(mean_over(curve["progress"], curve["volumetric_strain"], end, end))
-        for pane, curve in curves.items()})]
+        for pane, curve in curves.items() if "volumetric_strain" in curve})]
     found += [("angle_deg", f"inclination of the levelled band ({where})", "degrees",
                {pane: band["angle_deg"] for pane, band in bands.items() if not band["diffuse"]}),
               ("width_10_90_d", f"10-90 % width of the levelled band ({where})", "mean diameters",

@@ -22,12 +22,12 @@ class FieldOptions(Options):
     """Words of the command line. A reader uses files, columns_of("field"), time_between and note(). Lengths are in the
     unit of the files, but mean_diameter in that after the scale."""
 
+    mean_diameter: float = 1.0
     y: str = ""  # "down" or "up"; "": as the format prescribes
     time_between: float | None = None
     scale: float | None = None
     reference: str = ""  # "first" or "previous"
     subset: float | None = None
-    spacing: float | None = None
     centre: tuple[float, float] | None = None
     progress: Sequence[float] | None = None
     boundary: str | None = None

@@ -7,14 +7,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
+from scipy.interpolate import LinearNDInterpolator
+from scipy.spatial import cKDTree
 
 from ... import _diptych
 from ...arrays import Array, rms
 from ...errors import SceneError
-from ...measurement import FieldFrame, Measurement, gradient_of, tracked
+from ...measurement import FieldFrame, Measurement, gradient_of
 from ..frames import refused
 from ..readers import require_files
 from ..table_files import read_table
@@ -25,54 +26,75 @@ NOISE_PX, NOISE_SPACING = 0.1, 0.01  # scatter below which no point is an outlie
 text_of = _diptych.text_of_number
 
 
-def _scaled(frames: Sequence[FieldFrame], options: FieldOptions) -> float:
-    """Multiplies all lengths of the frames by the scale, and returns it."""
+def _scale(frames: Sequence[FieldFrame], options: FieldOptions) -> float:
+    """Factor of all lengths in the files."""
+    unit = frames[0].unit
     for frame in frames:
-        if frame.unit != frames[0].unit:
-            raise refused(frame.path, f"lengths are in {frame.unit}, but in {frames[0].unit} in {frames[0].path}")
-    unit = frames[0].unit or "the unit of the files"
-    if options.scale is None and unit == "px":
+        if frame.unit != unit:
+            raise refused(frame.path, f"lengths are in {frame.unit}, but in {unit} in {frames[0].path}")
+    if options.scale is not None:
+        return options.scale
+    if unit == "px":
         raise refused(frames[0].path, "lengths are pixels; give --scale S, the length of a pixel in the unit of "
                       "--mean-diameter, or 1 to keep pixels")
-    if options.scale is None:
-        options.note(f"lengths are in {unit}; --mean-diameter counts in the same unit")
-    scale = options.scale or 1.0
-    for frame in frames:
-        frame.points, frame.displacement = scale * frame.points, scale * frame.displacement
-        frame.deviation = None if frame.deviation is None else scale * frame.deviation
-    return scale
+    options.note(f"lengths are in {unit or 'the unit of the files'}; --mean-diameter counts in the same unit")
+    return 1.0
 
 
-def _sizes(frames: Sequence[FieldFrame], scale: float, options: FieldOptions) -> tuple[float, float]:
-    """Subset and spacing after the scale."""
-    own = frames[0].subset
-    if options.subset is None and own is None:
+def _subset(frame: FieldFrame, options: FieldOptions) -> float:
+    """Side of the correlated squares in the unit of the files."""
+    if options.subset is not None:
+        return options.subset
+    if frame.subset is None:
         raise SceneError("--subset is required: the files do not hold it. Give the side of the correlated squares in "
                          "the unit of the files, or 0 if every point was followed by itself")
-    if options.subset is None and own is not None:
-        options.note(f"--subset = {text_of(own)}, from {frames[0].path}")
-    subset = scale * (options.subset if options.subset is not None else own or 0.0)
-    if options.spacing is not None:
-        return subset, scale * options.spacing
-    spacing = spacing_of(frames[0].points[np.isfinite(frames[0].displacement).all(axis=1)])
-    options.note(f"--spacing = {spacing / scale:.6g}, the median distance of the nearest points")
-    return subset, spacing
+    options.note(f"--subset = {text_of(frame.subset)}, from {frame.path}")
+    return frame.subset
 
 
-def _take_out_outliers(frames: Sequence[FieldFrame], spacing: float, scale: float, options: FieldOptions) -> list[int]:
+def _take_out_outliers(frames: Sequence[FieldFrame], spacing: float, options: FieldOptions) -> list[int]:
     """Makes outliers NaN; returns their number in every frame."""
     if not options.outliers:
         return [0] * len(frames)
     is_px = frames[0].unit == "px"
-    noise = NOISE_PX * scale if is_px else NOISE_SPACING * spacing
     options.note(f"outliers exceed {text_of(options.outliers)} in the normalised median test, with a noise of "
                  + (f"{NOISE_PX} px" if is_px else f"{NOISE_SPACING} spacings") + "; --outliers 0 keeps them")
     counts = []
     for frame in frames:
-        flags = outliers(frame.points, frame.displacement, spacing=spacing, threshold=options.outliers, noise=noise)
+        flags = outliers(frame.points, frame.displacement, spacing=spacing, threshold=options.outliers,
+                         noise=NOISE_PX if is_px else NOISE_SPACING * spacing)
         frame.displacement = np.where(flags[:, None], np.nan, frame.displacement)
         counts.append(int(flags.sum()))
     return counts
+
+
+def tracked(frames: Sequence[FieldFrame], to_first: bool) -> tuple[Array, Array]:
+    """Positions (k + 1, n, 2) and deviations (k + 1, n) of the points of the first frame at every instant.
+
+    to_first  True: every frame holds the displacement since the first image, at the same points.
+              False: since the image before. A point is then followed through the frames by linear interpolation, and
+              the variances add up. It is lost 1.5 spacings away from all points of a frame.
+
+    Raises SceneError if the frames have other points although they should not.
+    """
+    start = frames[0].points
+    position, variance = [start], [np.zeros(len(start))]
+    for frame in frames:
+        deviation = np.full(len(frame.points), np.nan) if frame.deviation is None else frame.deviation
+        if to_first:
+            if frame.points.shape != start.shape or not np.allclose(frame.points, start, atol=1e-6 * np.ptp(start)):
+                raise SceneError(f"{frame.path}: its points are not those of {frames[0].path}. If every frame holds "
+                                 "the displacement since the image before, give --reference previous")
+            position.append(start + frame.displacement)
+            variance.append(deviation**2)
+            continue
+        known = frame.points[frame.known]
+        moved = LinearNDInterpolator(known, np.column_stack([frame.displacement, deviation**2])[frame.known])(
+            position[-1])
+        moved[cKDTree(known).query(np.nan_to_num(position[-1]))[0] > 1.5 * spacing_of(known)] = np.nan
+        position.append(position[-1] + moved[:, :2])
+        variance.append(variance[-1] + moved[:, 2])
+    return np.array(position), np.sqrt(variance)
 
 
 def _instants(position: Array, options: FieldOptions) -> list[int]:
@@ -91,9 +113,8 @@ def _static_deviation(position: Array, to_first: bool, start: int, end: int) -> 
     known = np.isfinite(moved).all(axis=1)
     if known.sum() < 4:
         raise SceneError(f"--static {start},{end}: only {known.sum()} points are known at both instants")
-    before, moved = position[start][known], moved[known]
-    affine = np.column_stack([before, np.ones(len(before))])
-    left = moved - affine @ np.linalg.lstsq(affine, moved, rcond=None)[0]
+    affine = np.insert(position[start][known], 2, 1, axis=1)
+    left = moved[known] - affine @ np.linalg.lstsq(affine, moved[known], rcond=None)[0]
     fields = (start > 0) + 1 if to_first else end - start
     times = np.arange(len(position))
     return np.broadcast_to((rms(left) / math.sqrt(fields) * np.sqrt(np.minimum(times, 1) if to_first else times))
@@ -106,11 +127,8 @@ def boundary_of(path: str) -> dict[str, Array]:
     table = read_table(path)
     curves = {"axial_strain": table.numbers("axial_strain")}
     table.refuse(np.diff(curves["axial_strain"], prepend=-np.inf) < 0, lambda k: "column axial_strain does not ascend")
-    if table.has("volumetric_strain"):
-        curves["volumetric_strain"] = table.numbers("volumetric_strain")
-    if table.has("stress_ratio"):
-        curves["stress_ratio"] = table.numbers("stress_ratio")
-    elif table.has("sxx", "syy"):
+    curves |= {name: table.numbers(name) for name in ("volumetric_strain", "stress_ratio") if table.has(name)}
+    if "stress_ratio" not in curves and table.has("sxx", "syy"):
         sxx, syy = table.numbers("sxx"), table.numbers("syy")
         table.refuse(sxx + syy <= 0, lambda k: f"sxx + syy = {sxx[k] + syy[k]:g}: compression must be positive")
         curves["stress_ratio"] = abs(syy - sxx) / (syy + sxx)
@@ -157,12 +175,13 @@ def _progress(strains: Array, boundary: dict[str, Array], static: list[int], opt
     return progress
 
 
-def _centre(points: Array, scale: float, turned: bool, options: FieldOptions) -> Array:
+def _centre(points: Array, turned: bool, options: FieldOptions) -> Array:
+    """Centre of the sample in the unit of the files, y upwards."""
+    axes = np.array([1, -1 if turned else 1])  # of the files
     if options.centre is not None:
-        return scale * np.array(options.centre) * (1, -1 if turned else 1)
+        return axes * options.centre
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
-    named = middle / scale * (1, -1 if turned else 1)
-    options.note(f"--centre = {named[0]:.6g},{named[1]:.6g}, the middle of the points")
+    options.note("--centre = {:.6g},{:.6g}, the middle of the points".format(*axes * middle))
     return np.asarray(middle)
 
 
@@ -173,10 +192,10 @@ def measure(frames: list[FieldFrame], options: FieldOptions) -> tuple[Measuremen
                          "displacement since the first image, or previous, if since the image before. The files do not "
                          "tell it, and the increments differ")
     to_first = options.reference != "previous"  # a single frame is both
-    scale = _scaled(frames, options)
-    subset, spacing = _sizes(frames, scale, options)
-    lost = [int((~np.isfinite(frame.displacement).all(axis=1)).sum()) for frame in frames]
-    counts = _take_out_outliers(frames, spacing, scale, options)
+    scale, subset = _scale(frames, options), _subset(frames[0], options)
+    spacing = spacing_of(frames[0].points[frames[0].known])
+    lost = [int((~frame.known).sum()) for frame in frames]
+    counts = _take_out_outliers(frames, spacing, options)
     position, deviation = tracked(frames, to_first)
     seen = np.isfinite(position[1:]).all(axis=2).any(axis=0)
     position, deviation = position[:, seen], deviation[:, seen]
@@ -191,15 +210,17 @@ def measure(frames: list[FieldFrame], options: FieldOptions) -> tuple[Measuremen
     strains = strains_of(position)
     boundary = boundary_of(options.boundary) if options.boundary else {}
     progress = _progress(strains, boundary, static, options)
-    diameter = options.mean_diameter or 1.0
-    rows: list[dict[str, Any]] = [
+    centre = _centre(position[0], options.y == "down" or frames[0].y_down, options)
+    result = Measurement(position=position, deviation=deviation, progress=progress, centre=centre, subset=subset,
+                         spacing=spacing, mean_diameter=options.mean_diameter / scale).scaled(options.mean_diameter)
+    result.facts = {"scale": scale, "frames": [
         {"frame": frame.name, "points": len(frame.points), "lost": n_lost, "outliers": n_out,
-         "axial_strain": float(progress[k]), "volumetric_strain": strain[1], "shear_strain": strain[2],
-         "deviation_d": float(np.median(known)) / diameter if (known := deviation[k][np.isfinite(deviation[k])]).size
-         else None}
-        for k, (frame, n_lost, n_out, strain) in enumerate(zip(frames, lost, counts, strains[1:].tolist()), 1)]
-    result = Measurement(position=position, deviation=deviation, progress=progress, mean_diameter=diameter,
-                         subset=subset, spacing=spacing, facts={"scale": scale, "frames": rows},
-                         centre=_centre(position[0], scale, options.y == "down" or frames[0].y_down, options))
-    curves = boundary or {"axial_strain": progress, "volumetric_strain": strains[:, 1]}
-    return result, curves
+         "axial_strain": progress[k], "volumetric_strain": strains[k, 1], "shear_strain": strains[k, 2],
+         "deviation_d": _median(result.deviation[k] / result.mean_diameter)}
+        for k, (frame, n_lost, n_out) in enumerate(zip(frames, lost, counts), 1)]}
+    return result, boundary or {"axial_strain": progress, "volumetric_strain": strains[:, 1]}
+
+
+def _median(values: Array) -> float | None:
+    known = values[np.isfinite(values)]
+    return float(np.median(known)) if known.size else None

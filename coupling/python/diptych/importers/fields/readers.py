@@ -74,7 +74,7 @@ def read_fields(format: str, options: FieldOptions) -> list[FieldFrame]:
         if frame.points.shape != frame.displacement.shape or frame.points.shape[1:] != (2,):
             raise refused(frame.path, f"frame {frame.name}: points have the shape {frame.points.shape}, displacements "
                           f"{frame.displacement.shape}; both need (n, 2)")
-        if (known := np.isfinite(frame.displacement).all(axis=1).sum()) < FEWEST:
+        if (known := frame.known.sum()) < FEWEST:
             raise refused(frame.path, f"frame {frame.name}: {known} of {len(frame.points)} points have a displacement; "
                           f"at least {FEWEST} are needed")
         if options.y == "down" or frame.y_down and not options.y:
