@@ -3,7 +3,7 @@
 """A function adds the arguments of a command. It loads nothing that only a run needs, so that help comes at once."""
 
 import argparse
-import functools
+from collections.abc import Callable
 
 from .. import _diptych
 from ..importers import exports, readers
@@ -109,23 +109,17 @@ def add_homogenise(parser: Parser) -> None:
     _add_import_options(parser)
 
 
-def _vector(text: str, what: str = "GX,GY, two numbers such as 0,-9.81") -> tuple[float, float]:
-    try:
-        x, y = _numbers(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"'{text}' is not {what}") from None
-    return x, y
-
-
-def _numbers(text: str) -> list[float]:
-    return [float(part) for part in text.split(",")]
-
-
-def _strains(text: str) -> list[float]:
-    try:
-        return _numbers(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"'{text}' is not a list of numbers such as 0,0.01,0.02") from None
+def _numbers(what: str, count: int | None = None) -> Callable[[str], list[float]]:
+    """The type of a list of numbers, such as 0,-9.81. count: of the numbers."""
+    def parse(text: str) -> list[float]:
+        try:
+            values = [float(part) for part in text.split(",")]
+        except ValueError:
+            values = []
+        if not values or count not in (None, len(values)):
+            raise argparse.ArgumentTypeError(f"'{text}' is not {what}")
+        return values
+    return parse
 
 
 def _add_import_options(parser: Parser) -> None:
@@ -142,7 +136,7 @@ def _add_import_options(parser: Parser) -> None:
             ("period-x", "period along x of a periodic sample, if the files do not contain it"),
             ("period-y", "period along y, for a cell that is periodic in both directions")):
         parser.add_argument("--" + name, metavar="NUMBER", type=number(1e-30, 1e30), help=meaning)
-    parser.add_argument("--gravity", metavar="GX,GY", type=_vector,
+    parser.add_argument("--gravity", metavar="GX,GY", type=_numbers("GX,GY, two numbers such as 0,-9.81", 2),
                         help="acceleration of the grains (default: that of the files)")
     parser.add_argument("--plane", choices=("xy", "xz"), default="xy",
                         help="plane of a layer of spheres; xz: z of the files points upwards (default: xy)")
@@ -180,16 +174,17 @@ def add_import_field(parser: Parser) -> None:
             ("subset", "LENGTH", number(0, 1e30), "side of the correlated squares in the unit of the files; 0: points "
              "that were followed by themselves"),
             ("time-between", "SECONDS", positive, "time between the images of a frame, if the files hold velocities"),
-            ("progress", "LIST", _strains, "axial strain of the first image and of every frame, such as 0,0.01,0.02 "
-             "(default: rows of --boundary if they are as many, else the vertical strain of the field)"),
-            ("centre", "X,Y", functools.partial(_vector, what="X,Y, two numbers such as 512,380"),
+            ("progress", "LIST", _numbers("a list of numbers such as 0,0.01,0.02"),
+             "axial strain of the first image and of every frame, such as 0,0.01,0.02 (default: rows of --boundary if "
+             "they are as many, else the vertical strain of the field)"),
+            ("centre", "X,Y", _numbers("X,Y, two numbers such as 512,380", 2),
              "centre of the sample at the first image, in unit and axes of the files (default: middle of the points)"),
             ("boundary", "FILE", filled, "table of axial_strain, stress_ratio (or sxx and syy) and volumetric_strain"),
-            ("static", "A,B", functools.partial(_vector, what="A,B, two whole numbers such as 0,1"),
-             "two instants at rest, whose difference gives the standard deviation; 0: the first image"),
-            ("outliers", "T", number(0, 1e6), "threshold of the normalised median test (default: 5; 0 keeps all)")):
-        parser.add_argument("--" + name, metavar=metavar, type=kind, help=meaning,
-                            **({"default": 5.0} if name == "outliers" else {}))
+            ("static", "A,B", _numbers("A,B, two whole numbers such as 0,1", 2),
+             "two instants at rest, whose difference gives the standard deviation; 0: the first image")):
+        parser.add_argument("--" + name, metavar=metavar, type=kind, help=meaning)
+    parser.add_argument("--outliers", metavar="T", type=number(0, 1e6), default=5.0,
+                        help="threshold of the normalised median test (default: 5; 0 keeps all)")
     parser.add_argument("--mean-diameter", metavar="D", type=positive, required=True,
                         help="unit d of the results, in the unit after --scale")
     parser.add_argument("--reference", choices=("first", "previous"), default="",

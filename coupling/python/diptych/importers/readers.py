@@ -24,10 +24,10 @@ FORMATS = {"lammps": "lammps", "liggghts": "liggghts", "yade": "yade", "lmgc90":
 registered: dict[str, Reader] = {}
 
 
-def register(name: str) -> Callable[[Reader], Reader]:
+def register(name: str, readers: dict[str, Any] = registered) -> Callable[[Read], Read]:
     """Decorator: makes a function the reader of a format. The command and read() then know the name."""
-    def keep(reader: Reader) -> Reader:
-        registered[name] = reader
+    def keep(reader: Read) -> Read:
+        readers[name] = reader
         return reader
     return keep
 

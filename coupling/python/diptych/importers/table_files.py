@@ -60,11 +60,12 @@ def head_of(lines: Sequence[str]) -> tuple[list[str], int]:
     return names, len(lines)
 
 
-def read_table(path: str, names: Sequence[str] | None = None) -> Table:
-    """Reads a table. `names` replaces the names of its columns. Raises SceneError with file and line."""
+def read_table(path: str, names: Sequence[str] | None = None, start: int | None = None) -> Table:
+    """Reads a table. `names` replaces the names of its columns. start: index of the first row, below a head of another
+    form. Raises SceneError with file and line."""
     lines = read_lines(path)
-    columns, start = head_of(lines)
-    columns = list(names or columns)
+    columns, found = head_of(lines)
+    columns, start = list(names or columns), found if start is None else start
     if not columns:
         raise refused(path, "no line above the numbers names the columns; use --columns")
     separator, rows, places = _separator(lines[min(start, len(lines) - 1)]), [], []

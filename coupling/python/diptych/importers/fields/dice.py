@@ -19,14 +19,13 @@ def read(options: FieldOptions) -> list[FieldFrame]:
     """Frames in the order of the files, or of FRAME. Raises SceneError."""
 
     def frame_of(name: str, table: Table) -> FieldFrame:
-        sigma = table.numbers("SIGMA") if table.has("SIGMA") else None
-        if sigma is None:
+        if not table.has("SIGMA"):
             options.note(f"{table.path} has no column SIGMA, which marks failed points: all points are kept")
-        good = np.ones(len(table.rows), bool) if sigma is None else sigma >= 0
-        points = table.vectors("COORDINATE_X", "COORDINATE_Y")
+        sigma = table.numbers("SIGMA") if table.has("SIGMA") else np.full(len(table.rows), np.nan)
         side = re.search(r"^\*\*\* Subset size: (\d+)", "\n".join(read_lines(table.path)), re.MULTILINE)
-        return FieldFrame(name, points, vectors_where(table, good, ("DISPLACEMENT_X",), ("DISPLACEMENT_Y",)),
-                          deviation=None if sigma is None else np.where(good, sigma, np.nan), unit="px",
-                          path=table.path, y_down=True, subset=float(side[1]) if side else None)
+        return FieldFrame(name, table.vectors("COORDINATE_X", "COORDINATE_Y"),
+                          vectors_where(table, ~(sigma < 0), ("DISPLACEMENT_X",), ("DISPLACEMENT_Y",)),
+                          deviation=np.where(sigma < 0, np.nan, sigma), unit="px", path=table.path, y_down=True,
+                          subset=float(side[1]) if side else None)
 
     return by_frame(options, "FRAME", frame_of)

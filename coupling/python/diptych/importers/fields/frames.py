@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -68,9 +68,7 @@ def by_frame(options: FieldOptions, column: str, frame_of: Callable[[str, Table]
     for number in np.unique(np.concatenate(numbers)).tolist():
         parts = [frame_of(str(number), table.part(own == number)) for table, own in zip(tables, numbers)
                  if number in own]
-        frames.append(parts[0])
-        frames[-1].points = np.concatenate([part.points for part in parts])
-        frames[-1].displacement = np.concatenate([part.displacement for part in parts])
-        if parts[0].deviation is not None:
-            frames[-1].deviation = np.concatenate([part.deviation for part in parts])
+        arrays = {name: np.concatenate([getattr(part, name) for part in parts])
+                  for name in ("points", "displacement", "deviation") if getattr(parts[0], name) is not None}
+        frames.append(replace(parts[0], **arrays))
     return frames

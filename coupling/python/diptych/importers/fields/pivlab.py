@@ -11,7 +11,7 @@ import re
 
 from ...measurement import FieldFrame
 from ..frames import refused
-from ..tables import Table
+from ..table_files import read_table
 from ..text import float_of, read_lines
 from .frames import FieldOptions, numbers_where, vectors_where
 
@@ -20,36 +20,17 @@ NAMES = "x [px],y [px],u [px/frame],v [px/frame],Vector type [-]"
 FACTORS = re.compile(r"\(px -> m\): *([^,\s]+), .*\(px/frame -> m/s\): *([^,\s]+)")
 
 
-def _columns(text: str) -> dict[str, str]:
+def _units(text: str) -> dict[str, str]:
     """Units by the names of the columns. Names hold blanks, which may also separate them."""
     found = re.findall(r"([^\[\]]+)\[([^\[\]]*)\]", text.replace("isNaN?", "isNaN [-]"))
     return {name.strip(" \t,#"): unit for name, unit in found}
 
 
-def _table(path: str, options: FieldOptions) -> tuple[Table, dict[str, str], list[str]]:
-    """The numbers, the units of their columns, and the lines above them."""
-    lines = read_lines(path)
-    head = max((k for k, line in enumerate(lines) if re.match(r"[#\s]*x \[", line)), default=-1)
-    units = _columns(lines[head] if head >= 0 else ",".join(options.columns_of("field") or []))
-    if not units:
-        raise refused(path, f"no line names the columns with their units; name them: --columns 'field={NAMES}'")
-    rows, places = [], []
-    for k, line in enumerate(lines[head + 1:], head + 2):
-        words = [] if line.startswith(("#", "TITLE", "VARIABLES", "ZONE")) else line.replace(",", " ").split()
-        if words and len(words) != len(units):
-            raise refused(path, f"{len(words)} entries; expected {len(units)}: {', '.join(units)}", k)
-        if words:
-            rows.append(words)
-            places.append(k)
-    return Table(path, list(units), rows, places), units, lines[:max(head, 0)]
-
-
-def _time(path: str, unit: str, above: list[str], options: FieldOptions) -> float:
+def _factor(path: str, unit: str, lines: list[str], options: FieldOptions) -> float:
     """Factor from u and v to displacements. unit: of u."""
-    factors = [(k, match) for k, line in enumerate(above, 1) if (match := FACTORS.search(line))]
     if unit.startswith("px"):
         return 1.0
-    for k, match in factors:
+    for k, match in [(k, match) for k, line in enumerate(lines, 1) if (match := FACTORS.search(line))]:
         length, velocity = (float_of(path, k, word, "conversion factor") for word in match.groups())
         if velocity <= 0:
             raise refused(path, f"conversion factor {velocity:g}: x points to the left; export with x to the right", k)
@@ -60,18 +41,24 @@ def _time(path: str, unit: str, above: list[str], options: FieldOptions) -> floa
         return 1.0
     if options.time_between is None:
         raise refused(path, f"u is a velocity [{unit}], and no head holds the conversion factors; give --time-between "
-                      "SECONDS, the time between the two images of a frame", len(above) + 1)
+                      "SECONDS, the time between the two images of a frame")
     options.used.add("time_between")
     return options.time_between
 
 
 def _frame(path: str, options: FieldOptions) -> FieldFrame:
-    table, units, above = _table(path, options)
-    time = _time(path, units.get("u", ""), above, options)
+    lines = read_lines(path)
+    heads = [line for line in lines if re.match(r"[#\s]*x \[", line)] or [",".join(options.columns_of("field") or [])]
+    units = _units(heads[-1])
+    if not units:
+        raise refused(path, f"no line names the columns with their units; name them: --columns 'field={NAMES}'")
+    first = next((k for k, line in enumerate(lines) if re.match(r"\s*[-+.\d]", line)), len(lines))
+    table = read_table(path, list(units), first)
+    factor = _factor(path, units.get("u", ""), lines, options)
     valid = table.numbers("isNaN") == 0 if table.has("isNaN") else table.numbers("Vector type") == VALID
-    deviation = time * numbers_where(table, valid, "uncertainty") if table.has("uncertainty") else None
+    deviation = factor * numbers_where(table, valid, "uncertainty") if table.has("uncertainty") else None
     return FieldFrame(os.path.basename(path), table.vectors("x", "y"),
-                      time * vectors_where(table, valid, ("u",), ("v",)), deviation=deviation,
+                      factor * vectors_where(table, valid, ("u",), ("v",)), deviation=deviation,
                       unit=units.get("x", ""), path=path, y_down=True)
 
 

@@ -4,31 +4,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import functools
+from typing import Any
 
 import numpy as np
 
 from ...errors import SceneError
 from ...measurement import FieldFrame
 from ..frames import refused
-from ..readers import reader_of, require_files
+from ..readers import reader_of, register as register_in, require_files
 from ..text import number_in_name
 from .frames import FieldOptions
 
-FieldReader = Callable[[FieldOptions], "list[FieldFrame]"]
-FORMATS = {name: f"fields.{module}" for name, module in (
-    ("spam", "spam"), ("dice", "dice"), ("pivlab", "pivlab"), ("ncorr", "ncorr"), ("vtk", "vtk"),
-    ("csv", "plain_csv"))}
+FORMATS = {**{name: f"fields.{name}" for name in ("spam", "dice", "pivlab", "ncorr", "vtk")}, "csv": "fields.plain_csv"}
 FEWEST = 30  # points of a field, as find_bands() needs
-registered: dict[str, FieldReader] = {}
-
-
-def register(name: str) -> Callable[[FieldReader], FieldReader]:
-    """Decorator: makes a function the reader of a format. The command and read_fields() then know the name."""
-    def keep(reader: FieldReader) -> FieldReader:
-        registered[name] = reader
-        return reader
-    return keep
+registered: dict[str, Any] = {}
+register = functools.partial(register_in, readers=registered)  # the command and read_fields() then know the name
 
 
 def _refuse_binary(path: str) -> None:
