@@ -103,6 +103,12 @@ def test_inputs_elsewhere_have_the_checksum_of_the_time_when_they_were_read(run,
     os.remove(tables[0])
     imported = objects(checked(tmp_path / "mine", tmp_path / "mine.zip"))
     assert [(one["name"], one["sha256"]) for one in imported] == sums
+    field = tmp_path / "field.csv"
+    field.write_text("x,y,u,v\n" + "".join(f"{k % 6},{k // 6},0,{-0.01 * (k // 6)}\n" for k in range(48)))
+    assert main(["import", "field", "csv", str(field), "--output", str(tmp_path / "dic"), "--quiet", "--mean-diameter",
+                 "1", "--subset", "0"]) == 0
+    measured, = objects(checked(tmp_path / "dic", tmp_path / "dic.zip"))
+    assert (measured["name"], measured["sha256"]) == (str(field), sha256(field))
     program("discrete", QUICK, *options(SMALL), "--set", f"sample/file={run}/discrete.h5", "--output",
             tmp_path / "grains", "--quiet")
     sample = objects(checked(tmp_path / "grains", tmp_path / "grains.zip"))[-1]

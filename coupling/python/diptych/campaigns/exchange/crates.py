@@ -13,6 +13,7 @@ from urllib.parse import quote
 from ... import _diptych
 from ...errors import SceneError
 from ...files import part_of, read_json, read_provenance, sha256_of
+from ...measurement import FACTS
 from ..runs.folders import write_json
 
 Entity = dict[str, Any]
@@ -69,8 +70,9 @@ def _file(folder: str, path: str) -> Entity:
 
 def _inputs(here: str, scene: Any) -> list[tuple[str, str]]:
     """(path, SHA-256) of the files elsewhere that a run or an import has read; "": changed since, or not known."""
-    if os.path.exists(os.path.join(here, "import.json")):
-        record = read_json(os.path.join(here, "import.json"))
+    imports = [path for name in ("import.json", FACTS) if os.path.exists(path := os.path.join(here, name))]
+    if imports:
+        record = read_json(imports[0])
         return list(zip(record["files"], record.get("sha256") or [""] * len(record["files"])))
     if scene is None:
         return []
