@@ -42,17 +42,16 @@ def across(points: Array, displacement: Array, band: Band, breadth: float) -> tu
     return place[full] / count[full], total[full] / count[full], 2 * abs(float(fitted[0]))
 
 
-def _crossing(x: Array, strain: Array, share: float) -> float:
+def _breadth(x: Array, strain: Array, share: float) -> float:
     """Length of the part around the largest strain that is above a share of it; NaN if it reaches an end."""
     level, top = share * strain.max(), int(strain.argmax())
-    ends = []
-    for side in (-1, 1):
-        below = next((k for k in range(top, len(x) if side > 0 else -1, side) if strain[k] < level), None)
-        if below is None:
-            return math.nan
-        a, b = below - side, below
-        ends.append(x[a] + (x[b] - x[a]) * (strain[a] - level) / (strain[a] - strain[b]))
-    return float(ends[1] - ends[0])
+
+    def end(places: Array, strains: Array) -> float:  # from the largest strain outwards
+        for k in np.flatnonzero(strains < level)[:1]:
+            return float(np.interp(level, strains[[k, k - 1]], places[[k, k - 1]]))
+        return math.nan
+
+    return end(x[top:], strain[top:]) - end(x[top::-1], strain[top::-1])
 
 
 def thicknesses(points: Array, displacement: Array, band: Band, breadth: float) -> dict[str, Any]:
@@ -63,12 +62,9 @@ def thicknesses(points: Array, displacement: Array, band: Band, breadth: float) 
     if len(x) < 8:
         return found
     strain, middle = abs(np.diff(u) / np.diff(x)), 0.5 * (x[1:] + x[:-1])
-    found |= {"half_height": _crossing(middle, strain, 0.5), "threshold": _crossing(middle, strain, THRESHOLD),
-              "tangent": jump / float(strain.max())}
-
-    def misfit(p: Array) -> Array:  # half jump, place, standard deviation, level
-        return np.asarray(p[3] + p[0] * erf((x - p[1]) / (math.sqrt(2) * p[2])) - u)
-
-    best = least_squares(misfit, (0.5 * (u[-1] - u[0]), 0, 0.4 * band.width_10_90, 0))
-    found["error_function"] = float(4 * abs(best.x[2])) if best.success else math.nan
-    return found
+    # half jump, place, standard deviation, level
+    fitted = least_squares(lambda p: p[3] + p[0] * erf((x - p[1]) / (math.sqrt(2) * p[2])) - u,
+                           (0.5 * (u[-1] - u[0]), 0, 0.4 * band.width_10_90, 0))
+    return found | {"half_height": _breadth(middle, strain, 0.5), "threshold": _breadth(middle, strain, THRESHOLD),
+                    "tangent": jump / float(strain.max()),
+                    "error_function": 4 * abs(float(fitted.x[2])) if fitted.success else math.nan}

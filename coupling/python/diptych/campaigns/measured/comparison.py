@@ -96,15 +96,15 @@ def _window(measurement: Measurement, keys: Mapping[str, Any], window: Window,
     if common.sum() < FEWEST:
         raise SceneError(f"window {window.start:g}-{window.end:g}: {common.sum()} measured points lie in the sample; "
                          f"a band needs {FEWEST}. Check --centre and --mean-diameter of the import")
-    points, deviation = points[common], since.deviation[common]
+    points = points[common]
     options = {name: keys[name] for name in (*BAND_OPTIONS, "band_resamples")}
     of_pane = {pane: options | ({"band_resamples": 0} if pane == "continuum" else {}) for pane in moved}
-    panes, unblurred, arrays = {}, {}, {"position": points, "measured_deviation": deviation}
+    panes, unblurred, arrays = {}, {}, {"position": points}
     for pane, everywhere in moved.items():
         u = everywhere[common]
         report = find_bands(points, u, **frame, **of_pane[pane])
         if pane == MEASURED:
-            report = with_noise(report, points, u, deviation, options)
+            report = with_noise(report, points, u, since.deviation[common], options)
         panes[pane] = _pane(report, points, u)
         for numbers, band in zip(panes[pane]["bands"], report.bands):
             _add_thickness(numbers, thicknesses(points, u, band, measurement.spacing), measurement)
@@ -139,24 +139,20 @@ def _add_thickness(band: dict[str, Any], found: Mapping[str, float], measurement
 
 
 def differences(pane: Mapping[str, Any], measured: Mapping[str, Any], folded: bool) -> dict[str, Any]:
-    """A panel minus the measurement: mean strains, and the measured strongest band against the nearest one of the
-    panel. folded: mirror images count as one. Half widths of the intervals add in squares."""
+    """A panel minus the measurement: mean strains, and the strongest bands. folded: mirror images count as one."""
     found = {name: pane[name] - measured[name] for name in ("volumetric_strain", "shear_strain")}
     if not (pane["bands"] and measured["bands"]):
         return found
+    ours, theirs = pane["bands"][0], measured["bands"][0]
+    if not (ours["diffuse"] or theirs["diffuse"]):
+        angles = [band["angle_deg"].value for band in (ours, theirs)]
+        turn = float(line_turn(*(np.abs(angles) if folded else angles)))
+        found["angle_deg"] = _difference(turn, ours["angle_deg"], theirs["angle_deg"])
+    widths = ours["width_10_90_d"], theirs["width_10_90_d"]
+    return found | {"width_10_90_d": _difference(widths[0].value - widths[1].value, *widths)}
 
-    def turn(band: Mapping[str, Any]) -> float:
-        angles = [abs(one["angle_deg"].value) if folded else one["angle_deg"].value for one in (band, reference)]
-        return float(line_turn(*angles))
 
-    def difference(key: str, value: float) -> Interval:
-        half = math.hypot(*(0.5 * (one.high - one.low) for one in (nearest[key], reference[key])
-                            if math.isfinite(one.high))) or math.nan
-        return Interval(value, value - half, value + half)
-
-    reference = measured["bands"][0]
-    nearest = min(pane["bands"], key=lambda band: abs(turn(band)))
-    if not (nearest["diffuse"] or reference["diffuse"]):
-        found["angle_deg"] = difference("angle_deg", turn(nearest))
-    widths = [one["width_10_90_d"].value for one in (nearest, reference)]
-    return found | {"width_10_90_d": difference("width_10_90_d", widths[0] - widths[1])}
+def _difference(value: float, *parts: Interval) -> Interval:
+    """Half widths add in squares, those that are known."""
+    half = math.hypot(*(0.5 * (part.high - part.low) for part in parts if math.isfinite(part.high))) or math.nan
+    return Interval(value, value - half, value + half)

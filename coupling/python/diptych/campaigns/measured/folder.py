@@ -25,7 +25,6 @@ from .comparison import compared, increments, MEASURED, PANELS, windows_of
 PANES = {MEASURED: "measured", "discrete": "grains", "continuum": "continuum"}
 PEAK = "peak_nominal_stress_ratio"  # as a test with platens and a pressure on the sides gives it
 WORDS = {"position": ("position", "length", "of the points at the end of the window"),
-         "deviation": ("standard deviation", "length", "of a component of the measured displacement"),
          "displacement_increment": ("displacement increment", "length", "levelled: averaged over the subsets"),
          "shear_strain_increment": ("shear strain increment", "-", "eps_1 - eps_2 of the levelled displacements")}
 
