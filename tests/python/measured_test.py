@@ -126,13 +126,12 @@ def test_a_measurement_of_the_grains_has_the_strain_and_band_of_the_levelled_gra
     measurement = read_measurement(measured_folder)
     windows = windows_of(measurement, scene, {"discrete": results.discrete.snapshots,
                                               "continuum": results.continuum.snapshots})
-    record, fields = compared(measurement, windows, scene.dict()["comparison"])
-    window, = record["windows"]
+    window, = compared(measurement, windows, scene.dict()["comparison"])["windows"]
     assert (window["from"], window["to"]) == (0, 0.01)
     # Grains are averaged where they are at the end of the window, the measurement where its points began.
     assert window["difference"]["discrete"]["shear_strain"] == pytest.approx(0, abs=5e-4)
     assert window["difference"]["discrete"]["volumetric_strain"] == pytest.approx(0, abs=5e-4)
-    arrays = fields["window_0"]
+    arrays = window["fields"]
     shapes = {name: values.shape for name, values in arrays.items()}
     assert shapes["continuum_displacement_increment"] == shapes["position"] == (window["points"], 2)
     error = arrays["discrete_displacement_increment"] - arrays["measured_displacement_increment"]
@@ -156,8 +155,7 @@ def test_a_band_that_may_be_as_narrow_as_the_subset_has_no_width():
     narrow = Measurement(position=position, deviation=np.full(position.shape[:2], np.nan), progress=np.array([0, 0.01]),
                          mean_diameter=1.0, subset=3.0, spacing=1.0, centre=np.zeros(2))
     keys = scenes.read(SMALL).dict()["comparison"]
-    record, _ = compared(narrow, increments(narrow), keys)
-    band, = record["windows"][0]["levelled"]["measured"]["bands"]
+    band, = compared(narrow, increments(narrow), keys)["windows"][0]["levelled"]["measured"]["bands"]
     assert "resolution of 2.4 d" in band["unresolved"]
     assert math.isnan(band["width_10_90_d"].value) and band["thickness_d"] == {}
     assert band["angle_deg"].value == pytest.approx(50, abs=2)

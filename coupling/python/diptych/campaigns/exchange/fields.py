@@ -74,7 +74,7 @@ def run_import_field(line: argparse.Namespace, options: Options) -> None:
     with stops_raised("import field: stopped on request"):
         result, curves = read_with(line.format, registered, "fields.register",
                                    lambda format: measure(read_fields(format, given), given))
-        found = alone(result, options.quiet)
+        record = alone(result, options.quiet)
     inputs = [*given.files, *([given.boundary] if given.boundary else [])]
     result.facts |= {"source": line.format, "reference": given.reference or "first", "notes": given.notes,
                      "curves": "boundary" if given.boundary else "field",
@@ -82,7 +82,7 @@ def run_import_field(line: argparse.Namespace, options: Options) -> None:
     with Folder(folder) as locked:
         if options.overwrite and not _diptych.is_empty_folder(folder):
             locked.set_aside([("the file", file) for file in inputs])
-        write_measured(folder, result, pd.DataFrame(curves), found)
+        write_measured(folder, result, pd.DataFrame(curves), record)
         record_phase(folder, "import", began, ("", []), options)
         say(options, _text_of(result))
         draw(options, folder, "measured")

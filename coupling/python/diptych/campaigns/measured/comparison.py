@@ -72,24 +72,23 @@ def increments(measurement: Measurement) -> list[Window]:
 
 
 def compared(measurement: Measurement, windows: Iterable[Window], keys: Mapping[str, Any],
-             folded: bool = False) -> tuple[dict[str, Any], dict[str, dict[str, Array]]]:
-    """Numbers of every window, and its fields at the points: window -> name -> array.
+             folded: bool = False) -> dict[str, Any]:
+    """levelled.json without its summary. The entry `fields` of a window, for levelled.h5, holds arrays at the points.
 
     keys: of the section comparison. folded: mirror images of a band count as one. Raises SceneError for a window with
     too few points."""
-    found, d = [_window(measurement, keys, window, folded) for window in windows], measurement.mean_diameter
+    d = measurement.mean_diameter
     return {"subset_d": measurement.subset / d, "spacing_d": measurement.spacing / d,
-            "resolution_d": measurement.resolution / d,
-            "windows": [{"key": f"window_{k}", **numbers} for k, (numbers, _) in enumerate(found)]}, {
-        f"window_{k}": fields for k, (_, fields) in enumerate(found)}
+            "resolution_d": measurement.resolution / d, "windows": [
+                {"key": f"window_{k}", "from": window.start, "to": window.end,
+                 **_window(measurement.scaled(window.frame["mean_diameter"]), window, keys, folded)}
+                for k, window in enumerate(windows)]}
 
 
-def _window(measurement: Measurement, keys: Mapping[str, Any], window: Window,
-            folded: bool) -> tuple[dict[str, Any], dict[str, Array]]:
-    frame, (start, end) = window.frame, window.instants
-    measurement = measurement.scaled(frame["mean_diameter"])
-    since = measurement.increment(start, end)
-    points = on_sample(measurement, end, since.points, frame["centre"]) if window.pairs else since.points
+def _window(measurement: Measurement, window: Window, keys: Mapping[str, Any], folded: bool) -> dict[str, Any]:
+    since = measurement.increment(*window.instants)
+    points = on_sample(measurement, window.instants[1], since.points,
+                       window.frame["centre"]) if window.pairs else since.points
     moved = {MEASURED: since.displacement, **{panel: levelled(field_of(*pair), points, measurement.subset)
                                               for panel, pair in window.pairs.items()}}
     common = np.isfinite(list(moved.values())).all(axis=(0, 2))  # all panes have the same points
@@ -99,24 +98,24 @@ def _window(measurement: Measurement, keys: Mapping[str, Any], window: Window,
     points = points[common]
     options = {name: keys[name] for name in (*BAND_OPTIONS, "band_resamples")}
     of_pane = {pane: options | ({"band_resamples": 0} if pane == "continuum" else {}) for pane in moved}
-    panes, unblurred, arrays = {}, {}, {"position": points}
+    panes, unblurred, fields = {}, {}, {"position": points}
     for pane, everywhere in moved.items():
         u = everywhere[common]
-        report = find_bands(points, u, **frame, **of_pane[pane])
+        report = find_bands(points, u, **window.frame, **of_pane[pane])
         if pane == MEASURED:
             report = with_noise(report, points, u, since.deviation[common], options)
         panes[pane] = _pane(report, points, u)
         for numbers, band in zip(panes[pane]["bands"], report.bands):
             _add_thickness(numbers, thicknesses(points, u, band, measurement.spacing), measurement)
-        arrays[f"{pane}_displacement_increment"] = u
-        arrays[f"{pane}_shear_strain_increment"] = shear_strain(
+        fields[f"{pane}_displacement_increment"] = u
+        fields[f"{pane}_shear_strain_increment"] = shear_strain(
             points, u, radius=max(STRAIN_RADIUS * measurement.mean_diameter, 2 * measurement.spacing))
     for panel, pair in window.pairs.items():
-        of_panel = increment(*pair)
-        report = find_bands(**{**of_panel, **frame}, **of_pane[panel])
-        unblurred[panel] = _pane(report, of_panel.points, of_panel.displacement)
-    return {"from": window.start, "to": window.end, "points": len(points), "levelled": panes, "unblurred": unblurred,
-            "difference": {panel: differences(panes[panel], panes[MEASURED], folded) for panel in window.pairs}}, arrays
+        field = increment(*pair)
+        report = find_bands(**{**field, **window.frame}, **of_pane[panel])
+        unblurred[panel] = _pane(report, field.points, field.displacement)
+    return {"points": len(points), "fields": fields, "levelled": panes, "unblurred": unblurred,
+            "difference": {panel: differences(panes[panel], panes[MEASURED], folded) for panel in window.pairs}}
 
 
 def _pane(report: BandReport, points: Array, u: Array) -> dict[str, Any]:

@@ -85,41 +85,37 @@ def compare_folder(folder: str, scene: Any, source: str) -> dict[str, Any]:
     Raises ValueError, with the file, for a damaged one, SceneError if nothing was measured in the windows."""
     measurement, results = read_measurement(source), load(folder)
     panels = {panel: getattr(results, panel).snapshots for panel in PANELS if getattr(results, panel) is not None}
-    record, fields = compared(measurement, windows_of(measurement, scene, panels), scene.dict()["comparison"],
-                              scene.is_mirror_symmetric())
+    record = compared(measurement, windows_of(measurement, scene, panels), scene.dict()["comparison"],
+                      scene.is_mirror_symmetric())
     curves = pd.read_csv(os.path.join(source, HISTORY))
     record["summary"] = _summary(folder, scene, curves, record["windows"][-1])
-    _write_levelled(folder, source, curves, record, fields)
+    _write_levelled(folder, source, curves, record)
     if os.path.exists(os.path.join(folder, "comparison.json")):
         _add_to_comparison(folder, record["summary"])
     return record
 
 
-def alone(measurement: Measurement, quiet: bool) -> tuple[dict[str, Any], dict[str, dict[str, Any]]]:
-    """levelled.json and the arrays of levelled.h5 of a measurement without a sample: bands and strains between its
-    instants."""
+def alone(measurement: Measurement, quiet: bool) -> dict[str, Any]:
+    """As compared(), for a measurement without a sample: bands and strains between its instants."""
     windows = counted(increments(measurement), "increments", quiet)
-    record, fields = compared(measurement, windows, _diptych.read_scene(None, [], False).dict()["comparison"])
-    return record | {"summary": []}, fields
+    return compared(measurement, windows, _diptych.read_scene(None, [], False).dict()["comparison"]) | {"summary": []}
 
 
-def write_measured(folder: str, measurement: Measurement, curves: pd.DataFrame,
-                   levelled: tuple[dict[str, Any], Mapping[str, Mapping[str, Any]]]) -> None:
-    """Writes the files of a measurement. levelled: of alone()."""
+def write_measured(folder: str, measurement: Measurement, curves: pd.DataFrame, record: dict[str, Any]) -> None:
+    """Writes the files of a measurement. record: of alone()."""
     write_arrays(os.path.join(folder, FIELD),
                  {name: (getattr(measurement, name), *words) for name, words in ARRAYS.items()}, {})
     write_json(os.path.join(folder, FACTS), {"format": 1, **{name: getattr(measurement, name) for name in NUMBERS},
                                              **measurement.facts})
     write_text(os.path.join(folder, HISTORY), curves.to_csv(index=False, float_format="%.10g", lineterminator="\n"))
-    _write_levelled(folder, folder, curves, *levelled)
+    _write_levelled(folder, folder, curves, record)
 
 
-def _write_levelled(folder: str, source: str, curves: pd.DataFrame, record: dict[str, Any],
-                    fields: Mapping[str, Mapping[str, Any]]) -> None:
+def _write_levelled(folder: str, source: str, curves: pd.DataFrame, record: dict[str, Any]) -> None:
     """Writes levelled.json and levelled.h5 to a folder. source: folder of the measurement."""
     record |= {"format": 1, "folder": os.path.abspath(source), "history": curves.to_dict("list")}
-    arrays = {f"{window}/{name}": (values, *WORDS[name.partition("_")[2] or name])
-              for window, named in fields.items() for name, values in named.items()}
+    arrays = {f"{window['key']}/{name}": (values, *WORDS[name.partition("_")[2] or name])
+              for window in record["windows"] for name, values in window.pop("fields").items()}
     write_arrays(os.path.join(folder, "levelled.h5"), arrays, {})
     write_json(os.path.join(folder, LEVELLED), record)
 

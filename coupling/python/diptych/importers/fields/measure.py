@@ -106,19 +106,18 @@ def _instants(position: Array, options: FieldOptions) -> list[int]:
     return [int(number) for number in pair]
 
 
-def _static_deviation(position: Array, to_first: bool, start: int, end: int) -> Array:
+def _static_deviation(result: Measurement, to_first: bool, start: int, end: int) -> Array:
     """(k, n) from two instants at rest. Without its affine part their difference is the noise of both fields against
     the first image, or of all fields between them."""
-    moved = position[end] - position[start]
-    known = np.isfinite(moved).all(axis=1)
-    if known.sum() < 4:
-        raise SceneError(f"--static {start},{end}: only {known.sum()} points are known at both instants")
-    affine = np.insert(position[start][known], 2, 1, axis=1)
-    left = moved[known] - affine @ np.linalg.lstsq(affine, moved[known], rcond=None)[0]
+    moved = result.increment(start, end)
+    if len(moved.points) < 4:
+        raise SceneError(f"--static {start},{end}: only {len(moved.points)} points are known at both instants")
+    affine = np.insert(moved.points, 2, 1, axis=1)
+    left = moved.displacement - affine @ np.linalg.lstsq(affine, moved.displacement, rcond=None)[0]
     fields = (start > 0) + 1 if to_first else end - start
-    times = np.arange(len(position))
-    return np.broadcast_to((rms(left) / math.sqrt(fields) * np.sqrt(np.minimum(times, 1) if to_first else times))
-                           [:, None], position.shape[:2])
+    times = np.arange(len(result.position))
+    of_instants = rms(left) / math.sqrt(fields) * np.sqrt(np.minimum(times, 1) if to_first else times)
+    return np.broadcast_to(of_instants[:, None], result.deviation.shape)
 
 
 def boundary_of(path: str) -> dict[str, Array]:
@@ -138,17 +137,15 @@ def boundary_of(path: str) -> dict[str, Array]:
     return curves
 
 
-def strains_of(position: Array) -> Array:
+def strains_of(result: Measurement) -> Array:
     """(k, 3): axial strain, volumetric strain (compression positive) and eps_1 - eps_2 of the affine fit since the
     first instant."""
     rows = [[0.0, 0.0, 0.0]]
-    for now in position[1:]:
-        moved = now - position[0]
-        known = np.isfinite(moved).all(axis=1)
-        if known.sum() < 3:
-            raise SceneError(f"instant {len(rows)}: only {known.sum()} points were followed to it; at least 3 are "
-                             "needed")
-        h = gradient_of(now[known], moved[known])
+    for k in range(1, len(result.position)):
+        since = result.increment(0, k)
+        if len(since.points) < 3:
+            raise SceneError(f"instant {k}: only {len(since.points)} points were followed to it; at least 3 are needed")
+        h = gradient_of(since.points, since.displacement)
         rows.append([-h[1, 1], 1 - np.linalg.det(np.eye(2) + h), math.hypot(h[0, 0] - h[1, 1], h[0, 1] + h[1, 0])])
     return np.array(rows)
 
@@ -201,24 +198,25 @@ def measure(frames: list[FieldFrame], options: FieldOptions) -> tuple[Measuremen
     position, deviation = position[:, seen], deviation[:, seen]
     if not seen.all():
         options.note(f"points that were lost in every frame, and left out: {(~seen).sum()} of {len(seen)}")
+    centre = _centre(position[0], options.y == "down" or frames[0].y_down, options)
+    result = Measurement(position=position, deviation=deviation, progress=np.array([]), centre=centre, subset=subset,
+                         spacing=spacing, mean_diameter=options.mean_diameter / scale)
     static = _instants(position, options)
     if static:
-        deviation = _static_deviation(position, to_first, *static)
+        result.deviation = _static_deviation(result, to_first, *static)
     elif not np.isfinite(deviation[1:]).any():
         options.note("the standard deviation of the displacements is unknown; --static A,B finds it from two images "
                      "at rest")
-    strains = strains_of(position)
+    strains = strains_of(result)
     boundary = boundary_of(options.boundary) if options.boundary else {}
-    progress = _progress(strains, boundary, static, options)
-    centre = _centre(position[0], options.y == "down" or frames[0].y_down, options)
-    result = Measurement(position=position, deviation=deviation, progress=progress, centre=centre, subset=subset,
-                         spacing=spacing, mean_diameter=options.mean_diameter / scale).scaled(options.mean_diameter)
+    result.progress = progress = _progress(strains, boundary, static, options)
     result.facts = {"scale": scale, "frames": [
         {"frame": frame.name, "points": len(frame.points), "lost": n_lost, "outliers": n_out,
          "axial_strain": progress[k], "volumetric_strain": strains[k, 1], "shear_strain": strains[k, 2],
          "deviation_d": _median(result.deviation[k] / result.mean_diameter)}
         for k, (frame, n_lost, n_out) in enumerate(zip(frames, lost, counts), 1)]}
-    return result, boundary or {"axial_strain": progress, "volumetric_strain": strains[:, 1]}
+    curves = boundary or {"axial_strain": progress, "volumetric_strain": strains[:, 1]}
+    return result.scaled(options.mean_diameter), curves
 
 
 def _median(values: Array) -> float | None:
