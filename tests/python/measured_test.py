@@ -171,7 +171,7 @@ def test_windows_that_were_not_measured_are_refused(folder):
 
 def test_errors_against_a_measurement_hold_all_known_uncertainties():
     def one(width):
-        row = {"key": "width_10_90_d", "quantity": "width", "unit": "mean diameters",
+        row = {"key": "band_width_10_90_d", "quantity": "width", "unit": "mean diameters",
                "measured": (10.0, 8.04, 11.96), "discrete": (width, math.nan, math.nan), "continuum": 3 * (math.nan,)}
         return {"windows": [{"from": 0, "to": 0.01}], "summary": [row]}
 

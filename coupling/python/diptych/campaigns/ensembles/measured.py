@@ -16,9 +16,6 @@ from ..runs.key_numbers import OF_PANEL, QUANTITIES
 from ..runs.statistics import line_statistics, statistics
 from .validation import DRAWS, validated
 
-# key of a row of levelled.json -> key of the compared quantity
-_KEYS = {"volumetric_strain": "final_volumetric_strain", "angle_deg": "band_angle_deg",
-         "width_10_90_d": "band_width_10_90_d"}
 # uncertainties of a row of `validation` that belong to a panel
 _PARTS = {"discrete": ("grains_step",), "continuum": ("mesh", "load_step", "parameters")}
 _UNKNOWN = dict.fromkeys(sum(_PARTS.values(), ()), math.nan)
@@ -51,12 +48,12 @@ def rows_of(records: Sequence[Mapping[str, Any]], validation: Sequence[Mapping[s
     last = records[0]["windows"][-1]
     window, rows, of_panels = window_name(last["from"], last["to"]), [], {row["quantity"]: row for row in validation}
     for k, first in enumerate(records[0]["summary"]):
-        key = _KEYS.get(first["key"], first["key"])
+        key = first["key"]
         known = of_panels.get(key if key in OF_PANEL else f"{window} band {key_of_band(key)}", {})
         parts = {**known.get("parts", {}), "parameters": known.get("u_input", math.nan)}
         values = {pane: np.array([record["summary"][k][pane] for record in records], float)
                   for pane in (MEASURED, *PANELS)}  # (members, 3): value, low, high
-        if folded and first["key"] == "angle_deg":
+        if folded and key == "band_angle_deg":
             values = {pane: np.where(one[:, :1] < 0, -one[:, [0, 2, 1]], one) for pane, one in values.items()}
         rows += [{"quantity": first["quantity"], "unit": first["unit"], "panel": panel, **_row(
             QUANTITIES[key], values[panel][:, 0], values[MEASURED], {name: parts.get(name, math.nan) for name in own},

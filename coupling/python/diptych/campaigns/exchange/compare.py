@@ -32,5 +32,4 @@ def run_compare(line: argparse.Namespace, options: Options) -> None:
         record_phase(folder, "measurement", began, (_diptych.recorded_scene(folder), [keys["sample"]["seed"]]), options)
         say(options, text_of(record))
         if keys["output"]["report"]:
-            both = os.path.exists(os.path.join(folder, "comparison.json"))
-            draw(options, folder, "page" if both else "measured")
+            draw(options, folder, "page" if os.path.exists(os.path.join(folder, "comparison.json")) else "measured")

@@ -151,8 +151,7 @@ def write_crate(folder: str, file: str) -> None:
     os.makedirs(os.path.dirname(os.path.abspath(file)), exist_ok=True)
     with part_of(file) as part, zipfile.ZipFile(part, "w") as crate:
         for path in (METADATA, *_files_of(folder)):
-            entry = zipfile.ZipInfo(path)  # of 1980-01-01
-            entry.compress_type, entry.external_attr = zipfile.ZIP_DEFLATED, 0o644 << 16
-            entry.file_size = os.path.getsize(os.path.join(folder, path))  # decides on the format of large files
+            entry = zipfile.ZipInfo.from_file(os.path.join(folder, path), path, strict_timestamps=False)
+            entry.date_time, entry.compress_type = (1980, 1, 1, 0, 0, 0), zipfile.ZIP_DEFLATED
             with open(os.path.join(folder, path), "rb") as source, crate.open(entry, "w") as target:
                 shutil.copyfileobj(source, target, 1 << 20)

@@ -36,7 +36,7 @@ subset_d [mean diameters]: side of the squares over which the correlation averag
 spacing_d [mean diameters]: distance of the points
 resolution_d [mean diameters]: 10-90 % width below which no band is resolved
 summary/: the numbers that a user asks for first
-    key (text): key of the quantity
+    key (text): key of the compared quantity
     quantity (text): name of the quantity
     unit (text): unit of the numbers
     measured (interval) [as unit says]: of the measurement
@@ -63,12 +63,12 @@ def _summary(folder: str, scene: Any, measured: pd.DataFrame, window: Mapping[st
     tables = {panel: table for panel in PANELS if (table := panel_table(folder, panel)) is not None}
     curves = {**tables, MEASURED: measured.rename(columns={"axial_strain": "progress"})}
     bands = {pane: numbers["bands"][0] for pane, numbers in window["levelled"].items() if numbers["bands"]}
-    found = [("volumetric_strain", f"volumetric strain at {end:g}", "-", {
+    found = [("final_volumetric_strain", f"volumetric strain at {end:g}", "-", {
         pane: _single(mean_over(curve["progress"], curve["volumetric_strain"], end, end))
         for pane, curve in curves.items() if "volumetric_strain" in curve})]
-    found += [("angle_deg", f"inclination of the levelled band ({where})", "degrees",
+    found += [("band_angle_deg", f"inclination of the levelled band ({where})", "degrees",
                {pane: band["angle_deg"] for pane, band in bands.items() if not band["diffuse"]}),
-              ("width_10_90_d", f"10-90 % width of the levelled band ({where})", "mean diameters",
+              ("band_width_10_90_d", f"10-90 % width of the levelled band ({where})", "mean diameters",
                {pane: band["width_10_90_d"] for pane, band in bands.items()})]
     if "stress_ratio" in measured:
         peaks = {panel: panel_values(scene, table)[PEAK] for panel, table in tables.items()}
