@@ -7,8 +7,6 @@ from __future__ import annotations
 import functools
 from typing import Any
 
-import numpy as np
-
 from ...errors import SceneError
 from ...measurement import FieldFrame
 from ..frames import refused
@@ -62,9 +60,6 @@ def read_fields(format: str, options: FieldOptions) -> list[FieldFrame]:
     frames = reader(options)
     _refuse_unused(format, options)
     for frame in frames:
-        if frame.points.shape != frame.displacement.shape or frame.points.shape[1:] != (2,):
-            raise refused(frame.path, f"frame {frame.name}: points have the shape {frame.points.shape}, displacements "
-                          f"{frame.displacement.shape}; both need (n, 2)")
         if (known := frame.known.sum()) < FEWEST:
             raise refused(frame.path, f"frame {frame.name}: {known} of {len(frame.points)} points have a displacement; "
                           f"at least {FEWEST} are needed")
