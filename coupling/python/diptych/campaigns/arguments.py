@@ -57,7 +57,7 @@ def add_run(parser: Parser) -> None:
 def add_compare(parser: Parser) -> None:
     parser.add_argument("target", metavar="DIR", help="folder of an ensemble, or with --measured of a run")
     _add_set(parser)
-    parser.add_argument("--measured", metavar="DIR", type=filled, default="",
+    parser.add_argument("--measured", metavar="DIR", type=filled,
                         help="put the measurement in a folder of `diptych import field` beside the panels")
     add_quiet(parser)
 
