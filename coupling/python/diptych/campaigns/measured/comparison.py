@@ -44,19 +44,32 @@ class Window:
 def windows_of(measurement: Measurement, scene: Any, panels: Mapping[str, Sequence[Any]]) -> list[Window]:
     """The windows of a comparison that were measured, too. Raises SceneError if there is none."""
     edges, found = scene.dict()["comparison"]["window_edges"], []
-    for start, end in zip(edges, edges[1:]):
-        instants = [measurement.at(one, NEAR * (end - start)) for one in (start, end)]
+    for (start, end), instants in instants_of(measurement, edges).items():
         pairs = {panel: pair for panel, all_of in panels.items() if (pair := snapshots_at(all_of, start, end))}
-        if None not in instants and pairs:
+        if pairs:
             of_grains, d = increment(*next(iter(pairs.values()))), scene.dict()["sample"]["mean_diameter"]
             frame = {name: of_grains[name] for name in FRAME} if "centre" in of_grains else _box(of_grains.points, d)
-            found.append(Window(start=start, end=end, instants=(instants[0], instants[1]), frame=frame, pairs=pairs))
+            found.append(Window(start=start, end=end, instants=instants, frame=frame, pairs=pairs))
     if not found:
-        measured = ", ".join(f"{one:.4g}" for one in measurement.progress)
-        raise SceneError(f"no window of the comparison was measured. Its edges are {', '.join(map(str, edges))}; the "
-                         f"measurement has axial strains {measured}. Give both the same instants: "
-                         "comparison/window_edges and loading/stage_strain of the scene, --progress of the import")
+        raise not_measured(measurement, edges)
     return found
+
+
+def instants_of(measurement: Measurement, edges: Sequence[float]) -> dict[tuple[float, float], tuple[int, int]]:
+    """The windows between these edges that were measured, with the instants at their ends."""
+    found = {}
+    for start, end in zip(edges, edges[1:]):
+        first, last = (measurement.at(one, NEAR * (end - start)) for one in (start, end))
+        if first is not None and last is not None:
+            found[start, end] = (first, last)
+    return found
+
+
+def not_measured(measurement: Measurement, edges: Sequence[float]) -> SceneError:
+    measured = ", ".join(f"{one:.4g}" for one in measurement.progress)
+    return SceneError(f"no window of the comparison was measured. Its edges are {', '.join(map(str, edges))}; the "
+                      f"measurement has axial strains {measured}. Give both the same instants: "
+                      "comparison/window_edges and loading/stage_strain of the scene, --progress of the import")
 
 
 def _box(points: Array, mean_diameter: float) -> dict[str, Any]:
