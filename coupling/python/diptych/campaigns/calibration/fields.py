@@ -14,164 +14,136 @@ from ...arrays import Array, Band, BandReport
 from ...errors import SceneError
 from ...levelling import bands_of, field_of, levelled, on_sample, resolution, with_noise
 from ...measurement import read_measurement
-from ..measured.comparison import FEWEST, instants_of
+from ..measured.comparison import box_of, FEWEST, FRAME, instants_of
 from ..runs.key_numbers import BAND_OPTIONS, snapshots_at
 from ..runs.statistics import line_turn
 from .calibration_file import OF_FIELD
 from .noise import ANGLE, Observable, STRIP_PROFILE
 from .observations import Observation
-from .search import NORMAL
 from .profiles import STRIPS
+from .search import NORMAL
 
 HOMOGENEOUS = 45.0  # degrees: where a compression without a band shears most
 
 
 @dataclass(kw_only=True)
 class MeasuredWindow:
-    """What was measured in a window of the comparison. points (n, 2) [length], displacement (n, 2) [length], bands with
-    the noise of the measurement in their intervals; subset and resolution [length]."""
+    """A window of the comparison that was measured: points (n, 2) and displacement (n, 2) [length], bands with the
+    noise of the measurement in their intervals."""
 
     edges: tuple[float, float]
     points: Array
     displacement: Array
     report: BandReport
-    subset: float
-    resolution: float
-
-    @property
-    def band(self) -> Band | None:
-        """The strongest."""
-        return next(iter(self.report.bands), None)
-
-
-def _options(scene: _diptych.Scene) -> dict[str, Any]:
-    keys = scene.dict()["comparison"]
-    return {name: keys[name] for name in (*BAND_OPTIONS, "band_resamples")}
+    band: Band | None  # the strongest
+    subset: float  # [length]
+    resolution: float  # [length]
 
 
 def measured_windows(scene: _diptych.Scene, folder: str, edges: Sequence[tuple[float, float]]) -> list[MeasuredWindow]:
     """Those of a measurement, scaled to the sample. Raises SceneError if too few points lie in the sample."""
     measurement, keys, found = read_measurement(folder), scene.dict(), []
-    d, options = keys["sample"]["mean_diameter"], _options(scene)
-    scale, half = d / measurement.mean_diameter, 0.5 * np.array(
-        [keys["continuum"]["rectangle_width"], keys["continuum"]["rectangle_height"]])
-    for start, end in edges:
-        instants = instants_of(measurement, (start, end))[start, end]
+    d, options = keys["sample"]["mean_diameter"], {name: keys["comparison"][name]
+                                                   for name in (*BAND_OPTIONS, "band_resamples")}
+    scale = d / measurement.mean_diameter
+    half = [0.5 * keys["continuum"][side] for side in ("rectangle_width", "rectangle_height")]
+    for window, instants in instants_of(measurement, sorted({one for both in edges for one in both})).items():
         since = measurement.increment(*instants)
         points, u = on_sample(measurement, instants[1], since.points, np.zeros(2), d), scale * since.displacement
-        inside = (abs(points) <= half).all(axis=1).sum()
+        inside = int((abs(points) <= half).all(axis=1).sum())
         if inside < FEWEST:
-            raise SceneError(f"{folder}: window {start:g}-{end:g}: {inside} measured points lie in the rectangle of the "
-                             f"scene; a band needs {FEWEST}. Check rectangle_width and rectangle_height, --centre and "
-                             "--mean-diameter of the import")
-        low, high = points.min(0), points.max(0)
-        frame = {"mean_diameter": d, "centre": 0.5 * (low + high), "width": high[0] - low[0],
-                 "height": high[1] - low[1]}
-        report = with_noise(bands_of(points, u, frame, options), points, u, scale * since.deviation, options)
-        found.append(MeasuredWindow(edges=(start, end), points=points, displacement=u, report=report,
-                                    subset=scale * measurement.subset,
-                                    resolution=scale * resolution(measurement.subset, measurement.spacing)))
+            raise SceneError(f"{folder}: window {window[0]:g}-{window[1]:g}: {inside} measured points lie in the "
+                             f"rectangle of the scene; a band needs {FEWEST}. Check continuum/rectangle_width and "
+                             "rectangle_height, and --centre and --mean-diameter of the import")
+        report = with_noise(bands_of(points, u, box_of(points, d), options), points, u, scale * since.deviation,
+                            options)
+        found.append(MeasuredWindow(
+            edges=window, points=points, displacement=u, report=report, band=next(iter(report.bands), None),
+            subset=scale * measurement.subset, resolution=scale * resolution(measurement.subset, measurement.spacing)))
     return found
-
-
-def _angle(scene: _diptych.Scene, band: Band) -> float:
-    return abs(band.angle_deg) if scene.is_mirror_symmetric() else band.angle_deg
 
 
 def _strip(one: Observable, points: Array, u: Array, band: Band, report: BandReport) -> float:
     """Mean displacement along a band in a strip to both sides over the travel, from that of its middle, positive in the
     sense of the band. NaN without a point."""
-    d, angle = report.frame["mean_diameter"], np.radians(band.angle_deg)
-    y = ((points - band.centre) @ band.normal - band.offset) / d
-    along = np.sign(band.jump) * u @ np.array([np.cos(angle), np.sin(angle)])
-    along /= np.hypot(*report.frame["platen_increment"])
-    strips = [(side, (side * y >= one.near) & (side * y < one.far)) for side in (1, -1)]
-    middle = abs(y) < STRIPS[1]
-    sides = [side * (along[at].mean() - along[middle].mean()) for side, at in strips if at.any() and middle.any()]
+    angle, middle = np.radians(band.angle_deg), band.centre + band.offset * band.normal
+    y = (points - middle) @ band.normal / report.frame["mean_diameter"]
+    along = np.sign(band.jump) * u @ [np.cos(angle), np.sin(angle)] / np.hypot(*report.frame["platen_increment"])
+    inner = along[abs(y) < STRIPS[1]]
+    sides = [side * (along[at].mean() - inner.mean()) for side in (1, -1)
+             if (at := (side * y >= one.near) & (side * y < one.far)).any() and len(inner)]
     return float(np.mean(sides)) if sides else np.nan
 
 
-def _deviation(one: Observable, band: Band, d: float) -> float:
-    """Standard deviation of a measured observable, from the 95 % intervals of the band. A strip shows half the jump x
-    tanh(distance / half width)."""
-    def of(name: str) -> float:
-        return 0.5 * (band.interval[name].high - band.interval[name].low) / NORMAL
-
-    of_ln = of("width_10_90") / band.width_10_90
-    if one.kind != STRIP_PROFILE:
-        return of("angle_deg") if one.kind == ANGLE else of_ln
-    y = 0.5 * d * (one.near + one.far) / band.half_width
-    return float(np.hypot(0.5 * np.tanh(y) * of("jump"), 0.5 * band.jump * y / np.cosh(y) ** 2 * of_ln))
-
-
-def _why_not(one: Observable, window: MeasuredWindow, deviation: float) -> str:
-    """Why a measured observable does not count; empty if it does."""
-    low = window.band.interval["width_10_90"].low
-    if not np.isfinite(deviation):
-        return "its interval is unknown; comparison/band_resamples above 0 gives it"
-    if one.kind == "ln_width":
-        return "" if low > window.resolution else "the measured band is not wider than the resolution"
-    return "the measured band is a diffuse zone" if window.band.diffuse else ""
-
-
-def observe_field(o: Observation, deviations: Array, scene: _diptych.Scene, observables: Sequence[Observable],
-                  windows: Sequence[MeasuredWindow]) -> list[str]:
-    """Fills in the values of the bands of a measurement and their deviations (observables). Returns a reason per
-    observable that has none, else ""."""
-    left_out, of_edges, d = [""] * len(observables), {one.edges: one for one in windows}, _mean_diameter(scene)
-    o.bands = [window.band for window in windows]
-    o.angle_deg = next((_angle(scene, band) for band in reversed(o.bands) if band and not band.diffuse), np.nan)
-    for k, one in enumerate(observables):
-        if one.kind not in OF_FIELD:
-            continue
-        window = of_edges[one.low, one.high]
-        if window.band is None:
-            left_out[k] = "no band was measured"
-            continue
-        deviation = _deviation(one, window.band, d)
-        left_out[k] = _why_not(one, window, deviation)
-        if not left_out[k]:
-            o.values[k], deviations[k] = _value(one, scene, window, window.displacement, window.report), deviation
-    return left_out
-
-
-def _mean_diameter(scene: _diptych.Scene) -> float:
-    return float(scene.dict()["sample"]["mean_diameter"])
-
-
 def _value(one: Observable, scene: _diptych.Scene, window: MeasuredWindow, u: Array, report: BandReport) -> float:
-    """An observable of a displacement (n, 2) at the points of a window. Without a band the width is half the sample's
-    height, like that of a homogeneous deformation; the profile is taken across the measured band."""
-    found, d = next(iter(report.bands), None), _mean_diameter(scene)
+    """An observable of a displacement (n, 2) at the points of a window with a measured band. Without a band the width
+    is half the sample's height, like that of a homogeneous deformation; the strips lie along the measured band."""
+    found, folded = next(iter(report.bands), None), scene.is_mirror_symmetric()
     if one.kind == "ln_width":
-        return float(np.log((found.width_10_90 if found else 0.5 * scene.dict()["continuum"]["rectangle_height"]) / d))
+        width = found.width_10_90 if found else 0.5 * scene.dict()["continuum"]["rectangle_height"]
+        return float(np.log(width / report.frame["mean_diameter"]))
     inclined = found if found and not found.diffuse else None  # the angle of a diffuse zone means little
     if one.kind == STRIP_PROFILE:
         known = np.isfinite(u).all(axis=1)
         return _strip(one, window.points[known], u[known], inclined or window.band, report)
-    measured = _angle(scene, window.band)
-    angle = _angle(scene, inclined) if inclined else float(np.copysign(HOMOGENEOUS, measured))
-    return measured + float(line_turn(angle, measured))
+    measured, angle = window.band.angle_deg, HOMOGENEOUS * np.sign(window.band.angle_deg)
+    angle = inclined.angle_deg if inclined else angle
+    if folded:
+        measured, angle = abs(measured), abs(angle)
+    return float(measured + line_turn(angle, measured))
+
+
+def _add(o: Observation, scene: _diptych.Scene, observables: Sequence[Observable], window: MeasuredWindow,
+         seen: tuple[Array, BandReport]) -> None:
+    """Adds the bands of a window. seen: displacement (n, 2) at its points, and the bands in it."""
+    o.bands.append(next(iter(seen[1].bands), None))
+    if o.bands[-1]:
+        o.angle_deg = abs(o.bands[-1].angle_deg) if scene.is_mirror_symmetric() else o.bands[-1].angle_deg
+    for k, one in enumerate(observables):
+        if one.kind in OF_FIELD and (one.low, one.high) == window.edges and window.band:
+            o.values[k] = _value(one, scene, window, *seen)
+
+
+def _deviation(one: Observable, window: MeasuredWindow) -> tuple[float, str]:
+    """Standard deviation of a measured observable, from the 95 % intervals of its band, and why it does not count. A
+    strip shows half the jump x tanh(distance / half width)."""
+    band = window.band
+    if band is None:
+        return np.nan, "no band was measured"
+    angle, width, jump = (0.5 * (high - low) / NORMAL for _, low, high in (
+        band.interval[name] for name in ("angle_deg", "width_10_90", "jump")))
+    if not np.isfinite(angle + width + jump):
+        return np.nan, "the intervals of the measured band are unknown"
+    if one.kind == "ln_width":
+        return width / band.width_10_90, ("" if band.interval["width_10_90"].low > window.resolution else
+                                          "the measured band may be as narrow as the resolution")
+    y = 0.5 * (one.near + one.far) * window.report.frame["mean_diameter"] / band.half_width
+    strip = 0.5 * np.hypot(np.tanh(y) * jump, band.jump * y / np.cosh(y) ** 2 * width / band.width_10_90)
+    return angle if one.kind == ANGLE else float(strip), "the measured band is a diffuse zone" if band.diffuse else ""
+
+
+def observe_field(o: Observation, deviations: Array, scene: _diptych.Scene, observables: Sequence[Observable],
+                  windows: Sequence[MeasuredWindow]) -> list[str]:
+    """Fills in the bands of a measurement and their deviations (observables). Returns why one does not count, or ""."""
+    left_out, of_edges = [""] * len(observables), {window.edges: window for window in windows}
+    for window in windows:
+        _add(o, scene, observables, window, (window.displacement, window.report))
+    for k, one in enumerate(observables):
+        if one.kind in OF_FIELD:
+            deviations[k], left_out[k] = _deviation(one, of_edges[one.low, one.high])
+            if left_out[k]:
+                o.values[k] = np.nan
+    return left_out
 
 
 def observe_levelled(o: Observation, scene: _diptych.Scene, observables: Sequence[Observable],
                      snapshots: Sequence[Any], windows: Sequence[MeasuredWindow]) -> Observation:
-    """Adds the bands of a continuum, seen as the measurement saw the sample. Windows without a measured band do not
-    count."""
-    options = {**_options(scene), "band_resamples": 0}
+    """Adds the bands of a continuum, seen as the measurement saw the sample."""
+    options = {"band_resamples": 0, **{name: scene.dict()["comparison"][name] for name in BAND_OPTIONS}}
     for window in windows:
-        pair = snapshots_at(snapshots, *window.edges)
-        if not pair:
-            continue
-        nodes = pair[1].position
-        centre = 0.5 * (nodes.min(0) + nodes.max(0))
-        u = levelled(field_of(*pair), window.points + centre, window.subset)
-        frame = {name: window.report.frame[name] for name in ("mean_diameter", "centre", "width", "height")}
-        report = bands_of(window.points, u, frame, options)
-        o.bands.append(next(iter(report.bands), None))
-        if o.bands[-1]:
-            o.angle_deg = _angle(scene, o.bands[-1])
-        for k, one in enumerate(observables):
-            if one.kind in OF_FIELD and (one.low, one.high) == window.edges and window.band:
-                o.values[k] = _value(one, scene, window, u, report)
+        if pair := snapshots_at(snapshots, *window.edges):
+            nodes = pair[1].position
+            u = levelled(field_of(*pair), window.points + 0.5 * (nodes.min(0) + nodes.max(0)), window.subset)
+            frame = {name: window.report.frame[name] for name in FRAME}
+            _add(o, scene, observables, window, (u, bands_of(window.points, u, frame, options)))
     return o

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A few samples cannot give a full covariance, so the scatter of one sample has a fixed form. The curve t/s is shifted
 as a whole (level) and varies locally, correlated in strain (shape). Volume has a constant scatter and one in proportion
-to strain. Widths scatter independently, profiles as profiles.py says. The own deviations of a measurement replace this form."""
+to strain. Widths scatter independently, profiles as profiles.py says. Deviations of a measurement replace this form."""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace

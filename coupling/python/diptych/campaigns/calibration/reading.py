@@ -111,9 +111,9 @@ def check_data(calibration: Calibration, paths: Sequence[Path], runs: Calibratio
             continue
         if target.curve:
             if not target.seeds:
-                record["words"].append(f"target '{target.name}' is a measured {'field' if target.measured else 'curve'}: "
-                                       "nothing was run again")
-                record["words"] += _left_out(path)
+                what = "field" if target.measured else "curve"
+                record["words"] += [f"target '{target.name}' is a measured {what}: nothing was run again",
+                                    *_left_out(path)]
         elif path.scene.dict()["discrete"]["method"] == "imported":
             stages = path.scene.stages()  # between frames nothing is known of the grains
             path.left_out = ["" if one.kind in OF_BANDS or any(one.low <= at <= one.high for at in stages)

@@ -48,7 +48,7 @@ def windows_of(measurement: Measurement, scene: Any, panels: Mapping[str, Sequen
         pairs = {panel: pair for panel, all_of in panels.items() if (pair := snapshots_at(all_of, start, end))}
         if pairs:
             of_grains, d = increment(*next(iter(pairs.values()))), scene.dict()["sample"]["mean_diameter"]
-            frame = {name: of_grains[name] for name in FRAME} if "centre" in of_grains else _box(of_grains.points, d)
+            frame = {name: of_grains[name] for name in FRAME} if "centre" in of_grains else box_of(of_grains.points, d)
             found.append(Window(start=start, end=end, instants=instants, frame=frame, pairs=pairs))
     if not found:
         raise not_measured(measurement, edges)
@@ -72,7 +72,7 @@ def not_measured(measurement: Measurement, edges: Sequence[float]) -> SceneError
                       "comparison/window_edges and loading/stage_strain of the scene, --progress of the import")
 
 
-def _box(points: Array, mean_diameter: float) -> dict[str, Any]:
+def box_of(points: Array, mean_diameter: float) -> dict[str, Any]:
     low, high = points.min(0), points.max(0)
     return {"mean_diameter": mean_diameter, "centre": 0.5 * (low + high), "width": high[0] - low[0],
             "height": high[1] - low[1]}
@@ -81,7 +81,7 @@ def _box(points: Array, mean_diameter: float) -> dict[str, Any]:
 def increments(measurement: Measurement) -> list[Window]:
     """The increments between successive instants of a measurement without a sample."""
     pairs, progress = range(len(measurement.progress) - 1), measurement.progress
-    return [Window(start=progress[k], end=progress[k + 1], instants=(k, k + 1), frame=_box(
+    return [Window(start=progress[k], end=progress[k + 1], instants=(k, k + 1), frame=box_of(
         measurement.increment(k, k + 1).points, measurement.mean_diameter)) for k in pairs]
 
 
