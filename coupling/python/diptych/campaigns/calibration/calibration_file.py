@@ -290,8 +290,8 @@ def _fixed(root: Part, parameters: Sequence[Parameter]) -> list[Setting]:
     return fixed
 
 
-def _check_curves(root: Part, targets: Sequence[Target], parameters: Sequence[Parameter]) -> None:
-    """Grains are fitted to curves, a continuum to grains or curves."""
+def _check_curves(root: Part, targets: Sequence[Target], parameters: Sequence[Parameter], kinds: Sequence[str]) -> None:
+    """Grains are fitted to curves, a continuum to grains, curves or measured fields."""
     sections = {p.setting[0] for p in parameters}
     if len(sections) > 1:
         root.refuse(": a file has either keys of the continuum or discrete/ keys of the grains; use two files",
@@ -303,19 +303,12 @@ def _check_curves(root: Part, targets: Sequence[Target], parameters: Sequence[Pa
         if sections == {"continuum"} and target.curve and target.seeds:
             part.refuse(" replaces grains; leave out seeds, or name parameters of the grains as discrete/KEY",
                         "measured" if target.measured else "curve")
-
-
-def _check_fields(root: Part, targets: Sequence[Target], kinds: Sequence[str]) -> None:
-    """Inclination and strips are those of measured fields, which a continuum is fitted to."""
-    for part, target in zip(root.list("targets"), targets):
-        if not target.measured and (wrong := [kind for kind in target.kinds if kind in (ANGLE, STRIP_PROFILE)]):
-            part.refuse(f": {wrong[0]} needs 'measured', a folder of diptych import field", "quantities")
-        if target.measured and target.seeds and (wrong := [kind for kind in kinds if kind in OF_FIELD]):
+        if sections == {"discrete"} and target.measured and (wrong := [kind for kind in kinds if kind in OF_FIELD]):
             part.refuse(f": grains are fitted to its curves only; leave {', '.join(wrong)} out of quantities",
                         "measured")
-    for kind in (ANGLE, STRIP_PROFILE):
-        if kind in kinds and not any(target.measured for target in targets):
-            root.refuse(f": {kind} needs a target with 'measured', a folder of diptych import field", "quantities")
+    if not any(target.measured for target in targets) and {ANGLE, STRIP_PROFILE} & set(kinds):
+        root.refuse(f": {ANGLE} and {STRIP_PROFILE} need a target with 'measured', a folder of diptych import field",
+                    "quantities")
 
 
 def _take_usual_noise(c: Calibration) -> None:
@@ -363,8 +356,7 @@ def read_calibration(file: str, contents: Mapping[str, Any] | None = None) -> Ca
     parameters = [_parameter(part, targets) for part in root.list("parameters")]
     if not 0 < len(parameters) <= MOST_PARAMETERS:
         root.refuse(f" is missing or empty; name 1 to {MOST_PARAMETERS} keys to be fitted", "parameters")
-    _check_curves(root, targets, parameters)
-    _check_fields(root, targets, kinds)
+    _check_curves(root, targets, parameters, kinds)
     for target in targets:  # each target uses a key once
         root.demand_distinct("parameters", [p.key for p in parameters if p.is_of(target.name)])
     c = Calibration(name=name, file=file, title=root.word("title", name), targets=targets, kinds=kinds,
