@@ -5,7 +5,6 @@
 import h5py
 import meshio
 import numpy as np
-import pandas as pd
 import pytest
 
 import diptych
@@ -13,7 +12,7 @@ from diptych import measurement
 from diptych.importers import fields
 from diptych.importers.fields import measure, outliers
 from diptych.campaigns.commands import result_entries
-from diptych.campaigns.measured.folder import alone, write_measured
+from diptych.campaigns.measured.folder import write_measurement
 
 X, Y = (grid.ravel() for grid in np.meshgrid(20.0 * np.arange(12), 20.0 * np.arange(15), indexing="ij"))
 GRID, FAILED = np.column_stack([X, Y]), 7
@@ -212,7 +211,7 @@ def test_lengths_are_scaled_and_y_is_turned(tmp_path):
     step = result.increment(0, 1)
     np.testing.assert_allclose(step.displacement, 0.1 * np.delete(moved(GRID), FAILED, axis=0), atol=1e-12)
     assert result.progress.tolist() == [0.02, 0.03] and any(text.endswith("left out: 1 of 180") for text in notes)
-    write_measured(tmp_path, result, pd.DataFrame(curves), alone(result, True))
+    write_measurement(tmp_path, result, curves)
     again = measurement.read_measurement(tmp_path)
     assert np.array_equal(again.position, result.position) and again.facts["frames"] == result.facts["frames"]
     names = [*again.facts, *("frames/" + name for name in again.facts["frames"][0])]

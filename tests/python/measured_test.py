@@ -17,7 +17,7 @@ from conftest import SMALL, program
 from diptych import scenes
 from diptych.campaigns.ensembles.measured import rows_of
 from diptych.campaigns.measured.comparison import compared, increments, windows_of
-from diptych.campaigns.measured.folder import alone, write_measured
+from diptych.campaigns.measured.folder import write_measurement
 from diptych.errors import SceneError
 from diptych.levelling import field_of, levelled, on_sample, with_noise
 from diptych.importers.fields.measure import tracked
@@ -114,10 +114,9 @@ def measured_folder(folder, tmp_path_factory):
     """The measurement of the grains of the small run."""
     path = tmp_path_factory.mktemp("measured")
     snapshots = diptych.load(folder).discrete.snapshots
-    measurement = measurement_of(snapshots)
     curves = pd.DataFrame({"axial_strain": [one.axial_strain for one in snapshots], "stress_ratio": 0.3,
                            "volumetric_strain": [1 - one.area / snapshots[0].area for one in snapshots]})
-    write_measured(path, measurement, curves, alone(measurement, True))
+    write_measurement(path, measurement_of(snapshots), curves)
     return path
 
 

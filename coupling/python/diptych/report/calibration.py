@@ -20,8 +20,9 @@ from .page.writing import write
 CURVES = {"stress_ratio": ("stress_ratio", "stress ratio t/s", 1),
           "volumetric_strain": ("volume", "volumetric strain, %", 100)}
 KINDS = {"stress_ratio": "t/s", "volumetric_strain": "volume", "ln_width": "ln width",
-         "rotation_profile": "rotation profile"}
-MARKS = {"stress_ratio": "o", "volumetric_strain": "s", "ln_width": "D", "rotation_profile": "^"}
+         "rotation_profile": "rotation profile", "angle": "inclination", "strip_profile": "strips along the band"}
+MARKS = {"stress_ratio": "o", "volumetric_strain": "s", "ln_width": "D", "rotation_profile": "^", "angle": "v",
+         "strip_profile": "<"}
 COORDINATES = {"value": "", "logarithm": "", "share_of": "share of ", "drop_from": "drop from ",
                "above_least": "above the least value: "}
 SHORT = {"share_of": ", share", "drop_from": ", drop", "above_least": ", above least"}

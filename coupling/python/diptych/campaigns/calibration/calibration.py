@@ -107,11 +107,12 @@ paths/: fitted and predicted paths
     use (text): fit or predict
     walk (text): loading variable of progress, from and to: axial_strain, shear_strain, path or time
     seeds (list): seeds of its samples of grains; empty if a continuum is fitted to a measured curve
-    curve (text): file of the measured curve; empty: the data are grains
+    curve (text): file of the measured curve, or folder of the measured field; empty: the data are grains
     failed (text): reason why the calibrated continuum did not finish here; empty if it did
     observables/: numbers by which grains and continuum are compared
         kind (text): stress_ratio, volumetric_strain: mean over a bin; ln_width: logarithm of the band width in a \
-            window, in mean diameters
+            window, in mean diameters; angle: inclination of the band in degrees; strip_profile: displacement along \
+            the band in a strip / travel
         from [strain or time]: start of the bin or window
         to [strain or time]: end of the bin or window
         count: samples that have this observable

@@ -16,14 +16,18 @@ import pandas as pd
 from ... import _diptych
 from ...errors import SceneError
 from ...importers import read_table
+from ...measurement import FACTS, FIELD, HISTORY, read_measurement
+from ..measured.comparison import instants_of, not_measured
 from ..runs.coordinates import ABOVE_LEAST, COORDINATES, LOGARITHMS, RATIOS, USUAL, Parameter
-from .noise import ESTIMATED, KINDS, Noise, Observable
+from .noise import ANGLE, ESTIMATED, KINDS, Noise, Observable, STRIP_PROFILE
 from .profiles import PROFILE, STRIPS
 from ..runs.histories import is_beyond
 from ..runs.input_file import Part, Setting, is_number, name_of, value_text
 
 FAR = 1e12
-OF_BANDS = ("ln_width", PROFILE)  # taken in the windows of the comparison
+OF_FIELD = ("ln_width", ANGLE, STRIP_PROFILE)  # those of the bands of a measured field
+OF_BANDS = (PROFILE, *OF_FIELD)  # taken in the windows of the comparison
+STRIPS_OF = {PROFILE: list(zip(STRIPS, STRIPS[1:])), STRIP_PROFILE: list(zip(STRIPS[:6], STRIPS[1:6]))}
 MOST_PARAMETERS = 12  # the starts are spread over at most so many directions
 KEYS_OF_THE_SEARCH = ("mesh", "element_size", "rectangle_width", "rectangle_height", "initial_step", "max_step")
 CURVE_COLUMNS = {"stress_ratio": "stress_ratio_deviation", "volumetric_strain": "volumetric_strain_deviation"}
@@ -46,6 +50,7 @@ class Target:
     seeds: list[int] = field(default_factory=list)
     results: list[str] = field(default_factory=list)  # result folders, one per seed, instead of runs
     curve: str = ""  # .csv file
+    measured: str = ""  # folder of a measured field, whose curve is `curve`
     is_fitted: bool = True  # False: predicted
     before: list[Setting] = field(default_factory=list)  # parameters to compare with; empty: those of the scene
     kinds: list[str] = field(default_factory=list)  # those that count in a fit; empty: all of the file
@@ -85,20 +90,34 @@ class Calibration:
         """True if keys of the grains are fitted, not of the continuum."""
         return self.parameters[0].setting[0] == "discrete"
 
-    def observables_of(self, scene: _diptych.Scene, is_curve: bool = False) -> list[Observable]:
-        """Bins up to the end of the loading, and windows of the comparison, but not for curves and element tests."""
+    def observables_of(self, scene: _diptych.Scene, target: Target | None = None) -> list[Observable]:
+        """Bins up to the end of the loading, and windows of the comparison, but not for curves and element tests. A
+        measured field gives the windows that were measured. target: None: samples of grains."""
         keys, found = scene.dict(), []
+        edges = keys["comparison"]["window_edges"]
+        of_bands, windows = _bands_of(scene, target), list(zip(edges, edges[1:]))
+        if target and target.measured and set(of_bands) & set(self.kinds):
+            measurement = read_measurement(target.measured)
+            windows = list(instants_of(measurement, edges))
+            if not windows:
+                raise not_measured(measurement, edges)
         for kind in self.kinds:
-            if kind in OF_BANDS and (is_curve or is_element(scene)):
+            if kind in OF_BANDS and kind not in of_bands:
                 continue
-            edges = keys["comparison"]["window_edges"] if kind in OF_BANDS else self.bins
             found += [Observable(kind=kind, low=low, high=high, near=near, far=far)
-                      for low, high in zip(edges, edges[1:])
+                      for low, high in (windows if kind in OF_BANDS else zip(self.bins, self.bins[1:]))
                       if not is_beyond(high, keys["loading"]["axial_strain"])
-                      for near, far in (zip(STRIPS, STRIPS[1:]) if kind == PROFILE else [(0.0, 0.0)])]
+                      for near, far in STRIPS_OF.get(kind, [(0.0, 0.0)])]
         if not found:
             raise ValueError("no bin and no window lies within the loading; check bins and comparison/window_edges")
         return found
+
+
+def _bands_of(scene: _diptych.Scene, target: Target | None) -> tuple[str, ...]:
+    """The quantities of bands that the data of a target have."""
+    if is_element(scene) or (target and target.curve and not target.measured):
+        return ()
+    return OF_FIELD if target and target.measured else ("ln_width", PROFILE)
 
 
 def is_element(scene: _diptych.Scene) -> bool:
@@ -171,9 +190,21 @@ def _results(part: Part) -> tuple[list[str], list[int]]:
     return folders, seeds
 
 
+def _measured(part: Part) -> str:
+    """The folder of a measured field."""
+    if part.has("curve"):
+        part.refuse(" brings its own curve; leave out curve", "measured")
+    folder = os.path.normpath(os.path.join(os.path.dirname(part.file), part.word("measured")))
+    for name in (FIELD, FACTS, HISTORY):
+        if not os.path.isfile(f"{folder}/{name}"):
+            part.refuse(f" = '{folder}' has no {name}; name a folder of diptych import field", "measured")
+    return folder
+
+
 def _target(part: Part) -> Target:
-    part.allow("name", "scene", "set", "seeds", "results", "curve", "k0", "use", "before", "quantities")
+    part.allow("name", "scene", "set", "seeds", "results", "curve", "measured", "k0", "use", "before", "quantities")
     part.at("name")
+    source = "measured" if part.has("measured") else "curve"
     target = Target(name=part.word("name"), scene="", settings=part.settings("set"),
                     is_fitted=part.choice("use", ("fit", "predict"), "fit") == "fit",
                     kinds=[value_text(one.value) for one in part.list("quantities")])
@@ -181,16 +212,17 @@ def _target(part: Part) -> Target:
         target.results, target.seeds = _results(part)
         target.scene = target.results[0] + "/scene.prm"
     else:
-        if part.has("curve") and not part.has("scene"):
-            part.refuse(" needs 'scene': this scene loads the continuum, which is compared with the curve", "curve")
+        if part.has(source) and not part.has("scene"):
+            part.refuse(" needs 'scene': this scene loads the continuum, which is compared with the data", source)
         target.scene = part.existing_file("scene")
-        if not part.has("curve"):
+        if not part.has(source):
             part.at("seeds")
         target.seeds = part.seeds("seeds")
-    if part.has("curve"):
+    if part.has(source):
         if part.has("results"):
-            part.refuse(" replaces grains; leave out results", "curve")
-        target.curve = part.existing_file("curve")
+            part.refuse(" replaces grains; leave out results", source)
+        target.measured = _measured(part) if part.has("measured") else ""
+        target.curve = f"{target.measured}/{HISTORY}" if target.measured else part.existing_file("curve")
     if part.has("k0"):
         target.settings.append(part.setting("k0", "continuum/k0", part.number("k0", 0.01, 100)))
     if part.has("before"):
@@ -258,8 +290,8 @@ def _fixed(root: Part, parameters: Sequence[Parameter]) -> list[Setting]:
     return fixed
 
 
-def _check_curves(root: Part, targets: Sequence[Target], parameters: Sequence[Parameter]) -> None:
-    """Grains are fitted to curves, a continuum to grains or curves."""
+def _check_curves(root: Part, targets: Sequence[Target], parameters: Sequence[Parameter], kinds: Sequence[str]) -> None:
+    """Grains are fitted to curves, a continuum to grains, curves or measured fields."""
     sections = {p.setting[0] for p in parameters}
     if len(sections) > 1:
         root.refuse(": a file has either keys of the continuum or discrete/ keys of the grains; use two files",
@@ -270,7 +302,13 @@ def _check_curves(root: Part, targets: Sequence[Target], parameters: Sequence[Pa
                         "seeds")
         if sections == {"continuum"} and target.curve and target.seeds:
             part.refuse(" replaces grains; leave out seeds, or name parameters of the grains as discrete/KEY",
-                        "curve")
+                        "measured" if target.measured else "curve")
+        if sections == {"discrete"} and target.measured and (wrong := [kind for kind in kinds if kind in OF_FIELD]):
+            part.refuse(f": grains are fitted to its curves only; leave {', '.join(wrong)} out of quantities",
+                        "measured")
+    if not any(target.measured for target in targets) and {ANGLE, STRIP_PROFILE} & set(kinds):
+        root.refuse(f": {ANGLE} and {STRIP_PROFILE} need a target with 'measured', a folder of diptych import field",
+                    "quantities")
 
 
 def _take_usual_noise(c: Calibration) -> None:
@@ -318,7 +356,7 @@ def read_calibration(file: str, contents: Mapping[str, Any] | None = None) -> Ca
     parameters = [_parameter(part, targets) for part in root.list("parameters")]
     if not 0 < len(parameters) <= MOST_PARAMETERS:
         root.refuse(f" is missing or empty; name 1 to {MOST_PARAMETERS} keys to be fitted", "parameters")
-    _check_curves(root, targets, parameters)
+    _check_curves(root, targets, parameters, kinds)
     for target in targets:  # each target uses a key once
         root.demand_distinct("parameters", [p.key for p in parameters if p.is_of(target.name)])
     c = Calibration(name=name, file=file, title=root.word("title", name), targets=targets, kinds=kinds,

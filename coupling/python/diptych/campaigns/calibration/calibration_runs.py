@@ -20,6 +20,7 @@ from ..runs.input_file import Setting
 from ..runs.key_numbers import snapshots_at
 from ..studies.points import on_sample, scene_run
 from .calibration_file import Calibration, Target, is_element
+from .fields import MeasuredWindow, measured_windows, observe_field, observe_levelled
 from .noise import Data, Noise, Observable, covariance, noise_of
 from .observations import (Observation, Outline, Path, add_bands, half_step, observe_curve, observe_history,
                            read_target, windows_of)
@@ -32,6 +33,7 @@ class CalibrationRuns:
     def __init__(self, calibration: Calibration, runs: Runs, options: Options) -> None:
         self.calibration, self.runs, self.options = calibration, runs, replace(options, resume=False)
         self.outlines: dict[str, Outline] = {}
+        self.fields: dict[str, list[MeasuredWindow]] = {}  # of targets that were measured
         self.cpu_s = {"continuum": 0.0, "discrete": 0.0}
         self._counted: set[str] = set()
 
@@ -79,15 +81,19 @@ class CalibrationRuns:
 
     def _path(self, target: Target) -> Path:
         scene = read_target(target)
-        observables = self.calibration.observables_of(scene, bool(target.curve))
+        observables = self.calibration.observables_of(scene, target)
         if target.curve:
             keys = scene.dict()
             self.outlines[target.name] = Outline(
                 width=keys["continuum"]["rectangle_width"], height=keys["continuum"]["rectangle_height"],
                 solid_fraction=keys["sample"]["solid_fraction"], frames=[], bands=[], mesh="")
             sample, deviations = observe_curve(scene, observables, target.curve)
+            left_out = [""] * len(observables)
+            if target.measured:
+                self.fields[target.name] = measured_windows(scene, target.measured, windows_of(observables))
+                left_out = observe_field(sample, deviations, scene, observables, self.fields[target.name])
             data = Data(observables=observables, values=sample.values, given=deviations)
-            return Path(target=target, scene=scene, data=data, samples=[sample], left_out=[""] * len(observables))
+            return Path(target=target, scene=scene, data=data, samples=[sample], left_out=left_out)
         samples = [self._observed(target, scene, observables, folder)
                    for folder in target.results or self._grains(target, target.seeds)]
         data = Data(observables=observables, values=[s.values for s in samples])
@@ -172,8 +178,10 @@ class CalibrationRuns:
         if is_element(path.scene):
             return observe_history(path.scene, observables, panel_table(folder, "material_point"))
         o = observe_history(path.scene, observables, panel_table(folder, "continuum"), nominal=bool(path.target.curve))
-        return add_bands(o, path.scene, observables, _diptych.read_nodes(folder).snapshots,
-                         self.outlines[path.target.name], of_grains=False)
+        snapshots, name = _diptych.read_nodes(folder).snapshots, path.target.name
+        if path.target.measured:
+            return observe_levelled(o, path.scene, observables, snapshots, self.fields[name])
+        return add_bands(o, path.scene, observables, snapshots, self.outlines[name], of_grains=False)
 
     def evaluate(self, paths: Sequence[Path], points: Sequence[Sequence[Sequence[Setting]]], fine: bool,
                   load_step: float) -> list[list[Observation]]:

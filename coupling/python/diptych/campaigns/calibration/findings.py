@@ -14,7 +14,7 @@ import scipy.stats
 from ... import _diptych
 from ...arrays import Array, Interval, ends_text
 from ..runs.coordinates import Coordinates
-from .noise import Noise, covariance, covariance_of_mean
+from .noise import ANGLE, Noise, covariance, covariance_of_mean
 from .posterior import Draws
 from .observations import PEAK, Observation, Path
 from .search import NORMAL, PRIOR, Fit, difference_jacobian
@@ -134,9 +134,10 @@ def predictions(path: Path, runs: Sequence[Observation], deviations: Array) -> l
     """Single numbers of a path with verdicts: two one-sided tests against the margins of the scene.
 
     deviations: (observables), of `after`: from the parameters if the path was not fitted, and from runs of grains; they
-    widen the intervals. That of the angle is unknown, because the fit has no derivative of it. Near a flat peak the
-    largest running mean moves as the largest mean over a bin does.
-    The deviation given with a curve replaces the scatter of samples; that of its peak is the one of its largest bin.
+    widen the intervals. That of an angle that is no observable is unknown: the fit has no derivative. Near a flat peak
+    the largest running mean moves as the largest mean over a bin does.
+    The deviation given with a measurement replaces the scatter of samples; that of its peak is the one of its largest
+    bin.
     """
     margins, (before, after) = path.scene.dict()["comparison"], runs
     places = {one.kind: k for k, one in enumerate(path.data.observables)}  # the last of each kind
@@ -176,8 +177,11 @@ def predictions(path: Path, runs: Sequence[Observation], deviations: Array) -> l
         k = places["ln_width"]
         widths = [float(np.exp(s.values[k])) for s in everything]
         widths[:2] = [width if np.isfinite(s.angle_deg) else np.nan for width, s in zip(widths, runs)]
-        add("width_10_90", widths, "margin_thickness", "relative", k)
-        add("angle_deg", [s.angle_deg for s in everything], "margin_angle", "line", None)
+        add("width_10_90", widths, "margin_thickness", "relative", k, given=widths[2] * path.data.given[k])
+    if {"ln_width", ANGLE} & set(places):
+        k = places.get(ANGLE)
+        add("angle_deg", [s.angle_deg for s in everything], "margin_angle", "line", k,
+            given=np.nan if k is None else path.data.given[k])
     return found
 
 
@@ -197,7 +201,7 @@ def path_record(path: Path, noise: Noise, runs: Sequence[Observation], deviation
                     "left_out": path.left_out[k]} for k, one in enumerate(data.observables)]
     record = {"name": path.target.name, "use": "fit" if path.target.is_fitted else "predict",
               "walk": path.scene.loading_variable(),
-              "seeds": path.target.seeds, "curve": os.path.basename(path.target.curve),
+              "seeds": path.target.seeds, "curve": os.path.basename(path.target.measured or path.target.curve),
               "failed": after.failure, "observables": observables, "progress": path.samples[0].progress,
               "predictions": predictions(path, (before, after), own)}
     for name, key in (("stress_ratio", "stress_ratio"), ("volumetric_strain", "volume")):

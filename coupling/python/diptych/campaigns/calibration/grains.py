@@ -37,7 +37,7 @@ class GrainRuns(CalibrationRuns):
     def _path(self, target: Target) -> Path:
         """The grains of the scene as it is give the scatter of the samples."""
         scene = read_target(target)
-        observables = self.calibration.observables_of(scene, True)
+        observables = self.calibration.observables_of(scene, target)
         curve, deviations = observe_curve(scene, observables, target.curve)
         data = Data(observables=observables, values=curve.values, given=deviations, runs=len(target.seeds))
         path = Path(target=target, scene=scene, data=data, samples=[curve], left_out=[""] * len(observables))

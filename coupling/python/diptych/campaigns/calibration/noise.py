@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A few samples cannot give a full covariance, so the scatter of one sample has a fixed form. The curve t/s is shifted
 as a whole (level) and varies locally, correlated in strain (shape). Volume has a constant scatter and one in proportion
-to strain. Widths scatter independently, profiles as profiles.py says. A curve's own deviations replace this form."""
+to strain. Widths scatter independently, profiles as profiles.py says. Deviations of a measurement replace this form."""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
@@ -13,9 +13,10 @@ import scipy.linalg
 from ...arrays import Array
 from .profiles import FLOOR, MISFIT_LENGTH, NOISE_LENGTH, PROFILE, shape
 
-KINDS = ("stress_ratio", "volumetric_strain", "ln_width", PROFILE)
+ANGLE, STRIP_PROFILE = "angle", "strip_profile"  # only of a measured field, which brings their deviations
+KINDS = ("stress_ratio", "volumetric_strain", "ln_width", PROFILE, ANGLE, STRIP_PROFILE)
 ESTIMATED = {"stress_ratio": ("stress_level", "stress_shape"), "volumetric_strain": ("volume_start", "volume_growth"),
-             "ln_width": ("ln_width",), PROFILE: ("profile_stretch", "profile_noise")}
+             "ln_width": ("ln_width",), PROFILE: ("profile_stretch", "profile_noise"), ANGLE: (), STRIP_PROFILE: ()}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,6 +49,8 @@ class Noise:
     early_strain: float = 0.002
     volume_discrepancy: float = 0.0008
     width_discrepancy: float = 0.1
+    angle_discrepancy: float = 2.0  # degrees
+    strip_discrepancy: float = 0.02  # of the travel
     estimated: tuple[str, ...] = ()  # the deviations that were estimated
     degrees_of_freedom: int = 0  # samples minus paths
 
@@ -58,7 +61,7 @@ NO_SCATTER = Noise(**{key: 0 for keys in ESTIMATED.values() for key in keys})
 @dataclass(kw_only=True)
 class Data:
     """The samples of one path. values: (samples, observables), NaN if a sample has none. given: (observables)
-    deviations that a measured curve brings, NaN where it brings none. runs: number of samples of grains that are
+    deviations that a measurement brings, NaN where it brings none. runs: number of samples of grains that are
     compared with the data in their mean; 0: a continuum. own: the scatter of this path; None: the calibration's."""
 
     observables: Sequence[Observable]
@@ -95,7 +98,7 @@ class Data:
         """The strips of each window's profile, as indices of observables."""
         found: dict[float, list[int]] = {}
         for k, one in enumerate(self.observables):
-            if one.far:
+            if one.kind == PROFILE:
                 found.setdefault(one.low, []).append(k)
         return list(found.values())
 
@@ -185,16 +188,20 @@ def covariance(noise: Noise, data: Data) -> Array:
     """(observables, observables): covariance of one sample."""
     x, noise = data.middles, data.own or noise
     near = _near(x, noise.correlation_strain)
+    alone = np.eye(len(x))
     result, (_, mode, variance) = np.zeros_like(near), data.shapes()
-    for kind, form in (("stress_ratio", noise.stress_level**2 + noise.stress_shape**2 * near),
-                       ("volumetric_strain", noise.volume_start**2 * near + noise.volume_growth**2 * np.outer(x, x)),
-                       ("ln_width", noise.ln_width**2 * np.eye(len(x))),
-                       (PROFILE, noise.profile_stretch**2 * np.outer(mode, mode)
-                        + noise.profile_noise**2 * np.sqrt(np.outer(variance, variance)) * data.beside(NOISE_LENGTH))):
+    for kind, form, of_given in (
+            ("stress_ratio", noise.stress_level**2 + noise.stress_shape**2 * near, near),
+            ("volumetric_strain", noise.volume_start**2 * near + noise.volume_growth**2 * np.outer(x, x), near),
+            ("ln_width", noise.ln_width**2 * alone, alone),
+            (PROFILE, noise.profile_stretch**2 * np.outer(mode, mode) + noise.profile_noise**2
+             * np.sqrt(np.outer(variance, variance)) * data.beside(NOISE_LENGTH), alone),
+            # all strips show the same errors of width and jump
+            (ANGLE, 0 * alone, alone), (STRIP_PROFILE, 0 * alone, data.beside(MISFIT_LENGTH))):
         at = data.of(kind)
         block, measured = np.outer(at, at), np.outer(at, at) & np.isfinite(np.outer(data.given, data.given))
         result[block] = form[block]
-        result[measured] = (np.outer(data.given, data.given) * near)[measured]
+        result[measured] = (np.outer(data.given, data.given) * of_given)[measured]
     return result
 
 
@@ -211,9 +218,10 @@ def discrepancy(noise: Noise, data: Data) -> Array:
     profile = data.shapes()[0]  # a relative tolerance
     for at in data.windows():
         profile[at] += FLOOR * profile[at].max()
-    return np.select([data.of("stress_ratio"), data.of("volumetric_strain"), data.distances > 0],
+    return np.select([data.of(kind) for kind in ("stress_ratio", "volumetric_strain", PROFILE, ANGLE, STRIP_PROFILE)],
                      [noise.stress_discrepancy + early, np.full_like(early, noise.volume_discrepancy),
-                      noise.width_discrepancy * profile], noise.width_discrepancy) ** 2
+                      noise.width_discrepancy * profile, noise.angle_discrepancy, noise.strip_discrepancy],
+                     noise.width_discrepancy) ** 2
 
 
 def working_covariance(noise: Noise, data: Data) -> Array:

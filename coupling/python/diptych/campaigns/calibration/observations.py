@@ -139,7 +139,7 @@ def observe_curve(scene: _diptych.Scene, observables: Sequence[Observable], file
     for k, one in enumerate(observables):
         if is_beyond(x[0], one.low):
             o.values[k] = np.nan
-        if CURVE_COLUMNS[one.kind] in table and np.isfinite(o.values[k]):
+        if CURVE_COLUMNS.get(one.kind) in table and np.isfinite(o.values[k]):
             deviations[k] = mean_over(x, table[CURVE_COLUMNS[one.kind]].to_numpy(), one.low, one.high)
     return o, deviations
 
@@ -156,7 +156,7 @@ def read_target(target: Target, more: Sequence[Setting] = ()) -> _diptych.Scene:
     scene = _diptych.read_changed_scene(target.scene, [*target.settings, *more], False)
     if is_element(scene):
         return scene
-    if not target.curve:
+    if target.measured or not target.curve:  # bands need stages at the edges of windows
         scene = _diptych.read_changed_scene(target.scene, [*target.settings, *more], True)
     mesh, mode = scene.dict()["continuum"]["mesh"], scene.dict()["loading"]["mode"]
     if target.curve and not target.seeds and mesh != "rectangle":

@@ -15,9 +15,9 @@ from ...errors import NotConverged, SceneError
 from ..runs.coordinates import Coordinates
 from ..runs.engine import complain
 from ..runs.input_file import settings_of
-from .calibration_file import OF_BANDS, Calibration, Target, is_element, read_curve
+from .calibration_file import OF_BANDS, STRIPS_OF, Calibration, Target, is_element, read_curve
 from .calibration_runs import CalibrationRuns
-from .noise import Data, noise_of
+from .noise import ANGLE, Data, noise_of, STRIP_PROFILE
 from .observations import Path, observe_curve, read_target
 from .profiles import PROFILE
 from .standard import standard_calibration
@@ -61,11 +61,12 @@ def _check_target(calibration: Calibration, coordinates: Coordinates, target: Ta
         raise SceneError(f"{place}{PROFILE} needs a law with rotations; continuum/law = "
                          f"{scene.dict()['continuum']['law']} has none; use ln_width")
     try:
-        observables = calibration.observables_of(scene, bool(target.curve))
+        observables = calibration.observables_of(scene, target)
     except ValueError as error:
         raise SceneError(place + str(error)) from error
     if target.is_fitted and not (target.curve or is_element(scene)):
-        for kind in [kind for kind in calibration.kinds if kind not in [one.kind for one in observables]]:
+        found = [ANGLE, STRIP_PROFILE, *(one.kind for one in observables)]
+        for kind in [kind for kind in calibration.kinds if kind not in found]:
             raise SceneError(f"{place}no bin or window of {kind} lies within its loading")
     for p in coordinates.parameters:
         if p.is_of(target.name) and p.key in (unused := scene.unused_keys()):
@@ -110,7 +111,9 @@ def check_data(calibration: Calibration, paths: Sequence[Path], runs: Calibratio
             continue
         if target.curve:
             if not target.seeds:
-                record["words"].append(f"target '{target.name}' is a measured curve: nothing was run again")
+                what = "field" if target.measured else "curve"
+                record["words"] += [f"target '{target.name}' is a measured {what}: nothing was run again",
+                                    *_left_out(path)]
         elif path.scene.dict()["discrete"]["method"] == "imported":
             stages = path.scene.stages()  # between frames nothing is known of the grains
             path.left_out = ["" if one.kind in OF_BANDS or any(one.low <= at <= one.high for at in stages)
@@ -121,14 +124,20 @@ def check_data(calibration: Calibration, paths: Sequence[Path], runs: Calibratio
             record["words"].append(f"target '{target.name}' was not checked for the step of its grains")
         else:
             path.left_out = runs.unsteady(path, noise)
-            record["words"] += [f"left out: {target.name}, {one.kind} from {one.low:.3g} to {one.high:.3g}: {why}"
-                                for one, why in zip(path.data.observables, path.left_out) if why]
+            record["words"] += _left_out(path)
         if target.kinds:
             path.left_out = [why if one.kind in target.kinds else "its target does not count it"
                              for one, why in zip(path.data.observables, path.left_out)]
-        if PROFILE in calibration.kinds:
+        if any(one.kind in STRIPS_OF for one in path.data.observables):
             path.left_out = [why or ("the profile shows it" if one.kind == "ln_width" else "")
                              for one, why in zip(path.data.observables, path.left_out)]
+
+
+def _left_out(path: Path) -> list[str]:
+    """A line per observable that has a reason; strips of a window are one."""
+    words = [f"left out: {path.target.name}, {one.kind} from {one.low:.3g} to {one.high:.3g}: {why}"
+             for one, why in zip(path.data.observables, path.left_out) if why]
+    return list(dict.fromkeys(words))
 
 
 def with_data(coordinates: Coordinates, paths: Sequence[Path], record: dict[str, Any]) -> Coordinates:
@@ -152,7 +161,7 @@ def inputs_of(calibration: Calibration) -> list[tuple[str, str]]:
     inputs = [("the calibration", calibration.file)]
     for target in calibration.targets:
         own = [("the scene", target.scene), *(("results", folder) for folder in target.results),
-               ("curve", target.curve)]
+               ("measured", target.measured), ("curve", target.curve)]
         inputs += [(f"targets: '{target.name}': {what}", path) for what, path in own if path]
         inputs += read_target(target).input_files()
     return inputs

@@ -6,8 +6,6 @@ import argparse
 import os
 from typing import Any
 
-import pandas as pd
-
 from ... import _diptych
 from ...entries import describe
 from ...files import sha256_of
@@ -16,7 +14,7 @@ from ...importers.fields.measure import measure
 from ...importers.fields.readers import read_fields, registered
 from ...importers.readers import read_with
 from ...measurement import ARRAYS, FACTS, FIELD, HISTORY, Measurement
-from ..measured.folder import alone, write_measured
+from ..measured.folder import alone, write_levelled, write_measurement
 from ..runs.engine import columns_text, Options, say, stops_raised
 from ..runs.folders import draw, Folder, record_phase
 from .imports import import_options
@@ -82,7 +80,8 @@ def run_import_field(line: argparse.Namespace, options: Options) -> None:
     with Folder(folder) as locked:
         if options.overwrite and not _diptych.is_empty_folder(folder):
             locked.set_aside([("the file", file) for file in inputs])
-        write_measured(folder, result, pd.DataFrame(curves), record)
+        write_measurement(folder, result, curves)
+        write_levelled(folder, folder, curves, record)
         record_phase(folder, "import", began, ("", []), options)
         say(options, _text_of(result))
         draw(options, folder, "measured")

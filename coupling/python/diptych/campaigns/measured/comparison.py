@@ -43,23 +43,36 @@ class Window:
 
 def windows_of(measurement: Measurement, scene: Any, panels: Mapping[str, Sequence[Any]]) -> list[Window]:
     """The windows of a comparison that were measured, too. Raises SceneError if there is none."""
-    edges, measured, found = scene.dict()["comparison"]["window_edges"], measurement.progress, []
-    for ends in zip(edges, edges[1:]):
-        instants = [int(abs(measured - end).argmin()) for end in ends]
+    edges, found = scene.dict()["comparison"]["window_edges"], []
+    for ends, instants in instants_of(measurement, edges).items():
         pairs = {panel: pair for panel, all_of in panels.items() if (pair := snapshots_at(all_of, *ends))}
-        if pairs and abs(measured[instants] - ends).max() <= NEAR * (ends[1] - ends[0]):
+        if pairs:
             of_grains, d = increment(*next(iter(pairs.values()))), scene.dict()["sample"]["mean_diameter"]
-            frame = {name: of_grains[name] for name in FRAME} if "centre" in of_grains else _box(of_grains.points, d)
+            frame = {name: of_grains[name] for name in FRAME} if "centre" in of_grains else box_of(of_grains.points, d)
             found.append(Window(start=ends[0], end=ends[1], instants=instants, frame=frame, pairs=pairs))
     if not found:
-        raise SceneError(f"no window of the comparison was measured. Its edges are {', '.join(map(str, edges))}; the "
-                         f"measurement has axial strains {', '.join(f'{one:.4g}' for one in measured)}. Give both the "
-                         "same instants: comparison/window_edges and loading/stage_strain of the scene, --progress of "
-                         "the import")
+        raise not_measured(measurement, edges)
     return found
 
 
-def _box(points: Array, mean_diameter: float) -> dict[str, Any]:
+def instants_of(measurement: Measurement, edges: Sequence[float]) -> dict[tuple[float, float], list[int]]:
+    """The windows between these edges that were measured, with the instants at their ends."""
+    found, progress = {}, measurement.progress
+    for ends in zip(edges, edges[1:]):
+        instants = [int(abs(progress - end).argmin()) for end in ends]
+        if abs(progress[instants] - ends).max() <= NEAR * (ends[1] - ends[0]):
+            found[ends] = instants
+    return found
+
+
+def not_measured(measurement: Measurement, edges: Sequence[float]) -> SceneError:
+    measured = ", ".join(f"{one:.4g}" for one in measurement.progress)
+    return SceneError(f"no window of the comparison was measured. Its edges are {', '.join(map(str, edges))}; the "
+                      f"measurement has axial strains {measured}. Give both the same instants: "
+                      "comparison/window_edges and loading/stage_strain of the scene, --progress of the import")
+
+
+def box_of(points: Array, mean_diameter: float) -> dict[str, Any]:
     low, high = points.min(0), points.max(0)
     return dict(zip(FRAME, (mean_diameter, 0.5 * (low + high), *(high - low))))
 
@@ -67,7 +80,7 @@ def _box(points: Array, mean_diameter: float) -> dict[str, Any]:
 def increments(measurement: Measurement) -> list[Window]:
     """The increments between successive instants of a measurement without a sample."""
     progress = measurement.progress
-    return [Window(start=progress[k], end=progress[k + 1], instants=(k, k + 1), frame=_box(
+    return [Window(start=progress[k], end=progress[k + 1], instants=(k, k + 1), frame=box_of(
         measurement.increment(k, k + 1).points, measurement.mean_diameter)) for k in range(len(progress) - 1)]
 
 

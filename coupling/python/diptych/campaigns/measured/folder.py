@@ -89,7 +89,7 @@ def compare_folder(folder: str, scene: Any, source: str) -> dict[str, Any]:
                       scene.is_mirror_symmetric())
     curves = pd.read_csv(os.path.join(source, HISTORY))
     record["summary"] = _summary(folder, scene, curves, record["windows"][-1])
-    _write_levelled(folder, source, curves, record)
+    write_levelled(folder, source, curves, record)
     if os.path.exists(os.path.join(folder, "comparison.json")):
         _add_to_comparison(folder, record["summary"])
     return record
@@ -101,17 +101,16 @@ def alone(measurement: Measurement, quiet: bool) -> dict[str, Any]:
     return compared(measurement, windows, _diptych.read_scene(None, [], False).dict()["comparison"]) | {"summary": []}
 
 
-def write_measured(folder: str, measurement: Measurement, curves: pd.DataFrame, record: dict[str, Any]) -> None:
-    """Writes the files of a measurement. record: of alone()."""
+def write_measurement(folder: str, measurement: Measurement, curves: pd.DataFrame) -> None:
+    """Writes measured.h5, measured.json and measured.csv."""
     write_arrays(os.path.join(folder, FIELD),
                  {name: (getattr(measurement, name), *words) for name, words in ARRAYS.items()}, {})
     write_json(os.path.join(folder, FACTS), {"format": 1, **{name: getattr(measurement, name) for name in NUMBERS},
                                              **measurement.facts})
     write_text(os.path.join(folder, HISTORY), curves.to_csv(index=False, float_format="%.10g", lineterminator="\n"))
-    _write_levelled(folder, folder, curves, record)
 
 
-def _write_levelled(folder: str, source: str, curves: pd.DataFrame, record: dict[str, Any]) -> None:
+def write_levelled(folder: str, source: str, curves: pd.DataFrame, record: dict[str, Any]) -> None:
     """Writes levelled.json and levelled.h5 to a folder. source: folder of the measurement."""
     record |= {"format": 1, "folder": os.path.abspath(source), "history": curves.to_dict("list")}
     arrays = {f"{window['key']}/{name}": (values, *WORDS[name.partition("_")[2] or name])

@@ -9,6 +9,7 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+import pandas as pd
 from scipy.interpolate import LinearNDInterpolator
 from scipy.spatial import cKDTree
 
@@ -182,8 +183,8 @@ def _centre(points: Array, turned: bool, options: FieldOptions) -> Array:
     return np.asarray(middle)
 
 
-def measure(frames: list[FieldFrame], options: FieldOptions) -> tuple[Measurement, dict[str, Array]]:
-    """The measurement, and the curves of measured.csv by their names. Raises SceneError."""
+def measure(frames: list[FieldFrame], options: FieldOptions) -> tuple[Measurement, pd.DataFrame]:
+    """The measurement, and the curves of measured.csv. Raises SceneError."""
     if len(frames) > 1 and not options.reference:
         raise SceneError(f"--reference is required for {len(frames)} frames: give first, if every frame holds the "
                          "displacement since the first image, or previous, if since the image before. The files do not "
@@ -216,7 +217,7 @@ def measure(frames: list[FieldFrame], options: FieldOptions) -> tuple[Measuremen
          "deviation_d": _median(result.deviation[k] / result.mean_diameter)}
         for k, (frame, n_lost, n_out) in enumerate(zip(frames, lost, counts), 1)]}
     curves = boundary or {"axial_strain": progress, "volumetric_strain": strains[:, 1]}
-    return result.scaled(options.mean_diameter), curves
+    return result.scaled(options.mean_diameter), pd.DataFrame(curves)
 
 
 def _median(values: Array) -> float | None:
