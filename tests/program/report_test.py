@@ -203,6 +203,13 @@ class OtherFolders(unittest.TestCase):
         self.assertIn("never", text)  # no localisation
         self.assertNotIn("</script><b>", text)
 
+    def test_a_measurement_of_an_earlier_comparison_is_not_shown(self):
+        write_folder(self.folder)
+        report_folder.write_levelled(self.folder)
+        run(self.folder)
+        self.assertIn("Beside the measurement", read(self.folder))
+        self.assertNotIn("Beside the measurement", page_of(self.folder))  # comparison.json is new
+
     def test_axes_name_the_loading_variable(self):
         for variable, label, averaging in (("shear_strain", "shear strain (%)",
                                             "mean over the last 0.5 % of shear strain"),
