@@ -12,7 +12,7 @@ from scipy.interpolate import LinearNDInterpolator
 from scipy.spatial import cKDTree
 
 from .arrays import Array, Band, BandReport, Interval
-from .measurement import gradient_of, Measurement
+from .measurement import mean_gradient, Measurement
 from .operators import find_bands, increment
 
 ALONG = 5  # places along a side of a subset
@@ -58,10 +58,10 @@ def levelled(field: Field, points: Array, subset: float) -> Array:
 
 def on_sample(measurement: Measurement, k: int, points: Array, centre: Array) -> Array:
     """Points of a measurement at its instant k, in the coordinates of a sample with this centre. The measured centre
-    follows the affine motion since the first instant."""
+    follows the mean motion since the first instant."""
     since = measurement.increment(0, k)
     before = since.points - since.displacement
-    motion = since.displacement.mean(0) + gradient_of(since.points, since.displacement) @ (
+    motion = since.displacement.mean(0) + mean_gradient(since.points, since.displacement) @ (
         measurement.centre - before.mean(0))
     return centre + points - measurement.centre - motion
 

@@ -10,6 +10,7 @@ from typing import Any
 
 import h5py
 import numpy as np
+from scipy.spatial import Delaunay
 
 from .arrays import Array, Record
 from .errors import InputError
@@ -112,8 +113,15 @@ def read_measurement(folder: str | os.PathLike[str]) -> Measurement:
     return Measurement(**arrays, **numbers, facts=facts)
 
 
-def gradient_of(points: Array, displacement: Array) -> Array:
-    """(2, 2): d u_k / d x_l of the affine least-squares fit to a field, with respect to the places before it."""
+def mean_gradient(points: Array, displacement: Array) -> Array:
+    """(2, 2): mean of d u_k / d x_l over the area of the points before an increment, linear in the triangles between
+    them. An affine fit would give too much weight to a band in the middle. Triangles over a gap of more than three
+    usual distances do not count."""
     before = points - displacement
-    centred = before - before.mean(0)
-    return np.asarray(np.linalg.lstsq(centred, displacement - displacement.mean(0), rcond=None)[0].T)
+    corners = Delaunay(before).simplices
+    long = np.linalg.norm(before[corners] - before[np.roll(corners, 1, axis=1)], axis=2).max(axis=1)
+    corners = corners[long < 3 * np.median(long)]
+    (a, b), (c, d) = np.moveaxis(before[corners[:, 1:]] - before[corners[:, :1]], 0, -1)  # two edges of each triangle
+    moved = displacement[corners[:, 1:]] - displacement[corners[:, :1]]
+    adjugates = np.sign(a * d - b * c) * np.array([[d, -b], [-c, a]])
+    return np.einsum("ijt,tjk->ki", adjugates, moved) / abs(a * d - b * c).sum()

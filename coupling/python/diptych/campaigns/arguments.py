@@ -183,8 +183,9 @@ def add_import_field(parser: Parser) -> None:
             ("static", "A,B", _numbers("A,B, two whole numbers such as 0,1", 2),
              "two instants at rest, whose difference gives the standard deviation; 0: the first image")):
         parser.add_argument("--" + name, metavar=metavar, type=kind, help=meaning)
-    parser.add_argument("--outliers", metavar="T", type=number(0, 1e6), default=5.0,
-                        help="threshold of the normalised median test (default: 5; 0 keeps all)")
+    parser.add_argument("--outliers", metavar="T", type=number(0, 1e6),
+                        help="threshold of the normalised median test (default: 5, or 0 for points that were followed "
+                             "by themselves; 0 keeps all)")
     parser.add_argument("--mean-diameter", metavar="D", type=positive, required=True,
                         help="unit d of the results, in the unit after --scale")
     parser.add_argument("--reference", choices=("first", "previous"), default="",

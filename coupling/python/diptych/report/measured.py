@@ -45,22 +45,25 @@ def _maps(fields, window, title):
     strains = {pane: 100 * fields[f"{pane}_shear_strain_increment"][()] for pane in PANE_NAMES
                if pane in window["levelled"]}
     high = np.nanpercentile(strains["measured"], 98)
-    return [_map(fields["position"][()], values, high, window["levelled"][pane]["bands"],
-                 caption=f"Shear strain. {PANE_NAMES[pane]}, {title}; line: middle of the band.")
-            for pane, values in strains.items()]
+    d = window["mean_diameter"]
+    return [_map(fields["position"][()] / d, values, high, [
+        {**band, "middle": np.array(band["middle"]) / d} for band in window["levelled"][pane]["bands"]],
+                 caption=f"Shear strain. {PANE_NAMES[pane]}, {title}.") for pane, values in strains.items()]
 
 
 def _map(points, values, high, bands, *, caption):
+    narrow = [band for band in bands if not band["diffuse"]]
+    caption += " Line: middle of the band." if narrow else ""
     low, size = points.min(0), np.ptp(points, axis=0)
     figure = Figure(figsize=(WIDTH, min(TALLEST, WIDTH * size[1] / size[0] + 0.7)), layout="constrained")
-    axes = figure.add_subplot(xlim=(low[0], low[0] + size[0]), ylim=(low[1], low[1] + size[1]), aspect="equal")
-    axes.axis("off")
+    axes = figure.add_subplot(xlim=(low[0], low[0] + size[0]), ylim=(low[1], low[1] + size[1]), aspect="equal",
+                              xlabel="x / d", ylabel="y / d")
     side = 1.5 * np.sqrt(np.prod(size) / len(points))  # discs that leave no gap
     discs = EllipseCollection(*np.full((2, len(points)), side), np.zeros(len(points)), units="xy", offsets=points,
                               transOffset=axes.transData, array=np.ma.masked_invalid(values))
     discs.set_clim(0, high)
     axes.add_collection(discs)
-    for band in [band for band in bands if not band["diffuse"]]:
+    for band in narrow:
         axes.axline(band["middle"], slope=np.tan(np.radians(band["angle_deg"]["value"])), color=INK)
     figure.colorbar(discs, ax=axes, orientation="horizontal", extend="max", label="shear strain ε₁ − ε₂ (%)")
     return by_matplotlib.svg(figure, caption), caption

@@ -92,6 +92,8 @@ class CalibrationRuns:
             if target.measured:
                 self.fields[target.name] = measured_windows(scene, target.measured, windows_of(observables))
                 left_out = observe_field(sample, deviations, scene, observables, self.fields[target.name])
+            left_out = [why or ("" if np.isfinite(value) else "not measured")
+                        for why, value in zip(left_out, sample.values)]
             data = Data(observables=observables, values=sample.values, given=deviations)
             return Path(target=target, scene=scene, data=data, samples=[sample], left_out=left_out)
         samples = [self._observed(target, scene, observables, folder)

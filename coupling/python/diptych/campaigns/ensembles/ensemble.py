@@ -21,7 +21,7 @@ from . import summary as summaries
 from . import validation
 from ..measured.folder import compare_folder
 from ..runs.engine import Options, Outcome, counted, say
-from .measured import rows_of
+from . import measured
 from .profiles import profile_arrays
 from ..runs.folders import (Folder, Runs, SceneRun, draw, record_phase, run_on, write_arrays, write_json,
                             write_text)
@@ -166,6 +166,8 @@ def _write(scene: Any, record: dict[str, Any], options: Options, phase: tuple[st
     _diptych.record_files(directory, "ensemble")
     if record["summary"]:
         say(options, summaries.text_of(record["summary"]))
+        if "measured" in record:
+            say(options, measured.text_of(record["measured"]["rows"]))
         say(options, summaries.text_of_checks(record["checks"]))
         say(options, _diptych.origin_of_law(scene.dict()["comparison"]["parameters_from"]))
 
@@ -254,7 +256,7 @@ def _add_measured(scene: Any, record: dict[str, Any], source: str, options: Opti
         with Folder(folder):
             found.append(compare_folder(folder, scene.in_folder(folder, scene.name, seed), source))
     if found:
-        record["measured"] = {"folder": os.path.abspath(source), "rows": rows_of(
+        record["measured"] = {"folder": os.path.abspath(source), "rows": measured.rows_of(
             found, record["validation"], record["margins"], record["folded"])}
 
 

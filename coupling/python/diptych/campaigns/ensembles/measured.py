@@ -12,6 +12,8 @@ import numpy as np
 from ...entries import describe
 from ...files import key_of_band, window_name
 from ..measured.comparison import MEASURED, PANELS
+from ..measured.folder import PANES
+from ..runs.engine import columns_text
 from ..runs.key_numbers import OF_PANEL, QUANTITIES
 from ..runs.statistics import line_statistics, statistics
 from .validation import DRAWS, validated
@@ -37,7 +39,8 @@ measured/: with --measured only
         u_D [as in unit]: standard uncertainty of the measurement; null if unknown
         u_val [as in unit]: root of the sum of the squares of the known parts
         margin [as in unit]: largest error that counts as equivalent
-        verdict (text): equivalent, different or cannot tell; not in both panels without a value
+        verdict (text): equivalent, different or cannot tell, and if u_D is not known; not in both panels without a \
+            value
 """)
 
 
@@ -70,4 +73,11 @@ def _row(quantity: Mapping[str, Any], panel: np.ndarray, measured: np.ndarray, p
     margin = margins[quantity["margin"]]
     return {**{name: row[name] for name in ("n", "S", "E", "u_num", "u_input", "u_val")}, "u_S": row["u_D"],
             "D": data, "u_D": u_d, "margin": margin * (abs(data) if kind == "relative" else 1),
-            "verdict": total.verdict(margin)}
+            "verdict": total.verdict(margin) + ("" if math.isfinite(u_d) or not row["n"] else " (u_D is not known)")}
+
+
+def text_of(rows: Sequence[Mapping[str, Any]]) -> str:
+    """The table of a terminal, one line per quantity and panel."""
+    return columns_text([["against the measurement", "", "S", "D", "E = S - D [95 %]", "verdict"], *(
+        [row["quantity"] + ("" if row["unit"] == "-" else f" [{row['unit']}]"), PANES[row["panel"]], f"{row['S']:.4g}",
+         f"{row['D']:.4g}", row["E"].text(), row["verdict"]] for row in rows)])

@@ -202,8 +202,12 @@ def table_of(record: Mapping[str, Any]) -> pd.DataFrame:
             for row in record["summary"]]
     ends = [part + end for part in parts for end in ("", "_low", "_high")]
     count = text_of_checks(record["checks"]).partition("\n")[0]
-    return pd.DataFrame([*rows, ["checks", "-", *[math.nan] * len(ends), count]],
-                        columns=["quantity", "unit", *ends, "verdict"])
+    table = pd.DataFrame(rows, columns=["quantity", "unit", *ends, "verdict"])
+    against = pd.DataFrame([{"quantity": row["quantity"], "unit": row["unit"], "measured": row["D"],
+                             {"discrete": "grains"}.get(row["panel"], row["panel"]): row["S"],
+                             **dict(zip(ends[6:], row["E"])), "verdict": row["verdict"]}
+                            for row in record.get("measured", {}).get("rows", [])])
+    return pd.concat([table, against, pd.DataFrame([{"quantity": "checks", "unit": "-", "verdict": count}])])
 
 
 def text_of(rows: Sequence[dict[str, Any]]) -> str:

@@ -33,3 +33,5 @@ def run_compare(line: argparse.Namespace, options: Options) -> None:
         say(options, text_of(record))
         if keys["output"]["report"]:
             draw(options, folder, "page" if os.path.exists(os.path.join(folder, "comparison.json")) else "measured")
+        else:
+            say(options, f"output/report = false: no page; diptych report {folder} draws it")

@@ -12,8 +12,8 @@ from urllib.parse import quote
 
 from ... import _diptych
 from ...errors import SceneError
-from ...files import part_of, read_json, read_provenance, sha256_of
-from ...measurement import FACTS
+from ...files import LEVELLED, part_of, read_json, read_provenance, sha256_of
+from ...measurement import FACTS, FIELD, HISTORY
 from ..runs.folders import write_json
 
 Entity = dict[str, Any]
@@ -76,8 +76,12 @@ def _inputs(here: str, scene: Any) -> list[tuple[str, str]]:
         return list(zip(record["files"], record.get("sha256") or [""] * len(record["files"])))
     if scene is None:
         return []
+    measured = os.path.join(here, LEVELLED)
+    folder = read_json(measured)["folder"] if os.path.exists(measured) else ""
+    beside = [os.path.join(folder, name) for name in (FIELD, FACTS, HISTORY) if folder]
     changed = any(_diptych.changes_since(scene.in_folder(here, scene.name)))
-    return [(path, "" if changed else sha256_of(path)) for _, path in scene.input_files()]
+    return [(path, "" if changed else sha256_of(path)) for _, path in scene.input_files()] + [
+        (path, sha256_of(path) if os.path.exists(path) else "") for path in beside]
 
 
 def _program(record: Any) -> Entity:

@@ -15,8 +15,8 @@ import numpy as np
 from ...arrays import Array, BandReport, Interval, Record
 from ...errors import SceneError
 from ...homogenisation import band_numbers, STRAIN_RADIUS
-from ...levelling import field_of, levelled, on_sample, with_noise
-from ...measurement import gradient_of, Measurement
+from ...levelling import DRAWS, field_of, levelled, on_sample, with_noise
+from ...measurement import mean_gradient, Measurement
 from ...operators import find_bands, increment, shear_strain
 from ...thickness import thicknesses
 from ..runs.key_numbers import BAND_OPTIONS, snapshots_at
@@ -78,10 +78,10 @@ def box_of(points: Array, mean_diameter: float) -> dict[str, Any]:
 
 
 def increments(measurement: Measurement) -> list[Window]:
-    """The increments between successive instants of a measurement without a sample."""
+    """The increments between successive instants of a measurement without a sample; those at rest are left out."""
     progress = measurement.progress
     return [Window(start=progress[k], end=progress[k + 1], instants=(k, k + 1), frame=box_of(
-        measurement.increment(k, k + 1).points, measurement.mean_diameter)) for k in range(len(progress) - 1)]
+        measurement.increment(k, k + 1).points, measurement.mean_diameter)) for k in np.flatnonzero(np.diff(progress))]
 
 
 def compared(measurement: Measurement, windows: Iterable[Window], keys: Mapping[str, Any],
@@ -94,6 +94,7 @@ def compared(measurement: Measurement, windows: Iterable[Window], keys: Mapping[
     return {"subset_d": measurement.subset / d, "spacing_d": measurement.spacing / d,
             "resolution_d": measurement.resolution / d, "windows": [
                 {"key": f"window_{k}", "from": window.start, "to": window.end,
+                 "mean_diameter": window.frame["mean_diameter"],
                  **_window(measurement.scaled(window.frame["mean_diameter"]), window, keys, folded)}
                 for k, window in enumerate(windows)]}
 
@@ -117,7 +118,7 @@ def _window(measurement: Measurement, window: Window, keys: Mapping[str, Any], f
         report = find_bands(points, u, **window.frame, **of_pane[pane])
         if pane == MEASURED:
             report = with_noise(report, points, u, since.deviation[common], options)
-        panes[pane] = _pane(report, points, u)
+        panes[pane] = _pane(report, points, u, since.deviation[common] if pane == MEASURED else None)
         for numbers, band in zip(panes[pane]["bands"], report.bands):
             _add_thickness(numbers, thicknesses(points, u, band, measurement.spacing), measurement)
         fields[f"{pane}_displacement_increment"] = u
@@ -127,16 +128,24 @@ def _window(measurement: Measurement, window: Window, keys: Mapping[str, Any], f
         field = increment(*pair)
         report = find_bands(**{**field, **window.frame}, **of_pane[panel])
         unblurred[panel] = _pane(report, field.points, field.displacement)
-    return {"points": len(points), "fields": fields, "levelled": panes, "unblurred": unblurred,
+    covered = len(points) * measurement.spacing**2 / (window.frame["width"] * window.frame["height"])
+    return {"points": len(points), "covered": min(1.0, covered), "fields": fields,
+            "levelled": panes, "unblurred": unblurred,
             "difference": {panel: differences(panes[panel], panes[MEASURED], folded) for panel in window.pairs}}
 
 
-def _pane(report: BandReport, points: Array, u: Array) -> dict[str, Any]:
-    """Mean strains and bands of one field."""
-    (xx, xy), (yx, yy) = gradient_of(points, u)
+def _pane(report: BandReport, points: Array, u: Array, deviation: Array | None = None) -> dict[str, Any]:
+    """Mean strains and bands of one field. deviation (n) of the noise of the points; it gives the interval of the
+    volumetric strain."""
+    (xx, xy), (yx, yy) = mean_gradient(points, u)
+    half, generator = math.nan, np.random.default_rng(1)
+    if deviation is not None and np.isfinite(deviation).all():
+        noise = [deviation[:, None] * generator.standard_normal(u.shape) for _ in range(DRAWS)]
+        half = 1.96 * float(np.std([np.trace(mean_gradient(points, one)) for one in noise]))
     field = Record(points=points, displacement=u, weight=None, **report.frame)
     return {"bands": [band_numbers(band, field) for band in report.bands], "band_verdict": report.verdict,
-            "volumetric_strain": -(xx + yy), "shear_strain": math.hypot(xx - yy, xy + yx)}
+            "volumetric_strain": Interval(-(xx + yy), -(xx + yy) - half, -(xx + yy) + half),
+            "shear_strain": Interval(math.hypot(xx - yy, xy + yx), math.nan, math.nan)}
 
 
 def _add_thickness(band: dict[str, Any], found: Mapping[str, float], measurement: Measurement) -> None:
@@ -146,13 +155,14 @@ def _add_thickness(band: dict[str, Any], found: Mapping[str, float], measurement
     band["thickness_d"] = {name: value / d for name, value in found.items()}
     if not (width.value if math.isnan(width.low) else width.low) > measurement.resolution / d:
         band |= {"width_10_90_d": Interval(math.nan, math.nan, math.nan), "thickness_d": {},
-                 "unresolved": f"10-90 % width {width.text()} d: not above the resolution of "
-                               f"{measurement.resolution / d:.2g} d, so the band has no width"}
+                 "unresolved": f"the 10-90 % width of {width.text()} d may be as small as the resolution of "
+                               f"{measurement.resolution / d:.2g} d, so none is given"}
 
 
 def differences(pane: Mapping[str, Any], measured: Mapping[str, Any], folded: bool) -> dict[str, Any]:
     """A panel minus the measurement: mean strains, and the strongest bands. folded: mirror images count as one."""
-    found = {name: pane[name] - measured[name] for name in ("volumetric_strain", "shear_strain")}
+    found = {name: _difference(pane[name].value - measured[name].value, pane[name], measured[name])
+             for name in ("volumetric_strain", "shear_strain")}
     if not (pane["bands"] and measured["bands"]):
         return found
     ours, theirs = pane["bands"][0], measured["bands"][0]

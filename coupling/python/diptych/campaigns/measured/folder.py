@@ -46,7 +46,9 @@ windows/: windows of the comparison that were measured
     key (text): group of levelled.h5
     from [strain]: begin of the window
     to [strain]: end of the window
+    mean_diameter [length]: unit d of the window
     points: number of points that all panes have
+    covered: share of the sample's box that the points cover
     levelled/: panes: measured, discrete, continuum; each has mean strains, and bands as in homogenised.json
     unblurred/: bands of the panels without the blur of the measurement
     difference/: panel minus measurement; intervals hold those of both
@@ -57,15 +59,20 @@ def _single(value: float) -> Interval:
     return Interval(float(value), math.nan, math.nan)
 
 
-def _summary(folder: str, scene: Any, measured: pd.DataFrame, window: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """Rows of a window, and of the curves up to its end. measured: the curves of the measurement."""
+def _summary(folder: str, scene: Any, measured: pd.DataFrame, window: Mapping[str, Any],
+             of_table: bool) -> list[dict[str, Any]]:
+    """Rows of a window, and of the curves up to its end. measured: the curves of the measurement. of_table: they come
+    from the boundary of the sample; those of the points' hull are compared at the points."""
     end, where = window["to"], f"{window['from']:g} to {window['to']:g}"
     tables = {panel: table for panel in PANELS if (table := panel_table(folder, panel)) is not None}
     curves = {**tables, MEASURED: measured.rename(columns={"axial_strain": "progress"})}
     bands = {pane: numbers["bands"][0] for pane, numbers in window["levelled"].items() if numbers["bands"]}
-    found = [("final_volumetric_strain", f"volumetric strain at {end:g}", "-", {
-        pane: _single(mean_over(curve["progress"], curve["volumetric_strain"], end, end))
-        for pane, curve in curves.items() if "volumetric_strain" in curve})]
+    levelled = {pane: numbers["volumetric_strain"] for pane, numbers in window["levelled"].items()}
+    found = [("final_volumetric_strain", f"volumetric strain of the levelled fields ({where})", "-", levelled)]
+    if of_table and "volumetric_strain" in measured:
+        found = [("final_volumetric_strain", f"volumetric strain at {end:g}", "-", {
+            pane: _single(mean_over(curve["progress"], curve["volumetric_strain"], end, end))
+            for pane, curve in curves.items()})]
     found += [("band_angle_deg", f"inclination of the levelled band ({where})", "degrees",
                {pane: band["angle_deg"] for pane, band in bands.items() if not band["diffuse"]}),
               ("band_width_10_90_d", f"10-90 % width of the levelled band ({where})", "mean diameters",
@@ -88,7 +95,8 @@ def compare_folder(folder: str, scene: Any, source: str) -> dict[str, Any]:
     record = compared(measurement, windows_of(measurement, scene, panels), scene.dict()["comparison"],
                       scene.is_mirror_symmetric())
     curves = pd.read_csv(os.path.join(source, HISTORY))
-    record["summary"] = _summary(folder, scene, curves, record["windows"][-1])
+    record["summary"] = _summary(folder, scene, curves, record["windows"][-1],
+                                 measurement.facts.get("curves") == "boundary")
     write_levelled(folder, source, curves, record)
     if os.path.exists(os.path.join(folder, "comparison.json")):
         _add_to_comparison(folder, record["summary"])
@@ -140,4 +148,5 @@ def text_of(record: Mapping[str, Any]) -> str:
     unresolved = [f"{PANES[pane]}, {window['from']:g} to {window['to']:g}: {band['unresolved']}"
                   for window in record["windows"] for pane, one in window["levelled"].items()
                   for band in one["bands"] if "unresolved" in band]
-    return "\n".join([columns_text([["", *PANES.values()], *rows]), *unresolved])
+    covered = f"the points cover {100 * record['windows'][-1]['covered']:.0f} % of the sample's box, around its centre"
+    return "\n".join([columns_text([["", *PANES.values()], *rows]), *unresolved, covered])

@@ -32,7 +32,7 @@ class FieldOptions(Options):
     progress: Sequence[float] | None = None
     boundary: str | None = None
     static: tuple[float, float] | None = None
-    outliers: float = 5.0
+    outliers: float | None = None
 
 
 def table_of(path: str, options: FieldOptions) -> Table:

@@ -20,14 +20,14 @@ registered: dict[str, Any] = {}
 register = functools.partial(register_in, readers=registered)  # the command and read_fields() then know the name
 
 
-def _refuse_binary(path: str) -> None:
-    """Refuses files of two programs that no reader should open."""
+def _refuse_binary(format: str, path: str) -> None:
+    """Refuses files of two programs that no reader should open, by the format or their first bytes."""
     with open(path, "rb") as file:
         first = file.read(2)
     out = "write x, y, u and v of every frame to a table in that program, and import it as csv"
-    if first[:1] == b"\x80":
+    if format == "mudic" or first[:1] == b"\x80":
         raise refused(path, f"is a Python pickle, as muDIC writes it: to load it would run any code in it; {out}")
-    if path.endswith(".sdic") or first in (b"x\x01", b"x\x9c", b"x\xda"):
+    if format == "sundic" or path.endswith(".sdic") or first in (b"x\x01", b"x\x9c", b"x\xda"):
         raise refused(path, f"is a binary file, as SUN-DIC writes it, whose layout is not fixed; {out}")
 
 
@@ -52,10 +52,10 @@ def _refuse_unused(format: str, options: FieldOptions) -> None:
 
 def read_fields(format: str, options: FieldOptions) -> list[FieldFrame]:
     """The frames of the files, y upwards. Raises SceneError."""
-    reader = reader_of("import field", format, FORMATS, registered)
     require_files(options.files)
     for path in options.files:
-        _refuse_binary(path)
+        _refuse_binary(format, path)
+    reader = reader_of("import field", format, FORMATS, registered)
     _sort_files(options)
     frames = reader(options)
     _refuse_unused(format, options)
