@@ -107,7 +107,7 @@ def read_measurement(folder: str | os.PathLike[str]) -> Measurement:
     try:
         with h5py.File(path) as file:
             arrays = {name: file[name][()] for name in ARRAYS}
-        numbers = {name: np.array(facts[name], dtype=float) for name in NUMBERS}
+        numbers: dict[str, Any] = {name: np.array(facts[name], dtype=float)[()] for name in NUMBERS}
     except (OSError, KeyError, TypeError, ValueError) as error:
         raise InputError(f"{path}: is missing or damaged ({error}); import the measurement again") from error
     return Measurement(**arrays, **numbers, facts=facts)
