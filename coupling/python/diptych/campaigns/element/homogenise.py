@@ -4,8 +4,7 @@
 
 import argparse
 import os
-import shlex
-import time
+
 import numpy as np
 
 from ... import _diptych
@@ -16,7 +15,7 @@ from ...homogenisation import Homogenised, homogenise
 from ...importers.frames import Options as ImportOptions
 from ..exchange.imports import import_files, import_options
 from ..runs.engine import Options, say, tell
-from ..runs.folders import Folder, draw, write_json, write_text
+from ..runs.folders import Folder, draw, record_phase, write_json, write_text
 
 SHOWN = {"progress": "progress", "t_over_s": "t/s", "direction_deg": "direction", "solid_fraction": "solid fr.",
          "coordination_number": "contacts/grain", "anisotropy": "anisotropy", "band_angle_deg": "band angle",
@@ -177,7 +176,7 @@ def _print(found: Homogenised, options: Options) -> None:
 def run_homogenise(line: argparse.Namespace, options: Options) -> None:
     """The commands `diptych homogenise FOLDER` and `diptych homogenise FORMAT FILES`."""
     folder, grains = _source(line)
-    began = time.perf_counter(), time.process_time()
+    began = os.times()
     with Folder(folder) as locked:
         if not _diptych.is_empty_folder(folder):
             if not options.overwrite:
@@ -199,7 +198,6 @@ def run_homogenise(line: argparse.Namespace, options: Options) -> None:
                   "mean_diameter": found.mean_diameter, "cells": len(found.meshes[0].cells), "frames": found.frames,
                   "increments": found.increments, "resolution_study": found.resolution_study, "missing": found.missing}
         write_json(os.path.join(folder, "homogenised.json"), record)
-        cost = ("homogenise", time.perf_counter() - began[0], time.process_time() - began[1], 0.0)
-        _diptych.record_phase(folder, ("", [], shlex.join(["diptych", *options.words])), cost)
+        record_phase(folder, "homogenise", began, ("", []), options)
         _print(found, options)
         draw(options, folder, "homogenised")
