@@ -188,7 +188,7 @@ def test_both_references_give_the_same_instants():
     np.testing.assert_allclose(previous.position[:, both], first.position[:, both], atol=1e-9)
     np.testing.assert_allclose(curves["axial_strain"], [0, 0.01, -total[1, 1]], atol=1e-12)
     np.testing.assert_allclose(curves["volumetric_strain"][2], 1 - np.linalg.det(np.eye(2) + total), atol=1e-12)
-    assert first.spacing == 20 and first.centre.tolist() == [110, 140] and any("affine fit" in text for text in notes)
+    assert first.spacing == 20 and first.centre.tolist() == [110, 140] and any("mean vertical" in text for text in notes)
     with pytest.raises(diptych.SceneError, match="--reference is required for 2 frames"):
         measured(frames_of(steps))
 
@@ -204,9 +204,33 @@ def test_a_hole_is_not_filled():
     assert known[at[180, 220]] and not known[at[100, 100]]
 
 
+def test_mean_strains_are_those_of_the_region_of_points_and_not_of_an_affine_fit():
+    """A jump across the middle is a mean strain of jump / height; a fit would give 1.5 times as much. Without the upper
+    right quarter an area of 220 x 140 + 100 x 140 is left, and two triangles of 200 in its corner. A jump of 1 across x
+    = 170 adds 140 there; the quarter does not count."""
+    u = np.where(GRID[:, 1:] > 150, [0.0, -1.0], [0.0, 0.0])
+    np.testing.assert_allclose(measurement.mean_gradient(GRID + u, u), [[0, 0], [0, -1 / 280]], atol=1e-12)
+    corner = GRID[~((GRID[:, 0] > 110) & (GRID[:, 1] > 150))]
+    u = np.where(corner[:, :1] > 170, [1.0, 0.0], [0.0, 0.0])
+    np.testing.assert_allclose(measurement.mean_gradient(corner + u, u), [[140 / 45200, 0], [0, 0]], atol=1e-12)
+
+
+@pytest.mark.parametrize("options", [{"mean_diameter": 100.0}, {"subset": 150.0}])
+def test_lengths_in_different_units_are_refused(options):
+    frames = [measurement.FieldFrame("1", GRID, moved(GRID), unit="px")]
+    with pytest.raises(diptych.SceneError, match="--subset in the unit of the files"):
+        measured(frames, **options)
+
+
+def test_per_cent_are_refused():
+    with pytest.raises(diptych.SceneError, match="3 % is 0.03"):
+        measured([measurement.FieldFrame("1", GRID, moved(GRID), unit="px")], progress=[0, 1.2])
+
+
 def test_lengths_are_scaled_and_y_is_turned(tmp_path):
     frames = read("spam", spam(tmp_path / "a.tsv", moved(GRID)))
-    result, curves, notes = measured(frames, scale=0.1, centre=(110, -140), progress=[0.02, 0.03], outliers=0)
+    result, curves, notes = measured(frames, scale=0.1, centre=(110, -140), progress=[0.02, 0.03], outliers=0,
+                                     mean_diameter=1.0)
     assert (result.subset, result.spacing) == pytest.approx((3.1, 2)) and result.centre == pytest.approx([11, 14])
     step = result.increment(0, 1)
     np.testing.assert_allclose(step.displacement, 0.1 * np.delete(moved(GRID), FAILED, axis=0), atol=1e-12)

@@ -115,12 +115,12 @@ def read_measurement(folder: str | os.PathLike[str]) -> Measurement:
 
 def mean_gradient(points: Array, displacement: Array) -> Array:
     """(2, 2): mean of d u_k / d x_l over the area of the points before an increment, linear in the triangles between
-    them. An affine fit would give too much weight to a band in the middle. Triangles over a gap of more than three
+    them. An affine fit would give too much weight to a band in the middle. Triangles over a gap of more than two
     usual distances do not count."""
     before = points - displacement
     corners = Delaunay(before).simplices
     long = np.linalg.norm(before[corners] - before[np.roll(corners, 1, axis=1)], axis=2).max(axis=1)
-    corners = corners[long < 3 * np.median(long)]
+    corners = corners[long < 2 * np.median(long)]
     (a, b), (c, d) = np.moveaxis(before[corners[:, 1:]] - before[corners[:, :1]], 0, -1)  # two edges of each triangle
     moved = displacement[corners[:, 1:]] - displacement[corners[:, :1]]
     adjugates = np.sign(a * d - b * c) * np.array([[d, -b], [-c, a]])

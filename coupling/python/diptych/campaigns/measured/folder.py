@@ -55,8 +55,10 @@ windows/: windows of the comparison that were measured
 """)
 
 
-def _single(value: float) -> Interval:
-    return Interval(float(value), math.nan, math.nan)
+def _with_deviation(value: float, curve: pd.DataFrame, column: str) -> Interval:
+    """A number of a curve, with the mean of the column of deviations if the curve has it."""
+    half = 1.96 * curve[name].mean() if (name := column + "_deviation") in curve else math.nan
+    return Interval(float(value), value - half, value + half)
 
 
 def _summary(folder: str, scene: Any, measured: pd.DataFrame, window: Mapping[str, Any],
@@ -71,8 +73,8 @@ def _summary(folder: str, scene: Any, measured: pd.DataFrame, window: Mapping[st
     found = [("final_volumetric_strain", f"volumetric strain of the levelled fields ({where})", "-", levelled)]
     if of_table and "volumetric_strain" in measured:
         found = [("final_volumetric_strain", f"volumetric strain at {end:g}", "-", {
-            pane: _single(mean_over(curve["progress"], curve["volumetric_strain"], end, end))
-            for pane, curve in curves.items()})]
+            pane: _with_deviation(mean_over(curve["progress"], curve["volumetric_strain"], end, end), curve,
+                                  "volumetric_strain") for pane, curve in curves.items()})]
     found += [("band_angle_deg", f"inclination of the levelled band ({where})", "degrees",
                {pane: band["angle_deg"] for pane, band in bands.items() if not band["diffuse"]}),
               ("band_width_10_90_d", f"10-90 % width of the levelled band ({where})", "mean diameters",
@@ -81,9 +83,9 @@ def _summary(folder: str, scene: Any, measured: pd.DataFrame, window: Mapping[st
         peaks = {panel: panel_values(scene, table)[PEAK] for panel, table in tables.items()}
         peaks[MEASURED] = peak_of_running_mean(curves[MEASURED], "stress_ratio", scene.averaging_width())
         found.insert(0, (PEAK, "nominal peak t/s beside the measurement", "-",
-                         {pane: _single(peak) for pane, peak in peaks.items()}))
+                         {pane: _with_deviation(peak, curves[pane], "stress_ratio") for pane, peak in peaks.items()}))
     return [{"key": key, "quantity": quantity, "unit": unit,
-             **{pane: values.get(pane, _single(math.nan)) for pane in PANES}} for key, quantity, unit, values in found]
+             **{pane: values.get(pane, Interval(math.nan, math.nan, math.nan)) for pane in PANES}} for key, quantity, unit, values in found]
 
 
 def compare_folder(folder: str, scene: Any, source: str) -> dict[str, Any]:

@@ -24,6 +24,7 @@ from .frames import FieldOptions
 from .outliers import outliers, spacing_of
 
 THRESHOLD = 5.0  # that of the authors, 2, is for smooth flows: benchmarks/measured
+CURVES = ("volumetric_strain", "volumetric_strain_deviation", "stress_ratio", "stress_ratio_deviation")
 SMALLEST = 5  # mean diameters
 NOISE_PX, NOISE_SPACING = 0.1, 0.01  # scatter below which no point is an outlier
 text_of = _diptych.text_of_number
@@ -136,7 +137,7 @@ def boundary_of(path: str) -> dict[str, Array]:
     table = read_table(path)
     curves = {"axial_strain": table.numbers("axial_strain")}
     table.refuse(np.diff(curves["axial_strain"], prepend=-np.inf) < 0, lambda k: "column axial_strain does not ascend")
-    curves |= {name: table.numbers(name) for name in ("volumetric_strain", "stress_ratio") if table.has(name)}
+    curves |= {name: table.numbers(name) for name in CURVES if table.has(name)}
     if "stress_ratio" not in curves and table.has("sxx", "syy"):
         sxx, syy = table.numbers("sxx"), table.numbers("syy")
         table.refuse(sxx + syy <= 0, lambda k: f"sxx + syy = {sxx[k] + syy[k]:g}: compression must be positive")
