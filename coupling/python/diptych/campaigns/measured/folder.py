@@ -84,8 +84,9 @@ def _summary(folder: str, scene: Any, measured: pd.DataFrame, window: Mapping[st
         peaks[MEASURED] = peak_of_running_mean(curves[MEASURED], "stress_ratio", scene.averaging_width())
         found.insert(0, (PEAK, "nominal peak t/s beside the measurement", "-",
                          {pane: _with_deviation(peak, curves[pane], "stress_ratio") for pane, peak in peaks.items()}))
-    return [{"key": key, "quantity": quantity, "unit": unit,
-             **{pane: values.get(pane, Interval(math.nan, math.nan, math.nan)) for pane in PANES}} for key, quantity, unit, values in found]
+    unknown = Interval(math.nan, math.nan, math.nan)
+    return [{"key": key, "quantity": quantity, "unit": unit, **{pane: values.get(pane, unknown) for pane in PANES}}
+            for key, quantity, unit, values in found]
 
 
 def compare_folder(folder: str, scene: Any, source: str) -> dict[str, Any]:
