@@ -14,6 +14,7 @@ import pytest
 
 import diptych
 from conftest import SMALL, program
+from foreign_sets import FOREIGN
 from diptych import scenes
 from diptych.campaigns.ensembles.measured import rows_of
 from diptych.campaigns.measured.comparison import compared, increments, windows_of
@@ -219,3 +220,17 @@ def test_grains_alone_beside_a_measurement_have_a_page(folder, measured_folder, 
     program("report", run, "--quiet")
     page = (run / "report.html").read_text()
     assert "Grains − measurement" in page and "Continuum" not in page.split("<main>")[1].split("Source")[0]
+
+
+def test_imported_grains_without_rotations_beside_a_measurement(tmp_path):
+    grains, field = tmp_path / "grains", tmp_path / "field"
+    program("import", "lammps", *sorted(FOREIGN.glob("lammps/*.dump")), FOREIGN / "lammps" / "walls.txt",
+            "--output", grains, "--quiet")
+    field.mkdir()
+    snapshots = diptych.load(grains).discrete.snapshots
+    write_measurement(field, measurement_of(snapshots), pd.DataFrame({"axial_strain": [0.0], "volumetric_strain": [0.0]}))
+    text = program("compare", grains, "--measured", field)
+    record = json.loads((grains / "levelled.json").read_text())
+    strains = {pane: one["shear_strain"]["value"] for pane, one in record["windows"][0]["levelled"].items()}
+    assert strains["discrete"] == pytest.approx(strains["measured"], rel=0.05) and "continuum" not in strains
+    assert "volumetric strain of the levelled fields" in text and (grains / "report.html").exists()

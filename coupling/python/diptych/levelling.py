@@ -29,7 +29,8 @@ def field_of(start: Any, end: Any) -> Field:
     moved = increment(start, end).displacement
     if hasattr(end, "cells"):
         return LinearNDInterpolator(end.position, moved)
-    tree, turn, reach = cKDTree(end.position), end.rotation - start.rotation, NEAR * end.mean_diameter
+    tree, reach = cKDTree(end.position), NEAR * end.mean_diameter
+    turn = np.nan_to_num(end.rotation - start.rotation)  # other codes may write none
 
     def at(places: Array) -> Array:
         _, near = tree.query(places, k=min(6, len(end.position)))

@@ -26,7 +26,8 @@ def run_compare(line: argparse.Namespace, options: Options) -> None:
         raise SceneError(f"{folder} is not a result folder; diptych run SCENE makes one")
     began = os.times()
     with Folder(folder):
-        scene = _diptych.read_computed_scene(prm, [], False)
+        is_proposal = os.path.exists(os.path.join(folder, "import.json")) and not _diptych.resolved_scene(prm)
+        scene = (_diptych.read_scene if is_proposal else _diptych.read_computed_scene)(prm, [], False)
         record = compare_folder(folder, scene, line.measured)
         keys = scene.dict()
         record_phase(folder, "measurement", began, (_diptych.recorded_scene(folder), [keys["sample"]["seed"]]), options)
