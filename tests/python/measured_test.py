@@ -13,7 +13,7 @@ import pandas as pd
 import pytest
 
 import diptych
-from conftest import SMALL, program
+from conftest import options, program, QUICK, SMALL
 from foreign_sets import FOREIGN
 from diptych import scenes
 from diptych.campaigns.ensembles.measured import rows_of
@@ -228,9 +228,25 @@ def test_imported_grains_without_rotations_beside_a_measurement(tmp_path):
             "--output", grains, "--quiet")
     field.mkdir()
     snapshots = diptych.load(grains).discrete.snapshots
-    write_measurement(field, measurement_of(snapshots), pd.DataFrame({"axial_strain": [0.0], "volumetric_strain": [0.0]}))
+    write_measurement(field, measurement_of(snapshots), pd.DataFrame({"axial_strain": [0.0]}))
     text = program("compare", grains, "--measured", field)
     record = json.loads((grains / "levelled.json").read_text())
     strains = {pane: one["shear_strain"]["value"] for pane, one in record["windows"][0]["levelled"].items()}
     assert strains["discrete"] == pytest.approx(strains["measured"], rel=0.05) and "continuum" not in strains
     assert "volumetric strain of the levelled fields" in text and (grains / "report.html").exists()
+
+
+def test_an_ensemble_beside_a_measurement_judges_both_panels(measured_folder, tmp_path):
+    program("run", QUICK, *options(SMALL), "--seeds", "1-2", "--output", tmp_path / "all", "--quiet")
+    text = program("compare", tmp_path / "all", "--measured", measured_folder)
+    rows = json.loads((tmp_path / "all" / "ensemble.json").read_text())["measured"]["rows"]
+    volumes = [row for row in rows if row["quantity"].startswith("volumetric strain")]
+    assert [(row["panel"], row["n"]) for row in volumes] == [("discrete", 2), ("continuum", 2)]
+    grains = volumes[0]
+    assert grains["E"]["value"] == pytest.approx(grains["S"] - grains["D"])
+    assert grains["u_D"] > 0 and "against the measurement" in text
+    assert rows[0]["u_D"] is None and rows[0]["verdict"].endswith("(u_D is not known)")  # the peak of a curve
+    table = pd.read_csv(tmp_path / "all" / "summary.csv", index_col="quantity")
+    assert table.loc[grains["quantity"], "measured"].iloc[0] == pytest.approx(grains["D"])
+    again = program("compare", tmp_path / "all")  # keeps the measurement
+    assert "against the measurement" in again
