@@ -205,15 +205,23 @@ def test_a_hole_is_not_filled():
     assert known[at[180, 220]] and not known[at[100, 100]]
 
 
-def test_mean_strains_are_those_of_the_region_of_points_and_not_of_an_affine_fit():
-    """A jump across the middle is a mean strain of jump / height; a fit would give 1.5 times as much. Without the upper
-    right quarter an area of 220 x 140 + 100 x 140 is left, and two triangles of 200 in its corner. A jump of 1 across x
-    = 170 adds 140 there; the quarter does not count."""
+def test_mean_strains_are_those_of_the_region_of_points_also_if_points_are_lost_in_a_band():
+    """A jump across the middle is a mean strain of jump / height; a fit would give 1.5 times as much."""
     u = np.where(GRID[:, 1:] > 150, [0.0, -1.0], [0.0, 0.0])
-    np.testing.assert_allclose(measurement.mean_gradient(GRID + u, u), [[0, 0], [0, -1 / 280]], atol=1e-12)
-    corner = GRID[~((GRID[:, 0] > 110) & (GRID[:, 1] > 150))]
-    u = np.where(corner[:, :1] > 170, [1.0, 0.0], [0.0, 0.0])
-    np.testing.assert_allclose(measurement.mean_gradient(corner + u, u), [[140 / 45200, 0], [0, 0]], atol=1e-12)
+    position = np.array([GRID, GRID + u])
+    position[1, (abs(GRID[:, 1] - 150) < 40) & (GRID[:, 0] % 60 > 0)] = np.nan  # two thirds of four rows at the jump
+    lost = measurement.Measurement(position=position, deviation=np.zeros((2, len(GRID))), progress=np.array([0, 0.01]),
+                                   mean_diameter=10.0, subset=0, spacing=20, centre=np.zeros(2))
+    np.testing.assert_allclose(lost.mean_gradient(0, 1), [[0, 0], [0, -1 / 280]], atol=1e-12)
+
+
+def test_an_increment_of_added_frames_has_only_their_own_noise():
+    noise = np.full(len(GRID), 0.1)
+    frames = [measurement.FieldFrame(str(k), GRID, -0.01 * k * GRID, deviation=noise) for k in (1, 2, 3)]
+    previous, _, _ = measured(frames, reference="previous", outliers=0)
+    first, _, _ = measured(frames, reference="first", outliers=0)
+    np.testing.assert_allclose(previous.increment(1, 2).deviation, 0.1)
+    np.testing.assert_allclose(first.increment(1, 2).deviation, 0.1 * np.sqrt(2))
 
 
 @pytest.mark.parametrize("options", [{"mean_diameter": 100.0}, {"subset": 150.0}])

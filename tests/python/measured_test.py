@@ -182,7 +182,7 @@ def test_errors_against_a_measurement_hold_all_known_uncertainties():
     assert (grains["S"], grains["D"], grains["E"].value, grains["u_num"]) == (12, 10, 2, 0.5)
     assert grains["u_val"] == pytest.approx(math.sqrt(1 / 3 + 1 + 0.25))
     assert grains["E"].high - 2 == pytest.approx(math.sqrt(4.30265**2 / 3 + 1.95996**2 * 1.25), rel=1e-5)
-    assert (grains["margin"], grains["verdict"]) == (5, "equivalent")
+    assert (grains["margin"], grains["verdict"]) == (5, "equivalent (margin 5)")
     assert continuum["n"] == 0 and continuum["verdict"] == "not in both panels"
 
 
@@ -245,7 +245,7 @@ def test_an_ensemble_beside_a_measurement_judges_both_panels(measured_folder, tm
     grains = volumes[0]
     assert grains["E"]["value"] == pytest.approx(grains["S"] - grains["D"])
     assert grains["u_D"] > 0 and "against the measurement" in text
-    assert rows[0]["u_D"] is None and rows[0]["verdict"].endswith("(u_D is not known)")  # the peak of a curve
+    assert rows[0]["u_D"] is None and rows[0]["verdict"].endswith(", u_D is not known)")  # the peak of a curve
     table = pd.read_csv(tmp_path / "all" / "summary.csv", index_col="quantity")
     assert table.loc[grains["quantity"], "measured"].iloc[0] == pytest.approx(grains["D"])
     again = program("compare", tmp_path / "all")  # keeps the measurement

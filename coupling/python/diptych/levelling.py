@@ -12,7 +12,7 @@ from scipy.interpolate import LinearNDInterpolator
 from scipy.spatial import cKDTree
 
 from .arrays import Array, Band, BandReport, Interval
-from .measurement import mean_gradient, Measurement
+from .measurement import Measurement
 from .operators import find_bands, increment
 
 ALONG = 5  # places along a side of a subset
@@ -47,10 +47,12 @@ def field_of(start: Any, end: Any) -> Field:
 
 def levelled(field: Field, points: Array, subset: float) -> Array:
     """(n, 2): means of a field over squares of side `subset` [length] around the points; NaN where less than half of a
-    square is in the sample."""
+    square is in the sample, or the point is NaN."""
+    known = np.isfinite(points).all(axis=1)
     steps = subset * ((np.arange(ALONG) + 0.5) / ALONG - 0.5)
     offsets = np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
-    values = field((points[:, None] + offsets).reshape(-1, 2)).reshape(len(points), -1, 2)
+    values = np.full((len(points), len(offsets), 2), np.nan)
+    values[known] = field((points[known, None] + offsets).reshape(-1, 2)).reshape(-1, *values.shape[1:])
     inside = np.isfinite(values[..., 0]).mean(axis=1) >= 0.5
     means = np.full(points.shape, np.nan)
     means[inside] = np.nanmean(values[inside], axis=1)
@@ -62,8 +64,7 @@ def on_sample(measurement: Measurement, k: int, points: Array, centre: Array) ->
     follows the mean motion since the first instant."""
     since = measurement.increment(0, k)
     before = since.points - since.displacement
-    motion = since.displacement.mean(0) + mean_gradient(since.points, since.displacement) @ (
-        measurement.centre - before.mean(0))
+    motion = since.displacement.mean(0) + measurement.mean_gradient(0, k) @ (measurement.centre - before.mean(0))
     return centre + points - measurement.centre - motion
 
 

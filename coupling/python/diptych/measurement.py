@@ -6,11 +6,11 @@ from __future__ import annotations
 
 import os
 from dataclasses import KW_ONLY, dataclass, field, replace
+from functools import cached_property
 from typing import Any
 
 import h5py
 import numpy as np
-from scipy.spatial import Delaunay
 
 from .arrays import Array, Record
 from .errors import InputError
@@ -86,8 +86,30 @@ class Measurement:
         known."""
         moved = self.position[end] - self.position[start]
         known = np.isfinite(moved).all(axis=1)
-        both = self.deviation[[start, end]][:, known]
-        return Record(points=self.position[end][known], displacement=moved[known], deviation=np.hypot(*both))
+        first, last = self.deviation[[start, end]][:, known] ** 2
+        # fields against the image before: only those between the instants count
+        variance = last - first if self.facts.get("reference") == "previous" else last + first
+        return Record(points=self.position[end][known], displacement=moved[known], deviation=np.sqrt(abs(variance)))
+
+    def filled(self, k: int) -> Array:
+        """(n, 2): all points at an instant, the lost ones between the others as in the first image; NaN beyond them."""
+        from scipy.interpolate import LinearNDInterpolator  # help needs none of it
+
+        known = np.isfinite(self.position[k]).all(axis=1)
+        moved = LinearNDInterpolator(self.position[0][known], (self.position[k] - self.position[0])[known])
+        return np.where(known[:, None], self.position[k], self.position[0] + moved(self.position[0]))
+
+    @cached_property
+    def triangles(self) -> Array:
+        """(t, 3): numbers of the points at their corners, in the first image."""
+        from scipy.spatial import Delaunay
+
+        return np.asarray(Delaunay(self.position[0]).simplices)
+
+    def mean_gradient(self, start: int, end: int) -> Array:
+        """(2, 2): as the function, between two instants."""
+        before = self.filled(start)
+        return mean_gradient(self.triangles, before, self.filled(end) - before)[0]
 
     @property
     def resolution(self) -> float:
@@ -113,15 +135,12 @@ def read_measurement(folder: str | os.PathLike[str]) -> Measurement:
     return Measurement(**arrays, **numbers, facts=facts)
 
 
-def mean_gradient(points: Array, displacement: Array) -> Array:
-    """(2, 2): mean of d u_k / d x_l over the area of the points before an increment, linear in the triangles between
-    them. An affine fit would give too much weight to a band in the middle. Triangles over a gap of more than two
-    usual distances do not count."""
-    before = points - displacement
-    corners = Delaunay(before).simplices
-    long = np.linalg.norm(before[corners] - before[np.roll(corners, 1, axis=1)], axis=2).max(axis=1)
-    corners = corners[long < 2 * np.median(long)]
+def mean_gradient(triangles: Array, before: Array, displacement: Array) -> tuple[Array, float]:
+    """(2, 2): mean of d u_k / d x_l over triangles of points (t, 3), linear in each, and their area. An affine fit
+    would give too much weight to a band in the middle. Triangles with an unknown corner do not count."""
+    known = np.isfinite(before + displacement).all(axis=1)
+    corners = triangles[known[triangles].all(axis=1)]
     (a, b), (c, d) = np.moveaxis(before[corners[:, 1:]] - before[corners[:, :1]], 0, -1)  # two edges of each triangle
     moved = displacement[corners[:, 1:]] - displacement[corners[:, :1]]
-    adjugates = np.sign(a * d - b * c) * np.array([[d, -b], [-c, a]])
-    return np.einsum("ijt,tjk->ki", adjugates, moved) / abs(a * d - b * c).sum()
+    adjugates, twice = np.sign(a * d - b * c) * np.array([[d, -b], [-c, a]]), abs(a * d - b * c).sum()
+    return np.einsum("ijt,tjk->ki", adjugates, moved) / twice, 0.5 * float(twice)

@@ -12,7 +12,8 @@ import numpy as np
 from ... import _diptych, operators
 from ...compiled import continuum
 from ...errors import NotConverged, SceneError
-from ...files import read_provenance
+from ...files import read_json, read_provenance
+from ...measurement import FACTS
 from ..runs.engine import Options
 from ..runs.folders import Runs, SceneRun
 from ..runs.histories import is_beyond, panel_table
@@ -92,6 +93,8 @@ class CalibrationRuns:
             if target.measured:
                 self.fields[target.name] = measured_windows(scene, target.measured, windows_of(observables))
                 left_out = observe_field(sample, deviations, scene, observables, self.fields[target.name])
+                if read_json(os.path.join(target.measured, FACTS))["curves"] == "field":  # of the points, inside
+                    sample.values[[one.kind == "volumetric_strain" for one in observables]] = np.nan
             left_out = [why or ("" if np.isfinite(value) else "not measured")
                         for why, value in zip(left_out, sample.values)]
             data = Data(observables=observables, values=sample.values, given=deviations)

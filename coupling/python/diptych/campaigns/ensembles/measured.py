@@ -58,8 +58,9 @@ def rows_of(records: Sequence[Mapping[str, Any]], validation: Sequence[Mapping[s
                   for pane in (MEASURED, *PANELS)}  # (members, 3): value, low, high
         if folded and key == "band_angle_deg":
             values = {pane: np.where(one[:, :1] < 0, -one[:, [0, 2, 1]], one) for pane, one in values.items()}
+        quantity = QUANTITIES.get(key, QUANTITIES["final_volumetric_strain"])  # that of a window has the same margin
         rows += [{"quantity": first["quantity"], "unit": first["unit"], "panel": panel, **_row(
-            QUANTITIES[key], values[panel][:, 0], values[MEASURED], {name: parts.get(name, math.nan) for name in own},
+            quantity, values[panel][:, 0], values[MEASURED], {name: parts.get(name, math.nan) for name in own},
             margins)} for panel, own in _PARTS.items()]
     return rows
 
@@ -73,7 +74,8 @@ def _row(quantity: Mapping[str, Any], panel: np.ndarray, measured: np.ndarray, p
     margin = margins[quantity["margin"]]
     return {**{name: row[name] for name in ("n", "S", "E", "u_num", "u_input", "u_val")}, "u_S": row["u_D"],
             "D": data, "u_D": u_d, "margin": margin * (abs(data) if kind == "relative" else 1),
-            "verdict": total.verdict(margin) + ("" if math.isfinite(u_d) or not row["n"] else " (u_D is not known)")}
+            "verdict": f"{total.verdict(margin)} (margin {margin * (abs(data) if kind == 'relative' else 1):.2g}"
+                       f"{'' if math.isfinite(u_d) else ', u_D is not known'})" if row["n"] else total.verdict(margin)}
 
 
 def text_of(rows: Sequence[Mapping[str, Any]]) -> str:

@@ -42,15 +42,15 @@ frames/: one per frame
     lost: number of points whose correlation failed
     outliers: number of points that failed the normalised median test
     axial_strain: axial strain of this instant
-    volumetric_strain: of the affine fit since the first instant; dilation is negative
-    shear_strain: eps_1 - eps_2 of the affine fit since the first instant
+    volumetric_strain: mean since the first instant; dilation is negative
+    shear_strain: eps_1 - eps_2 of the mean strain since the first instant
     deviation_d [mean diameters]: median standard deviation of a component of the displacement since the first \
         instant; null: unknown
 """)
 
 describe(HISTORY, """\
 axial_strain (numbers): axial strain, of the boundary table or of every instant
-volumetric_strain (numbers): 1 - V/V0, dilation negative; of the boundary table; without a table of the affine fit
+volumetric_strain (numbers): 1 - V/V0, dilation negative; of the boundary table, else the mean between the points
 stress_ratio (numbers): t/s; of the boundary table, else left out
 """)
 
@@ -74,7 +74,7 @@ def run_import_field(line: argparse.Namespace, options: Options) -> None:
                                    lambda format: measure(read_fields(format, given), given))
         record = alone(result, options.quiet)
     inputs = [*given.files, *([given.boundary] if given.boundary else [])]
-    result.facts |= {"source": line.format, "reference": given.reference or "first", "notes": given.notes,
+    result.facts |= {"source": line.format, "notes": given.notes,
                      "curves": "boundary" if given.boundary else "field",
                      "files": inputs, "sha256": [sha256_of(path) for path in inputs]}
     with Folder(folder) as locked:

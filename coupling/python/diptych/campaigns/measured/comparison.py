@@ -100,52 +100,61 @@ def compared(measurement: Measurement, windows: Iterable[Window], keys: Mapping[
 
 
 def _window(measurement: Measurement, window: Window, keys: Mapping[str, Any], folded: bool) -> dict[str, Any]:
-    since = measurement.increment(*window.instants)
-    points = on_sample(measurement, window.instants[1], since.points,
-                       window.frame["centre"]) if window.pairs else since.points
-    moved = {MEASURED: since.displacement, **{panel: levelled(field_of(*pair), points, measurement.subset)
-                                              for panel, pair in window.pairs.items()}}
-    common = np.isfinite(list(moved.values())).all(axis=(0, 2))  # all panes have the same points
+    start, end = window.instants
+    points = measurement.filled(end)  # at the end
+    moved = {MEASURED: points - measurement.filled(start)}
+    if window.pairs:
+        points = on_sample(measurement, end, points, window.frame["centre"])
+        moved |= {panel: levelled(field_of(*pair), points, measurement.subset) for panel, pair in window.pairs.items()}
+    inside = np.isfinite(list(moved.values())).all(axis=(0, 2))  # all panes have the same points
+    known = np.isfinite(measurement.position[start] + measurement.position[end]).all(axis=1)
+    common, noise = inside & known, np.full(len(points), np.nan)
     if common.sum() < FEWEST:
         raise SceneError(f"window {window.start:g}-{window.end:g}: {common.sum()} measured points lie in the sample; "
                          f"a band needs {FEWEST}. Check --centre and --mean-diameter of the import")
-    points = points[common]
+    noise[known] = measurement.increment(start, end).deviation
     options = {name: keys[name] for name in (*BAND_OPTIONS, "band_resamples")}
     of_pane = {pane: options | ({"band_resamples": 0} if pane == "continuum" else {}) for pane in moved}
-    panes, unblurred, fields = {}, {}, {"position": points}
+    panes, unblurred, fields, at = {}, {}, {"position": points[common]}, points[common]
     for pane, everywhere in moved.items():
-        u = everywhere[common]
-        report = find_bands(points, u, **window.frame, **of_pane[pane])
+        everywhere[~inside], u = np.nan, everywhere[common]
+        report = find_bands(at, u, **window.frame, **of_pane[pane])
         if pane == MEASURED:
-            report = with_noise(report, points, u, since.deviation[common], options)
-        panes[pane] = _pane(report, points, u, since.deviation[common] if pane == MEASURED else None)
+            report = with_noise(report, at, u, noise[common], options)
+        strains, area = _strains(measurement, points - everywhere, everywhere, noise if pane == MEASURED else None)
+        panes[pane] = strains | _bands(report, at, u)
         for numbers, band in zip(panes[pane]["bands"], report.bands):
-            _add_thickness(numbers, thicknesses(points, u, band, measurement.spacing), measurement)
+            _add_thickness(numbers, thicknesses(at, u, band, measurement.spacing), measurement)
         fields[f"{pane}_displacement_increment"] = u
         fields[f"{pane}_shear_strain_increment"] = shear_strain(
-            points, u, radius=max(STRAIN_RADIUS * measurement.mean_diameter, 2 * measurement.spacing))
+            at, u, radius=max(STRAIN_RADIUS * measurement.mean_diameter, 2 * measurement.spacing))
     for panel, pair in window.pairs.items():
-        field = increment(*pair)
-        report = find_bands(**{**field, **window.frame}, **of_pane[panel])
-        unblurred[panel] = _pane(report, field.points, field.displacement)
-    covered = len(points) * measurement.spacing**2 / (window.frame["width"] * window.frame["height"])
-    return {"points": len(points), "covered": min(1.0, covered), "fields": fields,
-            "levelled": panes, "unblurred": unblurred,
+        of_panel = increment(*pair)
+        report = find_bands(**{**of_panel, **window.frame}, **of_pane[panel])
+        unblurred[panel] = _bands(report, of_panel.points, of_panel.displacement)
+    return {"points": len(at), "fields": fields, "levelled": panes, "unblurred": unblurred,
+            "covered": area / (window.frame["width"] * window.frame["height"]), "outside": float(1 - inside.mean()),
             "difference": {panel: differences(panes[panel], panes[MEASURED], folded) for panel in window.pairs}}
 
 
-def _pane(report: BandReport, points: Array, u: Array, deviation: Array | None = None) -> dict[str, Any]:
-    """Mean strains and bands of one field. deviation (n) of the noise of the points; it gives the interval of the
-    volumetric strain."""
-    (xx, xy), (yx, yy) = mean_gradient(points, u)
+def _strains(measurement: Measurement, before: Array, moved: Array,
+             noise: Array | None) -> tuple[dict[str, Interval], float]:
+    """Mean strains of one field (n, 2), and the area that it covers. noise (n): standard deviation of the points; it
+    gives the interval of the volumetric strain."""
+    ((xx, xy), (yx, yy)), area = mean_gradient(measurement.triangles, before, moved)
     half, generator = math.nan, np.random.default_rng(1)
-    if deviation is not None and np.isfinite(deviation).all():
-        noise = [deviation[:, None] * generator.standard_normal(u.shape) for _ in range(DRAWS)]
-        half = 1.96 * float(np.std([np.trace(mean_gradient(points, one)) for one in noise]))
-    field = Record(points=points, displacement=u, weight=None, **report.frame)
-    return {"bands": [band_numbers(band, field) for band in report.bands], "band_verdict": report.verdict,
-            "volumetric_strain": Interval(-(xx + yy), -(xx + yy) - half, -(xx + yy) + half),
-            "shear_strain": Interval(math.hypot(xx - yy, xy + yx), math.nan, math.nan)}
+    if noise is not None and np.isfinite(noise).any():
+        size = np.nan_to_num(noise, nan=np.nanmedian(noise))[:, None]
+        draws = [mean_gradient(measurement.triangles, before, size * generator.standard_normal(moved.shape))[0]
+                 for _ in range(DRAWS)]
+        half = 1.96 * float(np.std(np.trace(draws, axis1=1, axis2=2)))
+    return {"volumetric_strain": Interval(-(xx + yy), -(xx + yy) - half, -(xx + yy) + half),
+            "shear_strain": Interval(math.hypot(xx - yy, xy + yx), math.nan, math.nan)}, area
+
+
+def _bands(report: BandReport, points: Array, u: Array) -> dict[str, Any]:
+    of_points = Record(points=points, displacement=u, weight=None, **report.frame)
+    return {"bands": [band_numbers(band, of_points) for band in report.bands], "band_verdict": report.verdict}
 
 
 def _add_thickness(band: dict[str, Any], found: Mapping[str, float], measurement: Measurement) -> None:

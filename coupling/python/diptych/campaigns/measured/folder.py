@@ -49,6 +49,7 @@ windows/: windows of the comparison that were measured
     mean_diameter [length]: unit d of the window
     points: number of points that all panes have
     covered: share of the sample's box that the points cover
+    outside: share of the points that lie outside of the sample, or were lost at the edge
     levelled/: panes: measured, discrete, continuum; each has mean strains, and bands as in homogenised.json
     unblurred/: bands of the panels without the blur of the measurement
     difference/: panel minus measurement; intervals hold those of both
@@ -70,7 +71,7 @@ def _summary(folder: str, scene: Any, measured: pd.DataFrame, window: Mapping[st
     curves = {**tables, MEASURED: measured.rename(columns={"axial_strain": "progress"})}
     bands = {pane: numbers["bands"][0] for pane, numbers in window["levelled"].items() if numbers["bands"]}
     levelled = {pane: numbers["volumetric_strain"] for pane, numbers in window["levelled"].items()}
-    found = [("final_volumetric_strain", f"volumetric strain of the levelled fields ({where})", "-", levelled)]
+    found = [("window_volumetric_strain", f"volumetric strain of the levelled fields ({where})", "-", levelled)]
     if of_table and "volumetric_strain" in measured:
         found = [("final_volumetric_strain", f"volumetric strain at {end:g}", "-", {
             pane: _with_deviation(mean_over(curve["progress"], curve["volumetric_strain"], end, end), curve,
@@ -133,11 +134,12 @@ def write_levelled(folder: str, source: str, curves: pd.DataFrame, record: dict[
 def _add_to_comparison(folder: str, rows: list[dict[str, Any]]) -> None:
     """Adds the rows to comparison.json and summary.csv, in place of earlier ones."""
     path = os.path.join(folder, "comparison.json")
-    write_json(path, read_json(path) | {MEASURED: rows})
+    record = read_json(path)
+    write_json(path, record | {MEASURED: rows})
     _diptych.record_files(folder, "comparison")
     path = os.path.join(folder, "summary.csv")
     table = pd.read_csv(path)
-    table = table[~table["quantity"].isin([row["quantity"] for row in rows])]
+    table = table[table["quantity"].isin([row["quantity"] for row in record["summary"]] + ["checks"])]
     more = pd.DataFrame([{"quantity": row["quantity"], "unit": row["unit"], **{
         name + end: value for pane, name in PANES.items() for end, value in zip(("", "_low", "_high"), row[pane])}}
         for row in rows])
@@ -151,5 +153,7 @@ def text_of(record: Mapping[str, Any]) -> str:
     unresolved = [f"{PANES[pane]}, {window['from']:g} to {window['to']:g}: {band['unresolved']}"
                   for window in record["windows"] for pane, one in window["levelled"].items()
                   for band in one["bands"] if "unresolved" in band]
-    covered = f"the points cover {100 * record['windows'][-1]['covered']:.0f} % of the sample's box, around its centre"
+    last = record["windows"][-1]
+    covered = (f"the points cover {100 * last['covered']:.0f} % of the sample's box; {100 * last['outside']:.0f} % of "
+               "them lie outside of it or were lost")
     return "\n".join([columns_text([["", *PANES.values()], *rows]), *unresolved, covered])

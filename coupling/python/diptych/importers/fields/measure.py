@@ -16,7 +16,7 @@ from scipy.spatial import cKDTree
 from ... import _diptych
 from ...arrays import Array, rms
 from ...errors import SceneError
-from ...measurement import FieldFrame, mean_gradient, Measurement
+from ...measurement import FieldFrame, Measurement
 from ..frames import refused
 from ..readers import require_files
 from ..table_files import read_table
@@ -63,8 +63,8 @@ def _take_out_outliers(frames: Sequence[FieldFrame], subset: float, spacing: flo
     if threshold is None:
         threshold = 0.0 if subset == 0 else THRESHOLD
         if subset == 0:
-            options.note("every point was followed by itself, so its neighbours do not judge it; --outliers T lets "
-                         "them")
+            options.note("no test of outliers, because every point was followed by itself; --outliers 20 finds gross "
+                         "errors")
     if not threshold:
         return [0] * len(frames)
     is_px = frames[0].unit == "px"
@@ -137,6 +137,7 @@ def boundary_of(path: str) -> dict[str, Array]:
     table = read_table(path)
     curves = {"axial_strain": table.numbers("axial_strain")}
     table.refuse(np.diff(curves["axial_strain"], prepend=-np.inf) < 0, lambda k: "column axial_strain does not ascend")
+    table.refuse(curves["axial_strain"] >= 1, lambda k: f"axial_strain = {curves['axial_strain'][k]:g}: 3 % is 0.03")
     curves |= {name: table.numbers(name) for name in CURVES if table.has(name)}
     if "stress_ratio" not in curves and table.has("sxx", "syy"):
         sxx, syy = table.numbers("sxx"), table.numbers("syy")
@@ -156,7 +157,7 @@ def strains_of(result: Measurement) -> Array:
         since = result.increment(0, k)
         if len(since.points) < 3:
             raise SceneError(f"instant {k}: only {len(since.points)} points were followed to it; at least 3 are needed")
-        h = mean_gradient(since.points, since.displacement)
+        h = result.mean_gradient(0, k)
         rows.append([-h[1, 1], 1 - np.linalg.det(np.eye(2) + h), math.hypot(h[0, 0] - h[1, 1], h[0, 1] + h[1, 0])])
     return np.array(rows)
 
@@ -197,9 +198,10 @@ def _centre(points: Array, turned: bool, options: FieldOptions) -> Array:
 
 def _require_size(result: Measurement) -> None:
     """Refuses lengths of different units."""
-    side, d = min(np.ptp(result.position[0], axis=0)), result.mean_diameter
+    points, d = result.position[0], result.mean_diameter
+    side = math.sqrt(12 * np.linalg.eigvalsh(np.cov(points.T))[0])  # of a rectangle that is as narrow
     if side < SMALLEST * d or result.subset > side / 2:
-        raise SceneError(f"the points span {side / d:.3g} mean diameters, and a subset {result.subset / d:.3g}: a band "
+        raise SceneError(f"the points span {side / d:.2g} mean diameters, and a subset {result.subset / d:.3g}: a band "
                          f"needs points over {SMALLEST} diameters, and subsets of at most half of that span. "
                          "--mean-diameter counts in the unit after --scale, --subset in the unit of the files")
 
@@ -222,7 +224,8 @@ def measure(frames: list[FieldFrame], options: FieldOptions) -> tuple[Measuremen
         options.note(f"points that were lost in every frame, and left out: {(~seen).sum()} of {len(seen)}")
     centre = _centre(position[0], options.y == "down" or frames[0].y_down, options)
     result = Measurement(position=position, deviation=deviation, progress=np.array([]), centre=centre, subset=subset,
-                         spacing=spacing, mean_diameter=options.mean_diameter / scale)
+                         spacing=spacing, mean_diameter=options.mean_diameter / scale,
+                         facts={"reference": "first" if to_first else "previous"})
     _require_size(result)
     static = _instants(position, options)
     if static:
@@ -233,7 +236,7 @@ def measure(frames: list[FieldFrame], options: FieldOptions) -> tuple[Measuremen
     strains = strains_of(result)
     boundary = boundary_of(options.boundary) if options.boundary else {}
     result.progress = progress = _progress(strains, boundary, static, options)
-    result.facts = {"scale": scale, "frames": [
+    result.facts |= {"scale": scale, "frames": [
         {"frame": frame.name, "points": len(frame.points), "lost": n_lost, "outliers": n_out,
          "axial_strain": progress[k], "volumetric_strain": strains[k, 1], "shear_strain": strains[k, 2],
          "deviation_d": _median(result.deviation[k] / result.mean_diameter)}

@@ -62,5 +62,6 @@ def notes(record, window):
                   for band in one["bands"] if "unresolved" in band]
     blur = " Levelled: averaged over the same squares." if window["unblurred"] else ""
     spacing, subset, finest = (number(record[name + "_d"], " d") for name in ("spacing", "subset", "resolution"))
-    return [f"{window['points']} points every {spacing}, each the mean over a square of {subset}.{blur} No band below "
-            f"{finest} is resolved.", *unresolved]
+    of = f"the mean over a square of {subset}" if record["subset_d"] else "followed by itself"
+    return [f"{window['points']} points every {spacing}, each {of}.{blur} No band below {finest} is resolved.",
+            *unresolved]
