@@ -93,7 +93,7 @@ class CalibrationRuns:
             if target.measured:
                 self.fields[target.name] = measured_windows(scene, target.measured, windows_of(observables))
                 left_out = observe_field(sample, deviations, scene, observables, self.fields[target.name])
-                if read_json(os.path.join(target.measured, FACTS))["curves"] == "field":  # of the points, inside
+                if read_json(os.path.join(target.measured, FACTS)).get("curves") == "field":  # of the points
                     sample.values[[one.kind == "volumetric_strain" for one in observables]] = np.nan
             left_out = [why or ("" if np.isfinite(value) else "not measured")
                         for why, value in zip(left_out, sample.values)]
