@@ -197,8 +197,8 @@ def add_import_field(parser: Parser) -> None:
                         help="field=NAME,NAME,...: names of columns that the files do not name; vtk: the displacement")
     add_overwrite(parser)
     add_quiet(parser)
-    parser.epilog = ("Example: diptych import field spam step_*-ddic.tsv --output dic --scale 0.02 --mean-diameter 3.5 "
-                     "--subset 31 --reference first")
+    parser.epilog = ("Example: diptych import field spam step_*-ddic.tsv --output dic --scale 0.35 --mean-diameter 3.5 "
+                     "--subset 0 --reference first")
 
 
 def add_export(parser: Parser) -> None:

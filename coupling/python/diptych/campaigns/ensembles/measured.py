@@ -50,11 +50,11 @@ def rows_of(records: Sequence[Mapping[str, Any]], validation: Sequence[Mapping[s
     images of a band count as one."""
     last = records[0]["windows"][-1]
     window, rows, of_panels = window_name(last["from"], last["to"]), [], {row["quantity"]: row for row in validation}
-    for k, first in enumerate(records[0]["summary"]):
-        key = first["key"]
+    summaries = [{row["key"]: row for row in record["summary"]} for record in records]
+    for key, first in summaries[0].items():
         known = of_panels.get(key if key in OF_PANEL else f"{window} band {key_of_band(key)}", {})
         parts = {**known.get("parts", {}), "parameters": known.get("u_input", math.nan)}
-        values = {pane: np.array([record["summary"][k][pane] for record in records], float)
+        values = {pane: np.array([rows_by_key[key][pane] for rows_by_key in summaries], float)
                   for pane in (MEASURED, *PANELS)}  # (members, 3): value, low, high
         if folded and key == "band_angle_deg":
             values = {pane: np.where(one[:, :1] < 0, -one[:, [0, 2, 1]], one) for pane, one in values.items()}
@@ -71,11 +71,12 @@ def _row(quantity: Mapping[str, Any], panel: np.ndarray, measured: np.ndarray, p
     data = (line_statistics if kind == "line" else statistics)(measured[:, 0]).mean
     u_d = statistics(0.5 * (measured[:, 2] - measured[:, 1])).mean / 1.96
     total, row = validated(kind, (np.full(len(panel), data), panel), {**_UNKNOWN, **parts, "measurement": u_d}, DRAWS)
-    margin = margins[quantity["margin"]]
+    share = margins[quantity["margin"]]
+    margin, verdict = share * (abs(data) if kind == "relative" else 1), total.verdict(share)
+    if row["n"]:
+        verdict += f" (margin {margin:.2g}{'' if math.isfinite(u_d) else ', u_D is not known'})"
     return {**{name: row[name] for name in ("n", "S", "E", "u_num", "u_input", "u_val")}, "u_S": row["u_D"],
-            "D": data, "u_D": u_d, "margin": margin * (abs(data) if kind == "relative" else 1),
-            "verdict": f"{total.verdict(margin)} (margin {margin * (abs(data) if kind == 'relative' else 1):.2g}"
-                       f"{'' if math.isfinite(u_d) else ', u_D is not known'})" if row["n"] else total.verdict(margin)}
+            "D": data, "u_D": u_d, "margin": margin, "verdict": verdict}
 
 
 def text_of(rows: Sequence[Mapping[str, Any]]) -> str:

@@ -12,6 +12,7 @@ import pandas as pd
 
 from ... import _diptych
 from ...entries import describe
+from ..measured.folder import PANES
 from ..runs.engine import columns_text
 from ..runs.key_numbers import QUANTITIES
 from ..runs.statistics import Interval, line_statistics, statistics, words_of
@@ -204,8 +205,9 @@ def table_of(record: Mapping[str, Any]) -> pd.DataFrame:
     count = text_of_checks(record["checks"]).partition("\n")[0]
     table = pd.DataFrame(rows, columns=["quantity", "unit", *ends, "verdict"])
     against = pd.DataFrame([{"quantity": row["quantity"], "unit": row["unit"], "measured": row["D"],
-                             {"discrete": "grains"}.get(row["panel"], row["panel"]): row["S"],
-                             **dict(zip(ends[6:], row["E"])), "verdict": row["verdict"]}
+                             PANES[row["panel"]]: row["S"], "difference": row["E"].value,
+                             "difference_low": row["E"].low, "difference_high": row["E"].high,
+                             "verdict": row["verdict"]}
                             for row in record.get("measured", {}).get("rows", [])])
     return pd.concat([table, against, pd.DataFrame([{"quantity": "checks", "unit": "-", "verdict": count}])])
 

@@ -11,6 +11,7 @@ from ..ensembles.ensemble import compare_again
 from ..measured.folder import compare_folder, text_of
 from ..runs.engine import Options, say
 from ..runs.folders import draw, Folder, record_phase
+from .exports import scene_of
 
 
 def run_compare(line: argparse.Namespace, options: Options) -> None:
@@ -18,16 +19,15 @@ def run_compare(line: argparse.Namespace, options: Options) -> None:
     if os.path.exists(os.path.join(line.target, "ensemble.prm")):
         compare_again(line, options)
         return
-    folder, prm = line.target, os.path.join(line.target, "scene.prm")
+    folder = line.target
     if line.set or line.set_file:
         raise SceneError("compare --measured: --set would have no effect; change the comparison first by diptych "
                          f"compare {folder} --set KEY=VALUE")
-    if not os.path.exists(prm):
+    if not os.path.exists(os.path.join(folder, "scene.prm")):
         raise SceneError(f"{folder} is not a result folder; diptych run SCENE makes one")
     began = os.times()
     with Folder(folder):
-        is_proposal = os.path.exists(os.path.join(folder, "import.json")) and not _diptych.resolved_scene(prm)
-        scene = (_diptych.read_scene if is_proposal else _diptych.read_computed_scene)(prm, [], False)
+        scene = scene_of(folder)
         record = compare_folder(folder, scene, line.measured)
         keys = scene.dict()
         record_phase(folder, "measurement", began, (_diptych.recorded_scene(folder), [keys["sample"]["seed"]]), options)

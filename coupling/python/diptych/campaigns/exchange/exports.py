@@ -13,13 +13,14 @@ from ..runs.engine import Options, say
 from ..runs.folders import Folder, write_text
 
 
-def _scene(folder: str) -> dict[str, dict[str, Any]]:
+def scene_of(folder: str) -> Any:
+    """The scene of a result folder, as a run computed it or an import proposes it; without one the defaults."""
     prm = os.path.join(folder, "scene.prm")
     if not os.path.exists(prm):
-        return _diptych.read_scene(None, [], False).dict()
+        return _diptych.read_scene(None, [], False)
     if os.path.exists(os.path.join(folder, "import.json")) and not _diptych.resolved_scene(prm):
-        return _diptych.read_scene(prm, [], False).dict()  # as an import proposes it
-    return _diptych.read_computed_scene(prm, [], False).dict()
+        return _diptych.read_scene(prm, [], False)
+    return _diptych.read_computed_scene(prm, [], False)
 
 
 def _files(line: argparse.Namespace) -> dict[str, str]:
@@ -29,7 +30,7 @@ def _files(line: argparse.Namespace) -> dict[str, str]:
         raise SceneError(f"{line.target} is not a result folder; diptych run SCENE makes one")
     if not os.path.exists(file):
         raise SceneError(f"{line.target}: has no discrete.h5; diptych discrete or run makes it")
-    scene, snapshots = _scene(line.target), _diptych.read_grains(line.target).snapshots
+    scene, snapshots = scene_of(line.target).dict(), _diptych.read_grains(line.target).snapshots
     _diptych.check_part(line.target, "discrete")
     if not 0 <= line.stage < len(snapshots):
         raise SceneError(f"--stage {line.stage}: {file} holds {len(snapshots)} snapshots, 0 to {len(snapshots) - 1}")

@@ -86,7 +86,8 @@ def increments(measurement: Measurement) -> list[Window]:
 
 def compared(measurement: Measurement, windows: Iterable[Window], keys: Mapping[str, Any],
              folded: bool = False) -> dict[str, Any]:
-    """levelled.json without its summary. The entry `fields` of a window, for levelled.h5, holds arrays at the points.
+    """levelled.json without its summary. A window also has, for levelled.h5, the `position` of its points and the
+    `fields` of every pane there.
 
     keys: of the section comparison. folded: mirror images of a band count as one. Raises SceneError for a window with
     too few points."""
@@ -115,7 +116,7 @@ def _window(measurement: Measurement, window: Window, keys: Mapping[str, Any], f
     noise[known] = measurement.increment(start, end).deviation
     options = {name: keys[name] for name in (*BAND_OPTIONS, "band_resamples")}
     of_pane = {pane: options | ({"band_resamples": 0} if pane == "continuum" else {}) for pane in moved}
-    panes, unblurred, fields, at = {}, {}, {"position": points[common]}, points[common]
+    panes, unblurred, fields, at = {}, {}, {}, points[common]
     for pane, everywhere in moved.items():
         everywhere[~inside], u = np.nan, everywhere[common]
         report = find_bands(at, u, **window.frame, **of_pane[pane])
@@ -125,14 +126,13 @@ def _window(measurement: Measurement, window: Window, keys: Mapping[str, Any], f
         panes[pane] = strains | _bands(report, at, u)
         for numbers, band in zip(panes[pane]["bands"], report.bands):
             _add_thickness(numbers, thicknesses(at, u, band, measurement.spacing), measurement)
-        fields[f"{pane}_displacement_increment"] = u
-        fields[f"{pane}_shear_strain_increment"] = shear_strain(
-            at, u, radius=max(STRAIN_RADIUS * measurement.mean_diameter, 2 * measurement.spacing))
+        reach = max(STRAIN_RADIUS * measurement.mean_diameter, 2 * measurement.spacing)
+        fields[pane] = {"displacement_increment": u, "shear_strain_increment": shear_strain(at, u, radius=reach)}
     for panel, pair in window.pairs.items():
         of_panel = increment(*pair)
         report = find_bands(**{**of_panel, **window.frame}, **of_pane[panel])
         unblurred[panel] = _bands(report, of_panel.points, of_panel.displacement)
-    return {"points": len(at), "fields": fields, "levelled": panes, "unblurred": unblurred,
+    return {"points": len(at), "position": at, "fields": fields, "levelled": panes, "unblurred": unblurred,
             "covered": area / (window.frame["width"] * window.frame["height"]), "outside": float(1 - inside.mean()),
             "difference": {panel: differences(panes[panel], panes[MEASURED], folded) for panel in window.pairs}}
 

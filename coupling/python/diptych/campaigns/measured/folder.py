@@ -125,8 +125,11 @@ def write_measurement(folder: str, measurement: Measurement, curves: pd.DataFram
 def write_levelled(folder: str, source: str, curves: pd.DataFrame, record: dict[str, Any]) -> None:
     """Writes levelled.json and levelled.h5 to a folder. source: folder of the measurement."""
     record |= {"format": 1, "folder": os.path.abspath(source), "history": curves.to_dict("list")}
-    arrays = {f"{window['key']}/{name}": (values, *WORDS[name.partition("_")[2] or name])
-              for window in record["windows"] for name, values in window.pop("fields").items()}
+    arrays = {}
+    for window in record["windows"]:
+        arrays[f"{window['key']}/position"] = (window.pop("position"), *WORDS["position"])
+        for pane, fields in window.pop("fields").items():
+            arrays |= {f"{window['key']}/{pane}_{name}": (values, *WORDS[name]) for name, values in fields.items()}
     write_arrays(os.path.join(folder, "levelled.h5"), arrays, {})
     write_json(os.path.join(folder, LEVELLED), record)
 

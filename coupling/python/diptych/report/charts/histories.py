@@ -55,8 +55,8 @@ def _both(result, columns, scale, label, caption):
         return None, caption
     measured = result.levelled.get("history", {})
     if every in measured:
-        axes.plot(100 * np.array(measured["axial_strain"]), scale * np.array(measured[every], dtype=float), "D",
-                  color=THIRD, markersize=4, label="Measurement")
+        axes.plot(result.loading_variable.factor * np.array(measured["axial_strain"]),
+                  scale * np.array(measured[every], dtype=float), "D", color=THIRD, markersize=4, label="Measurement")
     axes.set(xlim=(0, None))
     if every == "stress_ratio":
         axes.set(ylim=(0, None))
