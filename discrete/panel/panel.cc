@@ -46,7 +46,7 @@ namespace diptych::discrete
       setting_.pressure      = loading.pressure;
       setting_.mean_diameter = sample.mean_diameter;
       setting_.compliance    = compliance(loading, options);
-      cache_.team            = std::make_shared<ThreadTeam>(options.threads);
+      cache_.team = std::make_shared<ThreadTeam>(options.threads, hooks_.processes ? *hooks_.processes : only_process());
     }
 
     Checkpoint now;
@@ -60,8 +60,9 @@ namespace diptych::discrete
         show_progress("preparing the sample", std::min(1., double(step) / expected));
         return !stop_requested();
       };
-      PreparedSample prepared = prepare_sample(sample_, preparation_setting(loading_, options_), go_on,
-                                               grains_ ? &*grains_ : nullptr);
+      PreparationSetting setting = preparation_setting(loading_, options_);
+      setting.team               = cache_.team;
+      PreparedSample prepared    = prepare_sample(sample_, setting, go_on, grains_ ? &*grains_ : nullptr);
       if (prepared.state.grains.size() == 0)
         return fail(""); // stopped while the file was read
       now.state          = std::move(prepared.state);
@@ -74,14 +75,13 @@ namespace diptych::discrete
       if (!ready)
         return false;
       now.step = prepared.step; // length of the step that the impulses belong to
-      StepSetting setting;
-      setting.step          = prepared.step;
-      setting.law           = presses(prepared) && !penalty()
-                                ? options_.law
-                                : same_friction(presses(prepared) ? options_.penalty.preload_friction : prepared.report.friction);
-      setting.mean_diameter = setting_.mean_diameter;
-      prepared_ = make_snapshot(now.state, prepared.last_step, {}, make_reference(now.state, setting_.mean_diameter, 0.),
-                                setting);
+      StepSetting last;
+      last.step          = prepared.step;
+      last.law           = presses(prepared) && !penalty()
+                             ? options_.law
+                             : same_friction(presses(prepared) ? options_.penalty.preload_friction : prepared.report.friction);
+      last.mean_diameter = setting_.mean_diameter;
+      prepared_ = make_snapshot(now.state, prepared.last_step, {}, make_reference(now.state, setting_.mean_diameter, 0.), last);
       prepared_->loading_variable = loading_variable_of(loading_.mode);
       prepared_->time             = 0; // the time of the preparation does not count
       start_loading(now.state, loading_start());
@@ -151,9 +151,9 @@ namespace diptych::discrete
     // Compresses the springs. Returns false if it was stopped or the springs blew up.
     bool press(PreparedSample &prepared)
     {
-      const LoadingStart start   = loading_start();
-      auto               pressed = press_springs(now.state, {options_.penalty, start, setting_, sample_.density, prepared},
-                                                 [this](const double share) {
+      const LoadingStart start = loading_start();
+      auto pressed = press_springs(now.state, {options_.penalty, start, setting_, sample_.density, prepared, cache_.team},
+                                   [this](const double share) {
                                      show_progress("pressing the springs", share);
                                      return !stop_requested();
                                    });

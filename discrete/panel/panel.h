@@ -39,6 +39,8 @@ namespace diptych::discrete
     std::function<void()> before_step;    // called before every step of the loading; a checkpoint may be taken here
     std::function<void(const std::string &phase, double fraction)> on_progress;
     std::function<void(const HistoryRow &)>                        on_row;
+    Processes *processes = nullptr; // that sweep together; all must make the same calls, and stop_requested must agree
+
     // Called with the contact problem of a stage's last step and its solution if store_problems is set. Stages count from 1.
     std::function<void(int stage, const ContactProblem &, const StoredGeometry &, const std::vector<Impulse> &)> on_problem;
   };

@@ -46,8 +46,9 @@ namespace diptych::discrete
 
     stop(state);
     hold_prepared_stress(state, press);
-    PenaltyState  springs;
-    StepCache     cache;
+    PenaltyState springs;
+    StepCache    cache;
+    cache.team = press.team;
     PressedSample pressed{{}, press.setting.step};
     bool          rests = false;
     for (long k = 0; k < n && !rests; ++k)

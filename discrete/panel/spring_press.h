@@ -19,6 +19,8 @@ namespace diptych::discrete
     StepSetting           setting;  // with the friction of the loading
     double                density;  // of the grains
     const PreparedSample &prepared; // a path keeps its isotropic pressure, and a platen its force; in a file platens rest
+
+    std::shared_ptr<ThreadTeam> team;
   };
 
   // Explicit steps for the time penalty_preload with penalty_preload_friction, or implicit ones with the friction of the loading,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -13,6 +14,7 @@
 #include "discrete/files/wrong_keys.h"
 #include "discrete/samples/radius_distribution.h"
 #include "discrete/solvers/solver_options.h"
+#include "discrete/solvers/thread_team.h"
 
 namespace diptych::discrete
 {
@@ -140,6 +142,8 @@ namespace diptych::discrete
     SolverOptions    solver;
     double           pressure = 1;
     Eigen::Vector2d  gravity  = Eigen::Vector2d::Zero();
+
+    std::shared_ptr<ThreadTeam> team = std::make_shared<ThreadTeam>(1);
   };
 
   // Reads the file of a key. Wrong input and a lack of memory are reported with file and key. Other exceptions pass.

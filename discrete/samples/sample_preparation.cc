@@ -125,6 +125,7 @@ namespace diptych::discrete
     PreparedSample compact(State                                start,
                            const SampleOptions                 &options,
                            StepSetting                          setting,
+                           const std::shared_ptr<ThreadTeam>   &team,
                            const std::function<bool(int, int)> &progress)
     {
       // Forces have further to go in a large sample.
@@ -139,6 +140,7 @@ namespace diptych::discrete
       if (longer > 1) // position sweeps cannot remove the overlap that a residual leaves in large regions
         motion.stepping.penetration_correction = PenetrationCorrection::soft_velocity;
       StepCache cache;
+      cache.team = team;
       while (!report.quiet && report.steps < 10 * steps && progress(report.steps, steps))
         {
           sample.last_step        = advance(sample.state, motion, cache);
@@ -153,7 +155,8 @@ namespace diptych::discrete
         {
           const SettlingOptions wanted{largest_prepared_overlap * options.mean_diameter, options.quiet_unbalanced_force, steps,
                                        10 * steps};
-          Settled settled         = settle(sample.state, setting, wanted, [&] { return progress(report.steps, report.steps); });
+          Settled               settled = settle(
+                          sample.state, setting, wanted, [&] { return progress(report.steps, report.steps); }, team);
           report.quiet            = settled.quiet;
           report.settling_steps   = settled.steps;
           report.largest_overlap  = settled.largest_overlap / options.mean_diameter;
@@ -180,7 +183,7 @@ namespace diptych::discrete
         {
           state = numbered_upward(state);
           set_sides(state, preparation);
-          sample = compact(state, options, compaction_setting(options, preparation, friction), progress);
+          sample = compact(state, options, compaction_setting(options, preparation, friction), preparation.team, progress);
         }
       sample.report.soft_overlap = loose.largest_overlap;
       return sample;
@@ -242,7 +245,7 @@ namespace diptych::discrete
       State            &state   = file.state;
       const StepSetting setting = compaction_setting(o, preparation, o.preparation_friction);
       if (o.prepare_file)
-        return compact(std::move(state), o, setting, progress);
+        return compact(std::move(state), o, setting, preparation.team, progress);
       PreparedSample sample;
       sample.step = setting.step;
       if (file.stage)

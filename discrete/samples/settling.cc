@@ -18,7 +18,11 @@ namespace diptych::discrete
     std::visit([](auto &kind) { kind.stop(); }, state.periodicity);
   }
 
-  Settled settle(State &state, StepSetting setting, const SettlingOptions &options, const std::function<bool()> &go_on)
+  Settled settle(State                             &state,
+                 StepSetting                        setting,
+                 const SettlingOptions             &options,
+                 const std::function<bool()>       &go_on,
+                 const std::shared_ptr<ThreadTeam> &team)
   {
     // A residual e leaves an overlap of about e h^2 P/m. An overlap of 1e-4 d at a step of 0.2 d sqrt(rho/P) requires this
     // tolerance.
@@ -29,6 +33,7 @@ namespace diptych::discrete
     setting.solver.max_sweeps               = std::max(setting.solver.max_sweeps, max_sweeps);
     Settled   settled;
     StepCache cache;
+    cache.team = team;
     stop(state);
     while (settled.steps < options.most_steps && go_on())
       {

@@ -28,7 +28,11 @@ namespace diptych::discrete
   // Steps of length `setting.step` from rest. Grains and walls are stopped after each step. The normal term is gap / h for gaps
   // of either sign. So each step moves the sample towards the equilibrium without overlap, under the same pressure and with the
   // same friction. `go_on` is called before each step.
-  Settled settle(State &state, StepSetting setting, const SettlingOptions &options, const std::function<bool()> &go_on);
+  Settled settle(State                             &state,
+                 StepSetting                        setting,
+                 const SettlingOptions             &options,
+                 const std::function<bool()>       &go_on,
+                 const std::shared_ptr<ThreadTeam> &team);
 
   void stop(State &state);
 

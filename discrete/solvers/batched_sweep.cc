@@ -36,24 +36,16 @@ namespace diptych::discrete
       std::atomic<int> done_{0};
     };
 
-    // Consecutive parts of `n` for one thread. If they cannot be divided evenly, the rounding changes with every sweep, so that
-    // the work evens out.
-    struct Share
-    {
-      int begin, end;
-    };
-
-    Share share_of(const int n, const int rank, const int n_threads, const int sweep)
-    {
-      const int turn = sweep % n_threads;
-      return {(n * rank + turn) / n_threads, (n * (rank + 1) + turn) / n_threads};
-    }
   } // namespace
 
-  BatchedContacts::BatchedContacts(const ContactProblem &problem, const std::vector<int> &held, const std::vector<Impulse> &guess)
+  BatchedContacts::BatchedContacts(const ContactProblem       &problem,
+                                   const std::vector<int>     &held,
+                                   const std::vector<Impulse> &guess,
+                                   Processes                  &processes)
       : problem_(problem),
         v_(problem.free_velocity),
-        batch_of_(problem.free_velocity.size(), -2)
+        batch_of_(problem.free_velocity.size(), -2),
+        processes_(processes)
   {
     constexpr int     rows_of_a_block = 2000, most_blocks = 64;
     std::vector<Ends> rows;
@@ -85,6 +77,8 @@ namespace diptych::discrete
     int n_blocks = std::clamp(int(rows.size()) / rows_of_a_block, 1, most_blocks);
     while (!cut(rows, n_blocks))
       n_blocks /= 2;
+    if (processes.size() > 1)
+      divide();
   }
 
   template <class Function> void BatchedContacts::for_each_part(Function &&function)
@@ -115,7 +109,7 @@ namespace diptych::discrete
 
   std::vector<Impulse> BatchedContacts::impulses() const
   {
-    std::vector<Impulse> result(problem_.contacts.size());
+    std::vector<Impulse> result(problem_.contacts.size()); // rows of other processes are overwritten below
     for (const std::vector<Part> *parts : {&blocks_, &between_})
       for (const Part &part : *parts)
         for (std::size_t b = 0; b < part.batches.size(); ++b)
@@ -125,13 +119,30 @@ namespace diptych::discrete
                              part.rolling.empty() ? 0 : part.rolling[b].rolling[lane]};
     for (std::size_t k = 0; k < rest_.size(); ++k)
       result[rest_[k]] = rest_impulses_[k];
+    using Parts = std::array<double, 3>;
+    rows_.exchange(
+      processes_,
+      [&](const int row) {
+        return Parts{result[row].normal, result[row].tangential, result[row].rolling};
+      },
+      [&](const int row, const Parts &r) {
+        result[row] = {r[0], r[1], r[2]};
+      });
     return result;
   }
 
   void BatchedContacts::refresh_velocities()
   {
     std::copy(problem_.free_velocity.begin(), problem_.free_velocity.end(), v_.begin());
-    for_each_part([&](Part &part) { add_impulses(part.batches.data(), couples_of(part), part.batches.size(), v_.data()); });
+    const auto  add = [&](Part &part) { add_impulses(part.batches.data(), couples_of(part), part.batches.size(), v_.data()); };
+    const Range own = blocks_of(processes_.rank()), gaps = gaps_of(processes_.rank());
+    for (int b = own.begin; b < own.end; ++b)
+      add(blocks_[b]);
+    send(lower_);
+    receive(upper_);
+    for (int g = gaps.begin; g < gaps.end; ++g)
+      add(between_[g]);
+    exchange(bodies_);
     for (std::size_t k = 0; k < rest_.size(); ++k)
       apply_impulse(problem_.contacts[rest_[k]], rest_impulses_[k], v_);
     follow_lattice();
@@ -185,41 +196,55 @@ namespace diptych::discrete
   // wait for the blocks on both sides. So a thread that has fewer blocks in this sweep can start the next one, where it has more.
   void BatchedContacts::sweep(const double omega_sticking, const double omega_slipping, const int n, ThreadTeam &team)
   {
-    const int             n_blocks = int(blocks_.size()), n_between = int(between_.size());
-    std::vector<Progress> blocks(n_blocks), between(n_between);
+    const Range           own = blocks_of(processes_.rank()), gaps = gaps_of(processes_.rank());
+    const bool            has_rest = n_swept_rest_ > 0 || problem_.lattice;
+    std::vector<Progress> blocks(blocks_.size()), between(between_.size());
     team.run([&](const int rank) {
       for (int k = 0; k < n; ++k)
         {
           const bool  with_idle = k % idle_every == idle_every - 1 || k == n - 1;
-          const Share mine = share_of(n_blocks, rank, team.size(), k), ends = share_of(n_between, rank, team.size(), k);
+          const Range mine = share_of(own, rank, team.size(), k), ends = share_of(gaps, rank, team.size(), k);
           for (int b = mine.begin; b < mine.end; ++b)
             {
               blocks[b].wait_for(k); // another thread may have swept it, and a single block has no ends to wait for
-              if (b > 0)
+              if (b > own.begin)
                 between[b - 1].wait_for(k);
-              if (b < n_between)
+              else if (k > 0 && !has_rest)
+                receive(lower_);
+              if (b < gaps.end)
                 between[b].wait_for(k);
               sweep_part(blocks_[b], omega_sticking, omega_slipping, with_idle);
+              if (b == own.begin)
+                send(lower_);
               blocks[b].advance_to(k + 1);
             }
-          for (int b = ends.begin; b < ends.end; ++b)
+          for (int b = ends.end - 1; b >= ends.begin; --b) // the neighbour waits for the last one
             {
               blocks[b].wait_for(k + 1);
-              blocks[b + 1].wait_for(k + 1);
+              if (b == upper_.gap)
+                receive(upper_);
+              else
+                blocks[b + 1].wait_for(k + 1);
               sweep_part(between_[b], omega_sticking, omega_slipping, with_idle);
+              if (b == upper_.gap)
+                send(upper_);
               between[b].advance_to(k + 1);
             }
-          if (n_swept_rest_ == 0 && !problem_.lattice)
+          if (!has_rest)
             continue;
           team.barrier();
           if (rank == 0)
             {
+              receive(lower_);
+              exchange(problem_.lattice ? bodies_ : rest_bodies_); // a lattice follows all grains
               sweep_rest(omega_sticking, omega_slipping);
               follow_lattice();
             }
           team.barrier();
         }
     });
+    if (n > 0 && !has_rest)
+      receive(lower_);
   }
 
   NaturalMapSquares BatchedContacts::residual_squares(const Part &part) const
@@ -234,16 +259,25 @@ namespace diptych::discrete
   {
     const std::size_t              n = blocks_.size() + between_.size();
     std::vector<NaturalMapSquares> squares(n);
+    const Range                    own = blocks_of(processes_.rank()), gaps = gaps_of(processes_.rank());
     team.run([&](const int rank) {
       // First the blocks that this thread sweeps, because they are in its cache, then the contacts between blocks.
-      const Share mine = share_of(int(blocks_.size()), rank, team.size(), 0);
-      const Share ends = share_of(int(between_.size()), rank, team.size(), 0);
+      const Range mine = share_of(own, rank, team.size(), 0), ends = share_of(gaps, rank, team.size(), 0);
       for (int b = mine.begin; b < mine.end; ++b)
         squares[b] = residual_squares(blocks_[b]);
       for (int b = ends.begin; b < ends.end; ++b)
         squares[blocks_.size() + b] = residual_squares(between_[b]);
     });
-    NaturalMapSquares sum; // in the order of the parts, so that the sum does not depend on the threads
+    using Pair = std::array<double, 2>;
+    parts_.exchange(
+      processes_,
+      [&](const int part) {
+        return Pair{squares[part].difference, squares[part].norm};
+      },
+      [&](const int part, const Pair &sums) {
+        squares[part] = {sums[0], sums[1]};
+      });
+    NaturalMapSquares sum; // in the order of the parts, so that the sum does not depend on threads and processes
     for (const NaturalMapSquares &s : squares)
       {
         sum.difference += s.difference;

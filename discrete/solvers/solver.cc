@@ -41,7 +41,7 @@ namespace diptych::discrete
                            const StopTest       &stop_test)
     {
       const std::clock_t begin = std::clock();
-      RelievedSweeps     sweeps(problem, impulses);
+      RelievedSweeps     sweeps(problem, impulses, team.processes());
       Iteration          iteration;
       iteration.refresh = [&] { sweeps.refresh_velocities(); };
       iteration.sweep   = [&](const double sticking, const double slipping, const int n) {

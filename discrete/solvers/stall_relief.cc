@@ -8,9 +8,10 @@
 
 namespace diptych::discrete
 {
-  RelievedSweeps::RelievedSweeps(const ContactProblem &problem, const std::vector<Impulse> &impulses)
+  RelievedSweeps::RelievedSweeps(const ContactProblem &problem, const std::vector<Impulse> &impulses, Processes &processes)
       : problem_(problem),
-        batches_(std::make_unique<BatchedContacts>(problem, std::vector<int>{}, impulses))
+        processes_(processes),
+        batches_(std::make_unique<BatchedContacts>(problem, std::vector<int>{}, impulses, processes))
   {
     batches_->set_impulses(impulses);
   }
@@ -38,7 +39,7 @@ namespace diptych::discrete
     if (stalled != held_)
       {
         held_    = std::move(stalled);
-        batches_ = std::make_unique<BatchedContacts>(problem_, held_, impulses);
+        batches_ = std::make_unique<BatchedContacts>(problem_, held_, impulses, processes_);
         batches_->set_impulses(impulses);
       }
     return !held_.empty();

@@ -14,7 +14,8 @@ namespace diptych::discrete
   class RelievedSweeps
   {
   public:
-    RelievedSweeps(const ContactProblem &problem, const std::vector<Impulse> &impulses); // the problem must outlive this
+    // The problem must outlive this.
+    RelievedSweeps(const ContactProblem &problem, const std::vector<Impulse> &impulses, Processes &processes);
 
     void                             sweep(double omega_sticking, double omega_slipping, int n, ThreadTeam &team);
     void                             refresh_velocities() { batches_->refresh_velocities(); }
@@ -29,6 +30,7 @@ namespace diptych::discrete
 
   private:
     const ContactProblem            &problem_;
+    Processes                       &processes_;
     std::unique_ptr<BatchedContacts> batches_;
     std::vector<int>                 held_; // rows
   };

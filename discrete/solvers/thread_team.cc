@@ -14,7 +14,8 @@ namespace diptych::discrete
     constexpr long before_sleep = 2000;
   } // namespace
 
-  ThreadTeam::ThreadTeam(const int size)
+  ThreadTeam::ThreadTeam(const int size, Processes &processes)
+      : processes_(processes)
   {
     workers_.reserve(std::size_t(std::max(0, size - 1)));
     for (int rank = 1; rank < size; ++rank)

@@ -1,4 +1,4 @@
-// diptych: a few threads that work in lockstep
+// diptych: a few threads that work in lockstep, and the processes that sweep with them
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -9,18 +9,22 @@
 #include <thread>
 #include <vector>
 
+#include "discrete/solvers/processes.h"
+
 namespace diptych::discrete
 {
   // Threads 0 .. size()-1; thread 0 is the caller. Waiting threads first spin, then yield, and sleep between runs.
   class ThreadTeam
   {
   public:
-    explicit ThreadTeam(int size); // throws std::runtime_error if the system starts fewer threads
+    // Throws std::runtime_error if the system starts fewer threads.
+    explicit ThreadTeam(int size, Processes &processes = only_process());
     ~ThreadTeam();
     ThreadTeam(const ThreadTeam &)            = delete;
     ThreadTeam &operator=(const ThreadTeam &) = delete;
 
-    int size() const { return int(workers_.size()) + 1; }
+    int        size() const { return int(workers_.size()) + 1; }
+    Processes &processes() const { return processes_; }
 
     void run(const std::function<void(int)> &work);
 
@@ -48,6 +52,7 @@ namespace diptych::discrete
       return done();
     }
 
+    Processes                      &processes_;
     std::vector<std::thread>        workers_;
     const std::function<void(int)> *work_ = nullptr;
     std::mutex                      mutex_;

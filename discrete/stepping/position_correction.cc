@@ -73,7 +73,7 @@ namespace diptych::discrete
     if (penetration <= enough)
       return;
     make_displacements(solved, gap, penetration);
-    BatchedContacts batches(solved.problem);
+    BatchedContacts batches(solved.problem, {}, {}, team.processes());
     batches.set_impulses(solved.impulses);
     batches.sweep(1., 1., sweeps, team); // over-relaxed sweeps oscillate and push grains apart
     batches.refresh_velocities();

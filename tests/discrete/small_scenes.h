@@ -149,10 +149,9 @@ namespace diptych::tests
     return panel.report();
   }
 
-  inline Course loaded(const SampleOptions &sample, const Loading &loading, const Options &options)
+  inline Course loaded(const SampleOptions &sample, const Loading &loading, const Options &options, Hooks hooks = {})
   {
     Course course;
-    Hooks  hooks;
     hooks.on_row = [&](const HistoryRow &row) { course.rows.push_back(row); };
     Panel panel(sample, loading, options, hooks);
     course.report = run_to_end(panel, int(loading.stages.size()), course.snapshots);
