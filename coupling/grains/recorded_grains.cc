@@ -35,6 +35,14 @@ namespace diptych::coupling
     }
   } // namespace
 
+  discrete::Hooks shared_hooks(discrete::Processes &processes)
+  {
+    discrete::Hooks hooks;
+    hooks.processes      = &processes;
+    hooks.stop_requested = [&processes] { return processes.of_first(stop_requested()) != 0; };
+    return hooks;
+  }
+
   RecordedGrains::RecordedGrains(const RunOptions                                &options,
                                  const Scene                                     &scene,
                                  const std::optional<discrete::StoredCheckpoint> &checkpoint)
@@ -44,6 +52,8 @@ namespace diptych::coupling
         progress(options.quiet),
         panel(scene.sample, discrete_loading(scene.loading), scene.discrete, hooks())
   {
+    if (options.followers)
+      options.followers->start(checkpoint ? Followers::rest_of_grains : Followers::grains);
     if (!checkpoint)
       return;
     announced = true;
@@ -85,8 +95,11 @@ namespace diptych::coupling
   discrete::Hooks RecordedGrains::hooks()
   {
     discrete::Hooks hooks;
-    hooks.stop_requested = stop_requested;
-    hooks.on_progress    = [this](const std::string &phase, const double fraction) {
+    if (options.followers)
+      hooks = shared_hooks(options.followers->processes);
+    else
+      hooks.stop_requested = stop_requested;
+    hooks.on_progress = [this](const std::string &phase, const double fraction) {
       progress.update(phase, fraction, reached_text(results.rows));
     };
     hooks.before_step = [this] { before_step(); };

@@ -59,4 +59,7 @@ namespace diptych::coupling
     bool                                  announced = false, is_prepared = false;
     discrete::Panel                       panel;
   };
+
+  // Hooks of a panel that all processes run. They stop when the first one is asked to.
+  discrete::Hooks shared_hooks(discrete::Processes &processes);
 } // namespace diptych::coupling

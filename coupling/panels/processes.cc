@@ -1,10 +1,12 @@
-// diptych: helpers for several MPI processes that run the continuum together
+// diptych: helpers for several MPI processes that run one scene together
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "coupling/panels/processes.h"
 
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
+#include <mutex>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -13,6 +15,7 @@
 #include <mpi.h>
 
 #include "coupling/processes/stop_signal.h"
+#include "discrete/solvers/thread_team.h"
 
 namespace diptych::coupling
 {
@@ -70,21 +73,100 @@ namespace diptych::coupling
       return values;
     }
 
-    // True if every process arrives here within five seconds. Then all met an error, the same one or each its own.
-    bool all_arrive(const MPI_Comm communicator)
+    // Any thread may send and receive, but MPI was started for one thread at a time.
+    class MpiProcesses : public discrete::Processes
+    {
+    public:
+      MpiProcesses()
+          : rank_(rank_in(MPI_COMM_WORLD)),
+            size_(size_of(MPI_COMM_WORLD)),
+            sent_(std::size_t(size_))
+      {
+        MPI_Comm_dup(MPI_COMM_WORLD, &communicator_);
+      }
+
+      int rank() const override { return rank_; }
+      int size() const override { return size_; }
+
+      void send(const int to, const std::vector<double> &values) override
+      {
+        Message &message = sent_[to];
+        wait_for(message.request);
+        message.values = values;
+        const std::lock_guard lock(mutex_);
+        MPI_Isend(message.values.data(), int(values.size()), MPI_DOUBLE, to, 0, communicator_, &message.request);
+      }
+
+      void receive(const int from, std::vector<double> &values) override
+      {
+        MPI_Request request = MPI_REQUEST_NULL;
+        {
+          const std::lock_guard lock(mutex_);
+          MPI_Irecv(values.data(), int(values.size()), MPI_DOUBLE, from, 0, communicator_, &request);
+        }
+        wait_for(request);
+      }
+
+      void gather(std::vector<double> &values, const std::vector<int> &counts) override
+      {
+        std::vector<int> begin(counts.size(), 0);
+        std::partial_sum(counts.begin(), counts.end() - 1, begin.begin() + 1);
+        MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, values.data(), counts.data(), begin.data(), MPI_DOUBLE, communicator_);
+      }
+
+      int of_first(int number) override
+      {
+        MPI_Bcast(&number, 1, MPI_INT, 0, communicator_);
+        return number;
+      }
+
+    private:
+      struct Message
+      {
+        std::vector<double> values;
+        MPI_Request         request = MPI_REQUEST_NULL;
+      };
+
+      void wait_for(MPI_Request &request)
+      {
+        discrete::ThreadTeam::wait_until([&] {
+          const std::lock_guard lock(mutex_);
+          int                   arrived = 0;
+          MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
+          return arrived != 0;
+        });
+      }
+
+      const int            rank_, size_;
+      MPI_Comm             communicator_ = MPI_COMM_NULL; // lives as long as the job
+      std::mutex           mutex_;
+      std::vector<Message> sent_; // the last one to each process
+    };
+
+    enum class End
+    {
+      alone, // the others may wait for this process elsewhere
+      some_failed,
+      all_failed
+    };
+
+    // How all processes ended. One that failed waits for the others for five seconds only.
+    End end_of_all(const MPI_Comm communicator, const bool has_failed)
     {
       constexpr std::chrono::seconds patience(5);
-      MPI_Request                    request;
-      MPI_Ibarrier(communicator, &request);
+      const int                      mine = int(has_failed);
+      int                            all = 0, arrived = 0;
+      MPI_Request                    request = MPI_REQUEST_NULL;
+      MPI_Iallreduce(&mine, &all, 1, MPI_INT, MPI_MIN, communicator, &request);
       const auto begin = std::chrono::steady_clock::now();
-      for (int arrived = 0; std::chrono::steady_clock::now() - begin < patience;)
+      while (arrived == 0)
         {
-          MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
-          if (arrived != 0)
-            return true;
+          if (has_failed && std::chrono::steady_clock::now() - begin > patience)
+            return End::alone;
           std::this_thread::sleep_for(std::chrono::milliseconds(5));
+          MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
         }
-      return false;
+      return all == 1 ? End::all_failed : End::some_failed;
     }
   } // namespace
 
@@ -170,6 +252,12 @@ namespace diptych::coupling
     return any == 1;
   }
 
+  discrete::Processes &mpi_processes()
+  {
+    static MpiProcesses processes;
+    return processes;
+  }
+
   int run_and_report(const std::function<int()> &work,
                      int (*code_of)(const std::exception &),
                      std::string (*text_of)(const std::exception &))
@@ -181,14 +269,15 @@ namespace diptych::coupling
     try
       {
         code = work();
+        (void)end_of_all(communicator, false);
       }
     catch (const std::exception &error)
       {
-        code              = code_of(error);
-        const bool shared = all_arrive(communicator);
-        if (is_first_process() || !shared)
+        code          = code_of(error);
+        const End end = end_of_all(communicator, true);
+        if (is_first_process() || end != End::all_failed)
           std::cerr << text_of(error) << std::endl;
-        if (!shared)
+        if (end == End::alone)
           PMPI_Abort(MPI_COMM_WORLD, code);
       }
     MPI_Comm_free(&communicator);

@@ -1,4 +1,4 @@
-// diptych: helpers for several MPI processes that run the continuum together
+// diptych: helpers for several MPI processes that run one scene together
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
@@ -6,6 +6,8 @@
 #include <functional>
 #include <string>
 #include <vector>
+
+#include "discrete/solvers/processes.h"
 
 namespace diptych::coupling
 {
@@ -28,6 +30,9 @@ namespace diptych::coupling
   double              sum_over_processes(double value);
   double              from_first_process(double value); // all return the value of the first process
   std::vector<double> from_first_process(std::vector<double> values);
+
+  // All processes of the job, for the grains.
+  discrete::Processes &mpi_processes();
 
   bool any_process(bool value); // true if the value is true on any process
 

@@ -5,17 +5,19 @@
 #include <iostream>
 #include <string>
 
+#include "coupling/processes/followers.h"
 #include "coupling/processes/progress.h"
 
 namespace diptych::coupling
 {
   struct RunOptions
   {
-    int         threads   = 1;     // --threads: threads of the contact solver
-    bool        resume    = false; // --resume
-    bool        overwrite = false; // --overwrite
-    bool        quiet     = false; // --quiet: neither progress nor messages
-    std::string text;              // the command line
+    int         threads   = 1;       // --threads: threads of the contact solver
+    bool        resume    = false;   // --resume
+    bool        overwrite = false;   // --overwrite
+    bool        quiet     = false;   // --quiet: neither progress nor messages
+    std::string text;                // the command line
+    Followers  *followers = nullptr; // of an MPI job
   };
 
   inline void say(const RunOptions &options, const std::string &text)

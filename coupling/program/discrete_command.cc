@@ -152,6 +152,11 @@ namespace diptych::coupling
       return out.str() + "\n";
     }
 
+    int n_processes(const CommandLine &line)
+    {
+      return line.followers ? line.followers->processes.size() : 1;
+    }
+
     void record(const CommandLine      &line,
                 const Scene            &scene,
                 const discrete::Report &report,
@@ -160,11 +165,12 @@ namespace diptych::coupling
     {
       PhaseCost preparation = loading;
       preparation.name      = "preparation";
-      preparation.cpu_s = preparation.wall_s = report.preparation_cpu_s;
+      preparation.cpu_s     = report.preparation_cpu_s;
+      preparation.wall_s    = report.preparation_cpu_s / n_processes(line);
       if (!prepared_before)
         {
-          loading.cpu_s -= report.preparation_cpu_s;
-          loading.wall_s -= report.preparation_cpu_s;
+          loading.cpu_s -= preparation.cpu_s;
+          loading.wall_s -= preparation.wall_s;
         }
       record_phases(scene.output.directory, {scene.name, {scene.sample.seed}, line.text}, {preparation, loading});
       record_facts(scene.output.directory, report);
@@ -243,7 +249,9 @@ namespace diptych::coupling
     report.finished              = report.status == discrete::Status::finished;
     report.kinetic_energy_bursts = bursts(rows);
     report.warnings              = doubts(rows, report, scene);
-    const PhaseCost loading      = timer.stop();
+    PhaseCost loading            = timer.stop();
+    for (double *cpu_s : {&loading.cpu_s, &report.preparation_cpu_s})
+      *cpu_s *= n_processes(line); // all take the same time
     record(line, scene, report, checkpoint ? with_earlier_sessions(directory, loading) : loading, before);
     say_result(line, scene, rows);
     recorded.warnings += reference_text(report);
@@ -258,6 +266,18 @@ namespace diptych::coupling
         *results               = std::move(recorded.results);
       }
     return say_how_it_ended(line, scene, report);
+  }
+
+  void follow_grains(const Scene &scene, discrete::Processes &processes, const bool resumes)
+  {
+    discrete::Panel panel(scene.sample, discrete_loading(scene.loading), scene.discrete, shared_hooks(processes));
+    if (resumes)
+      panel.resume(interrupted_grains(scene.output.directory, text_of(sample_identity(scene))).value().panel);
+    else
+      (void)panel.prepare();
+    const int n_stages = int(stages(scene.loading).size());
+    for (int stage = panel.stage() + 1; panel.report().status == discrete::Status::finished && stage <= n_stages; ++stage)
+      (void)panel.advance_to(stage);
   }
 
   int run_discrete(const CommandLine &line, const Scene &scene)

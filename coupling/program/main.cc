@@ -138,11 +138,10 @@ namespace
       default:
         break;
       }
+    if (n_processes() > 1 && line.command == Command::discrete)
+      start_the_panels(argv); // there is MPI
     if (n_processes() > 1)
-      throw SceneError(
-        "mpirun: diptych " + name_of(line.command) +
-        " runs on one process; use several for `diptych continuum`, `diptych run` with --seeds, `diptych study` or "
-        "`diptych calibrate`");
+      throw SceneError("mpirun: diptych " + name_of(line.command) + " runs on one process");
     leave_if_stopped(name_of(line.command));
     switch (line.command)
       {

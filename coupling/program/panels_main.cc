@@ -1,26 +1,65 @@
 // diptych: the commands that need the continuum's libraries; `diptych` starts this program for them
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <algorithm>
+
 #include <deal.II/base/mpi.h>
 
 #include "coupling/panels/processes.h"
 #include "coupling/processes/stop_signal.h"
 #include "coupling/program/commands.h"
+#include "coupling/program/continuum_command.h"
+#include "coupling/program/discrete_command.h"
 #include "coupling/scene/scene_error.h"
+#include "coupling/store/file_names.h"
 
 namespace
 {
   using namespace diptych::coupling;
+  using diptych::discrete::Processes;
+
+  // Blocks of fewer grains are not cut.
+  void require_work_for(const int n_processes, const Scene &scene)
+  {
+    constexpr int least = 1000, most = 64; // grains a process, processes
+    const int     useful = std::clamp(scene.sample.grains / least, 1, most);
+    if (scene.sample.file.empty() && n_processes > useful)
+      throw SceneError("mpirun -np " + std::to_string(n_processes) + ": a sample of " + std::to_string(scene.sample.grains) +
+                       " grains is shared by at most " + std::to_string(useful) + " processes, one per " + std::to_string(least) +
+                       " grains");
+  }
+
+  // The first process runs the command, and the others do the part of its work that they share.
+  int run_together(CommandLine line, const Scene &scene)
+  {
+    Processes &processes = mpi_processes();
+    require_work_for(processes.size(), scene);
+    if (is_first_process())
+      {
+        Followers followers(processes);
+        line.followers = &followers;
+        return line.command == Command::run ? run_both(line, scene) : run_discrete(line, scene);
+      }
+    for (int task = processes.of_first(0); task != Followers::end; task = processes.of_first(0))
+      if (task == Followers::grains || task == Followers::rest_of_grains)
+        follow_grains(scene, processes, task == Followers::rest_of_grains);
+      else
+        {
+          const std::string &directory = scene.output.directory;
+          (void)continuum_beside_grains(line, scene, task == Followers::continuum ? directory : next_continuum(directory), {});
+        }
+    return done;
+  }
 
   int execute(const CommandLine &line)
   {
-    if (n_processes() > 1 && line.command != Command::continuum)
-      throw SceneError(
-        "mpirun: diptych " + name_of(line.command) +
-        " runs on one process; use several for `diptych continuum`, `diptych run` with --seeds, `diptych study` or "
-        "`diptych calibrate`");
+    const bool has_grains = line.command == Command::discrete || line.command == Command::run;
+    if (n_processes() > 1 && !has_grains && line.command != Command::continuum)
+      throw SceneError("mpirun: diptych " + name_of(line.command) + " runs on one process");
     if (any_process(stop_requested()))
       throw StoppedOnRequest(name_of(line.command) + ": stopped on request");
+    if (n_processes() > 1 && has_grains && !line.checks_only)
+      return run_together(line, scene_of(line));
     switch (line.command)
       {
       case Command::run:

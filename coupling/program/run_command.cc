@@ -84,6 +84,8 @@ namespace diptych::coupling
         ContinuumRun       continuum;
         ContinuumTask      task;
         task.results = &continuum;
+        if (line.followers)
+          line.followers->start(folder == directory ? Followers::continuum : Followers::next_continuum);
         if (const int code = continuum_beside_grains(line, scene, folder, task); code != done)
           return code;
         return compare_and_report(line, scene, results_of(scene, folder, grains, continuum),

@@ -266,5 +266,5 @@ class Processes(Folder):
         self.assertIn(self.folder, errors)
 
     def test_other_commands_run_on_one_process(self):
-        self.expect_message(self.on_two("run", QUICK), 2, "mpirun")
+        self.expect_message(self.on_two("material-point", QUICK), 2, "mpirun")
         self.assertFalse(os.path.exists(self.folder))
