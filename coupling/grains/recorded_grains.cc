@@ -52,14 +52,12 @@ namespace diptych::coupling
         progress(options.quiet),
         panel(scene.sample, discrete_loading(scene.loading), scene.discrete, hooks())
   {
-    if (options.followers)
-      options.followers->start(checkpoint ? Followers::rest_of_grains : Followers::grains);
     if (!checkpoint)
       return;
     announced = true;
     table.emplace(discrete_csv(scene.output.directory), discrete::csv_header<discrete::HistoryRow>(), checkpoint->n_rows);
     snapshots.emplace(path("discrete"), std::size_t(checkpoint->panel.stage) + 1);
-    panel.resume(checkpoint->panel);
+    share(options.followers, Followers::resume_grains, [&] { panel.resume(checkpoint->panel); });
   }
 
   int RecordedGrains::n_stages() const
@@ -73,12 +71,14 @@ namespace diptych::coupling
       prepare();
     if (!table && panel.report().status == discrete::Status::finished)
       begin_files();
-    for (int stage = panel.stage() + 1; panel.report().status == discrete::Status::finished && stage <= n_stages(); ++stage)
-      {
-        const bool reached = panel.advance_to(stage) == discrete::Status::finished;
-        if (reached || panel.has_snapshot())
-          add_snapshot();
-      }
+    share(options.followers, Followers::load_grains, [this] {
+      for (int stage = panel.stage() + 1; panel.report().status == discrete::Status::finished && stage <= n_stages(); ++stage)
+        {
+          const bool reached = panel.advance_to(stage) == discrete::Status::finished;
+          if (reached || panel.has_snapshot())
+            add_snapshot();
+        }
+    });
     progress.finish(panel.report().status == discrete::Status::finished);
     if (table)
       table->flush();
@@ -114,7 +114,7 @@ namespace diptych::coupling
 
   void RecordedGrains::prepare()
   {
-    (void)panel.prepare(); // its report says how it ended
+    share(options.followers, Followers::prepare_grains, [this] { (void)panel.prepare(); }); // its report says how it ended
     is_prepared = true;
   }
 

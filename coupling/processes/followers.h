@@ -14,21 +14,45 @@ namespace diptych::coupling
     enum Task
     {
       end,
-      grains,
-      rest_of_grains, // from the checkpoint in the folder
-      continuum,
-      next_continuum // beside an earlier one
+      prepare_grains,
+      resume_grains, // from the checkpoint in the folder
+      load_grains,
+      run_continuum,
+      run_next_continuum // beside an earlier one
     };
 
     explicit Followers(discrete::Processes &processes)
         : processes(processes)
     {}
-    ~Followers() { start(end); }
+    ~Followers()
+    {
+      if (!is_busy)
+        (void)processes.of_first(end);
+    }
     Followers(const Followers &)            = delete;
     Followers &operator=(const Followers &) = delete;
 
-    void start(const Task task) { (void)processes.of_first(task); }
+    // The others do it, too. What only this process throws ends the job, because they wait for it in the middle of the task.
+    template <class Work> void share(const Task task, const Work &work)
+    {
+      (void)processes.of_first(task);
+      is_busy = true;
+      work();
+      is_busy = false;
+    }
 
     discrete::Processes &processes;
+
+  private:
+    bool is_busy = false;
   };
+
+  // `followers`: null without an MPI job.
+  template <class Work> void share(Followers *followers, const Followers::Task task, const Work &work)
+  {
+    if (followers)
+      followers->share(task, work);
+    else
+      work();
+  }
 } // namespace diptych::coupling

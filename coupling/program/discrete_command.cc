@@ -268,16 +268,19 @@ namespace diptych::coupling
     return say_how_it_ended(line, scene, report);
   }
 
-  void follow_grains(const Scene &scene, discrete::Processes &processes, const bool resumes)
+  void FollowedGrains::follow(const Followers::Task task)
   {
-    discrete::Panel panel(scene.sample, discrete_loading(scene.loading), scene.discrete, shared_hooks(processes));
-    if (resumes)
-      panel.resume(interrupted_grains(scene.output.directory, text_of(sample_identity(scene))).value().panel);
-    else
-      (void)panel.prepare();
+    if (task == Followers::prepare_grains || task == Followers::resume_grains)
+      panel.emplace(scene.sample, discrete_loading(scene.loading), scene.discrete, shared_hooks(processes));
+    if (task == Followers::prepare_grains)
+      (void)panel->prepare();
+    if (task == Followers::resume_grains)
+      panel->resume(interrupted_grains(scene.output.directory, text_of(sample_identity(scene))).value().panel);
+    if (task != Followers::load_grains)
+      return;
     const int n_stages = int(stages(scene.loading).size());
-    for (int stage = panel.stage() + 1; panel.report().status == discrete::Status::finished && stage <= n_stages; ++stage)
-      (void)panel.advance_to(stage);
+    for (int stage = panel->stage() + 1; panel->report().status == discrete::Status::finished && stage <= n_stages; ++stage)
+      (void)panel->advance_to(stage);
   }
 
   int run_discrete(const CommandLine &line, const Scene &scene)

@@ -20,7 +20,14 @@ namespace diptych::coupling
                      std::optional<DiscreteResults> *results = nullptr);
 
   // What the other processes of an MPI job do meanwhile: the same, without files.
-  void follow_grains(const Scene &scene, discrete::Processes &processes, bool resumes);
+  struct FollowedGrains
+  {
+    const Scene                   &scene;
+    discrete::Processes           &processes;
+    std::optional<discrete::Panel> panel = {};
+
+    void follow(Followers::Task task); // of the grains
+  };
 
   // True, and says so, if the folder holds the finished `part` of the scene and no option asks for it again.
   bool is_held(const CommandLine &line, const Scene &scene, const std::string &part, bool (ResultFolder::*holds)() const);

@@ -40,13 +40,15 @@ namespace
         line.followers = &followers;
         return line.command == Command::run ? run_both(line, scene) : run_discrete(line, scene);
       }
+    FollowedGrains grains{scene, processes};
     for (int task = processes.of_first(0); task != Followers::end; task = processes.of_first(0))
-      if (task == Followers::grains || task == Followers::rest_of_grains)
-        follow_grains(scene, processes, task == Followers::rest_of_grains);
+      if (task < Followers::run_continuum)
+        grains.follow(Followers::Task(task));
       else
         {
           const std::string &directory = scene.output.directory;
-          (void)continuum_beside_grains(line, scene, task == Followers::continuum ? directory : next_continuum(directory), {});
+          (void)continuum_beside_grains(line, scene, task == Followers::run_continuum ? directory : next_continuum(directory),
+                                        {});
         }
     return done;
   }

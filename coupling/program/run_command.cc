@@ -84,9 +84,10 @@ namespace diptych::coupling
         ContinuumRun       continuum;
         ContinuumTask      task;
         task.results = &continuum;
-        if (line.followers)
-          line.followers->start(folder == directory ? Followers::continuum : Followers::next_continuum);
-        if (const int code = continuum_beside_grains(line, scene, folder, task); code != done)
+        int code     = done;
+        share(line.followers, folder == directory ? Followers::run_continuum : Followers::run_next_continuum,
+              [&] { code = continuum_beside_grains(line, scene, folder, task); });
+        if (code != done)
           return code;
         return compare_and_report(line, scene, results_of(scene, folder, grains, continuum),
                                   folder == directory ? next_comparison(directory) : folder);
