@@ -29,7 +29,7 @@ case "$preset" in
   sanitize) targets=(discrete_tests coupling_tests coupling_panel_tests)
             select+=(-R '^(discrete|coupling|coupling_panels)[.]') ;;
   thread) targets=(discrete_tests diptych)
-          select+=(-R '^discrete[.](Solvers|StalledContacts|ManyPanels)$') ;;
+          select+=(-R '^discrete[.](Solvers|Processes|StalledContacts|ManyPanels)$') ;;
   fuzz) targets=(fuzz_scene fuzz_table fuzz_problem)
         packages+=(clang) ;;
 esac

@@ -5,6 +5,8 @@
 
 With PROGRAM it loads every sample by all settings in turn, so that the CPU times compare, and stores envelope.csv; runs
 in DIR are kept. The error of a setting is its bias against the limit of short steps on the same samples (order.csv).
+Two levels: many samples at accuracy 0.05 and some again at a finer one, with the cost of a mean as sharp as that of the
+finer level alone.
 Needs what order.py needs, and lmp."""
 import argparse
 import os
@@ -18,20 +20,22 @@ STORED = os.path.join(order.HERE, "envelope.csv")
 # Stiffness kn/P and step over sqrt(m_min/kn) of explicit springs; kn/P and discrete/accuracy of implicit ones.
 EXPLICIT = [f"{k}/{f}" for k, f in (("1e3", 0.5), ("3.3e3", 0.5), ("3.3e3", 0.7), ("1e4", 0.2), ("1e4", 0.5),
                                     ("1e4", 0.7))]
-METHODS = {"NSCD": [f"accuracy={a}" for a in (0.1, 0.05, 0.02, 0.01)],
+METHODS = {"NSCD": [f"accuracy={a}" for a in (0.1, 0.05, 0.02, 0.01, 0.005)],
            "implicit springs": [f"implicit={k}/{a}" for k in ("1e3", "1e4") for a in (0.1, 0.05, 0.02)],
            "penalty": ["penalty=" + knobs for knobs in EXPLICIT], "LAMMPS": ["lammps=" + knobs for knobs in EXPLICIT]}
-QUANTITIES = {"strength": (0.03, 0.02, 0.01), "dilation": (0.1, 0.05, 0.03)}  # and errors of the table
+COARSE, TWO_LEVELS = "accuracy=0.05", "NSCD, two levels"
+METHODS[TWO_LEVELS] = [point + " with 0.05" for point in METHODS["NSCD"][2:]]
+QUANTITIES = {"strength": (0.03, 0.02, 0.01, 0.005), "dilation": (0.1, 0.05, 0.03)}  # and errors of the table
 TICKS = (0.3, 1, 3, 10)
-LOOKS = {"NSCD": ("#0072B2", "o"), "implicit springs": ("#56B4E9", "D"), "penalty": ("#007A5E", "s"),
-         "LAMMPS": ("#D55E00", "^")}
+LOOKS = {"NSCD": ("#0072B2", "o"), TWO_LEVELS: ("#CC79A7", "v"), "implicit springs": ("#56B4E9", "D"),
+         "penalty": ("#007A5E", "s"), "LAMMPS": ("#D55E00", "^")}
 
 
 def measured(options):
     """Rows of envelope.csv: all points of a sample, then the next one."""
     return pandas.DataFrame([order.load(options, name, point, seed) for name in options.cases
                              for seed in order.CASES[name].seeds[:options.samples]
-                             for points in METHODS.values() for point in points])
+                             for method, points in METHODS.items() if method != TWO_LEVELS for point in points])
 
 
 def table():
@@ -40,11 +44,24 @@ def table():
     return pandas.concat([limit[limit.point.str.startswith("h=")], pandas.read_csv(STORED)])
 
 
+def cost(table, name, quantity, point):
+    """CPU s of a sample. With two levels: of the runs that give the mean the variance that one run of the finer level
+    has, in the best proportion (Giles, Operations Research 56, 2008)."""
+    fine = point.removesuffix(" with 0.05")
+    rows = table[table.case == name].groupby("point").cpu_s.mean()
+    if fine == point:
+        return rows[point]
+    values = order.wide(table, name, quantity, [COARSE, fine])
+    many, pairs = values[COARSE].var(), (values[fine] - values[COARSE]).var()
+    return ((many * rows[COARSE])**0.5 + (pairs * (rows[COARSE] + rows[fine]))**0.5)**2 / values[fine].var()
+
+
 def settings(table, name, quantity, points):
     """[(CPU s, bias, its standard error, point)], cheapest first."""
-    rows = table[table.case == name]
-    return sorted((rows[rows.point == point].cpu_s.mean(), *order.against_limit(table, name, quantity, point), point)
-                  for point in points if (rows.point == point).sum() > 5)
+    runs = table[table.case == name].groupby("point").size()
+    return sorted((cost(table, name, quantity, point),
+                   *order.against_limit(table, name, quantity, point.removesuffix(" with 0.05")), point)
+                  for point in points if runs.get(point.removesuffix(" with 0.05"), 0) > 5)
 
 
 def cheapest(found, error):
@@ -56,7 +73,7 @@ def show(table, names):
     for name in names:
         for quantity, errors in QUANTITIES.items():
             print(f"\n{name}, {quantity}: CPU s of the cheapest setting with an error of at most "
-                  + ", ".join(f"{error:.0%}" for error in errors) + "; its bias +- standard error")
+                  + ", ".join(f"{100 * error:g} %" for error in errors) + "; its bias +- standard error")
             for method, points in METHODS.items():
                 cells = [cheapest(settings(table, name, quantity, points), error) for error in errors]
                 texts = ("-" if one is None else "{0:.2f} ({3}: {1:+.1%} +- {2:.1%})".format(*one) for one in cells)
