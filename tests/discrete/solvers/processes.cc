@@ -30,7 +30,7 @@ namespace
   {
     const Bits alone = bits_of(loaded(sample, loading, options));
     ASSERT_GT(alone.rows.size(), 1u);
-    for (const auto &[processes, threads] : {std::pair{2, 1}, {3, 2}})
+    for (const auto &[processes, threads] : {std::pair{2, 2}, {3, 1}})
       {
         Crew              crew(processes);
         std::vector<Bits> bits(static_cast<std::size_t>(processes));
