@@ -70,9 +70,15 @@ class Processes(SameFiles):
 
     def processes_of(self, job):
         """Their numbers, the first process first."""
-        listed = subprocess.run(["ps", "-o", "pid=", "--ppid", str(job.pid)], capture_output=True, text=True,
-                                check=True)
-        return sorted(int(number) for number in listed.stdout.split())
+        def parent(number):
+            try:
+                with open(f"/proc/{number}/stat", encoding="utf-8") as file:
+                    return int(file.read().rpartition(")")[2].split()[1])
+            except OSError:  # it has ended
+                return 0
+
+        return [number for number in sorted(int(name) for name in os.listdir("/proc") if name.isdigit())
+                if parent(number) == job.pid]
 
     def test_every_number_gives_the_same_files(self):
         self.expect_same_on((2, 2), (3, 1))
