@@ -138,8 +138,10 @@ namespace
       default:
         break;
       }
+#ifdef DIPTYCH_CONTINUUM
     if (n_processes() > 1 && line.command == Command::discrete)
       start_the_panels(argv); // there is MPI
+#endif
     if (n_processes() > 1)
       throw SceneError("mpirun: diptych " + name_of(line.command) + " runs on one process");
     leave_if_stopped(name_of(line.command));
