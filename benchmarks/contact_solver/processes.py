@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """processes.py PROGRAM --output DIR [--grains 64000] [--processes 2] [--set KEY=VALUE]
 
-Prepares and loads a sample of moreau_1997 for three units of time: one process, one with N threads, N processes. The
-files must agree. Prints wall seconds, memory, and a model: processes repeat all work outside the solver, divide that of
-the solver, and wait for messages in every sweep. The last is what the run on N processes took beyond. Needs mpirun."""
+Prepares and loads a sample of moreau_1997 for three units of time: one process, one with N threads, N processes. Their
+histories must agree. Prints wall seconds and memory. In its model, processes repeat all work outside the solver and
+divide the rest. What N processes take beyond that is waiting, printed per sweep. Needs mpirun."""
 import argparse
 import csv
 import filecmp

@@ -5,8 +5,7 @@
 
 With PROGRAM it loads every sample by all settings in turn, so that the CPU times compare, and stores envelope.csv; runs
 in DIR are kept. The error of a setting is its bias against the limit of short steps on the same samples (order.csv).
-Two levels: many samples at accuracy 0.05 and some again at a finer one, with the cost of a mean as sharp as that of the
-finer level alone.
+Two levels are many samples at accuracy 0.05, some of them again at a finer one.
 Needs what order.py needs, and lmp."""
 import argparse
 import os
@@ -24,7 +23,7 @@ METHODS = {"NSCD": [f"accuracy={a}" for a in (0.1, 0.05, 0.02, 0.01, 0.005)],
            "implicit springs": [f"implicit={k}/{a}" for k in ("1e3", "1e4") for a in (0.1, 0.05, 0.02)],
            "penalty": ["penalty=" + knobs for knobs in EXPLICIT], "LAMMPS": ["lammps=" + knobs for knobs in EXPLICIT]}
 COARSE, TWO_LEVELS = "accuracy=0.05", "NSCD, two levels"
-METHODS[TWO_LEVELS] = [point + " with 0.05" for point in METHODS["NSCD"][2:]]
+METHODS[TWO_LEVELS] = METHODS["NSCD"][2:]  # the finer level
 QUANTITIES = {"strength": (0.03, 0.02, 0.01, 0.005), "dilation": (0.1, 0.05, 0.03)}  # and errors of the table
 TICKS = (0.3, 1, 3, 10)
 LOOKS = {"NSCD": ("#0072B2", "o"), TWO_LEVELS: ("#CC79A7", "v"), "implicit springs": ("#56B4E9", "D"),
@@ -44,24 +43,24 @@ def table():
     return pandas.concat([limit[limit.point.str.startswith("h=")], pandas.read_csv(STORED)])
 
 
-def cost(table, name, quantity, point):
-    """CPU s of a sample. With two levels: of the runs that give the mean the variance that one run of the finer level
-    has, in the best proportion (Giles, Operations Research 56, 2008)."""
-    fine = point.removesuffix(" with 0.05")
-    rows = table[table.case == name].groupby("point").cpu_s.mean()
-    if fine == point:
-        return rows[point]
-    values = order.wide(table, name, quantity, [COARSE, fine])
-    many, pairs = values[COARSE].var(), (values[fine] - values[COARSE]).var()
-    return ((many * rows[COARSE])**0.5 + (pairs * (rows[COARSE] + rows[fine]))**0.5)**2 / values[fine].var()
+def cost(table, name, quantity, method, point):
+    """CPU s of a sample. Two levels share their runs in the best proportion (Giles, Operations Research 56, 2008), and
+    their mean has the variance of the finer level alone."""
+    seconds = table[table.case == name].groupby("point").cpu_s.mean()
+    if method != TWO_LEVELS:
+        return seconds[point]
+    values = order.wide(table, name, quantity, [COARSE, point])
+    many, pairs = values[COARSE].var(), (values[point] - values[COARSE]).var()
+    both = seconds[COARSE] + seconds[point]
+    return ((many * seconds[COARSE])**0.5 + (pairs * both)**0.5)**2 / values[point].var()
 
 
-def settings(table, name, quantity, points):
+def settings(table, name, quantity, method):
     """[(CPU s, bias, its standard error, point)], cheapest first."""
     runs = table[table.case == name].groupby("point").size()
-    return sorted((cost(table, name, quantity, point),
-                   *order.against_limit(table, name, quantity, point.removesuffix(" with 0.05")), point)
-                  for point in points if runs.get(point.removesuffix(" with 0.05"), 0) > 5)
+    return sorted((cost(table, name, quantity, method, point),
+                   *order.against_limit(table, name, quantity, point), point)
+                  for point in METHODS[method] if runs.get(point, 0) > 5)
 
 
 def cheapest(found, error):
@@ -74,8 +73,8 @@ def show(table, names):
         for quantity, errors in QUANTITIES.items():
             print(f"\n{name}, {quantity}: CPU s of the cheapest setting with an error of at most "
                   + ", ".join(f"{100 * error:g} %" for error in errors) + "; its bias +- standard error")
-            for method, points in METHODS.items():
-                cells = [cheapest(settings(table, name, quantity, points), error) for error in errors]
+            for method in METHODS:
+                cells = [cheapest(settings(table, name, quantity, method), error) for error in errors]
                 texts = ("-" if one is None else "{0:.2f} ({3}: {1:+.1%} +- {2:.1%})".format(*one) for one in cells)
                 print(f"  {method:17}", *texts, sep=" | ")
 
@@ -87,8 +86,8 @@ def draw(table, names, path):
     figure, grid = pyplot.subplots(len(names), 2, figsize=(10, 4.2 * len(names)), layout="constrained", squeeze=False)
     for row, name in zip(grid, names):
         for axes, quantity in zip(row, QUANTITIES):
-            for method, points in METHODS.items():
-                found = settings(table, name, quantity, points)
+            for method in METHODS:
+                found = settings(table, name, quantity, method)
                 if not found:
                     continue
                 cost, bias, error = (numpy.array(column) for column in list(zip(*found))[:3])

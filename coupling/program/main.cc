@@ -34,6 +34,7 @@ namespace
   using namespace diptych::coupling;
 
 #ifdef DIPTYCH_CONTINUUM
+  constexpr bool                                 has_panels   = true;
   const std::vector<std::function<ResultList()>> result_lists = {discrete_result_entries, comparison_result_entries,
                                                                  python_result_entries};
 
@@ -76,6 +77,7 @@ namespace
     throw std::runtime_error(name + " is not beside " + own_path() + "; the installation is broken");
   }
 #else
+  constexpr bool                                 has_panels   = false;
   const std::vector<std::function<ResultList()>> result_lists = {discrete_result_entries, python_result_entries};
 
   [[noreturn]] void refuse_without_continuum(const std::string &command)
@@ -128,6 +130,11 @@ namespace
 
   int execute_command(const CommandLine &line, char **argv)
   {
+    const bool is_shared = has_panels && (line.command == Command::run || line.command == Command::discrete ||
+                                          line.command == Command::continuum);
+    if (n_processes() > 1 && !is_shared)
+      throw SceneError("mpirun: diptych " + name_of(line.command) +
+                       " runs on one process; several share `run`, `discrete`, `continuum`, `study` and `calibrate`");
     switch (line.command)
       {
       case Command::run:
@@ -138,12 +145,8 @@ namespace
       default:
         break;
       }
-#ifdef DIPTYCH_CONTINUUM
-    if (n_processes() > 1 && line.command == Command::discrete)
-      start_the_panels(argv); // there is MPI
-#endif
     if (n_processes() > 1)
-      throw SceneError("mpirun: diptych " + name_of(line.command) + " runs on one process");
+      start_the_panels(argv); // there is MPI
     leave_if_stopped(name_of(line.command));
     switch (line.command)
       {

@@ -16,13 +16,13 @@
 namespace
 {
   using namespace diptych::coupling;
-  using diptych::discrete::Processes;
+  namespace discrete = diptych::discrete;
 
   // Blocks of fewer grains are not cut.
   void require_work_for(const int n_processes, const Scene &scene)
   {
-    constexpr int least = 1000, most = 64; // grains a process, processes
-    const int     useful = std::clamp(scene.sample.grains / least, 1, most);
+    constexpr int least  = discrete::rows_of_a_block / 2; // dense grains have about two contacts each
+    const int     useful = std::clamp(scene.sample.grains / least, 1, discrete::most_blocks);
     if (scene.sample.file.empty() && n_processes > useful)
       throw SceneError("mpirun -np " + std::to_string(n_processes) + ": a sample of " + std::to_string(scene.sample.grains) +
                        " grains is shared by at most " + std::to_string(useful) + " processes, one per " + std::to_string(least) +
@@ -32,7 +32,7 @@ namespace
   // The first process runs the command, and the others do the part of its work that they share.
   int run_together(CommandLine line, const Scene &scene)
   {
-    Processes &processes = mpi_processes();
+    discrete::Processes &processes = mpi_processes();
     require_work_for(processes.size(), scene);
     if (is_first_process())
       {
@@ -56,8 +56,6 @@ namespace
   int execute(const CommandLine &line)
   {
     const bool has_grains = line.command == Command::discrete || line.command == Command::run;
-    if (n_processes() > 1 && !has_grains && line.command != Command::continuum)
-      throw SceneError("mpirun: diptych " + name_of(line.command) + " runs on one process");
     if (any_process(stop_requested()))
       throw StoppedOnRequest(name_of(line.command) + ": stopped on request");
     if (n_processes() > 1 && has_grains && !line.checks_only)

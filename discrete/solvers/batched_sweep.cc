@@ -47,7 +47,6 @@ namespace diptych::discrete
         batch_of_(problem.free_velocity.size(), -2),
         processes_(processes)
   {
-    constexpr int     rows_of_a_block = 2000, most_blocks = 64;
     std::vector<Ends> rows;
     std::vector<bool> is_held(problem.contacts.size(), false);
     for (const int row : held)

@@ -124,10 +124,10 @@ namespace diptych::discrete
     std::vector<char>         is_idle_;                                 // rows that count as open
     bool                      has_couples_ = false, has_terms_ = false; // of any row
 
-    Processes    &processes_;
-    Border        lower_, upper_; // of this process
-    SharedEntries parts_;         // blocks, then gaps, of each process; empty for a single one, like the next
-    SharedEntries rows_, bodies_; // of these parts
-    SharedEntries rest_bodies_;   // those in rows taken one by one
+    Processes &processes_;
+    Border     lower_, upper_; // of this process
+    // What each process sweeps: parts (blocks, then gaps), their rows and bodies, and bodies of rows taken one by one. Empty for
+    // a single process.
+    SharedEntries parts_, rows_, bodies_, rest_bodies_;
   };
 } // namespace diptych::discrete

@@ -53,9 +53,8 @@ namespace diptych::discrete
   void BatchedContacts::divide()
   {
     require_agreement(problem_, processes_);
-    const std::size_t         n_processes = std::size_t(processes_.size());
-    std::vector<int>          owner(problem_.free_velocity.size(), -1), rest_owner = owner;
-    std::vector<const Part *> parts;
+    const std::size_t n_processes = std::size_t(processes_.size());
+    std::vector<int>  owner(problem_.free_velocity.size(), -1);
     for (SharedEntries *shared : {&parts_, &rows_, &bodies_, &rest_bodies_})
       shared->entries.resize(n_processes);
     const auto take = [&](const Part &part, const int number, const int process) {

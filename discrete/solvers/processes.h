@@ -10,8 +10,11 @@
 
 namespace diptych::discrete
 {
+  // Contacts of a block of the solver, and the most blocks of a problem. More processes than blocks have no work.
+  inline constexpr int rows_of_a_block = 2000, most_blocks = 64;
+
   // Every process runs the same program on the same data and computes the same bits. Only the sweeps are shared
-  // (batched_sweep.h). This class is a single process; one for MPI is in coupling/processes.
+  // (batched_sweep.h). This class is a single process; one for MPI is in coupling/panels.
   class Processes
   {
   public:

@@ -58,7 +58,6 @@ class Reference(SameFiles):
 
 @unittest.skipUnless(shutil.which("mpirun"), "mpirun is not installed (openmpi-bin)")
 class Processes(SameFiles):
-
     def started_on_two(self, reached, *words):
         """A job that has written that file."""
         job = subprocess.Popen(together(2, "discrete", QUICK, *GRAINS, *words, "--output", self.folder, "--quiet"),
@@ -114,7 +113,7 @@ class Processes(SameFiles):
         self.assertEqual(result.returncode, 2, result.stderr)
         self.assertEqual(result.stderr.count("at most 3 processes"), 1)
         self.assertFalse(os.path.exists(self.folder))
-        self.on(2)
+        self.assertEqual(self.on(2).returncode, 0)
         before = os.stat(self.path("discrete.csv"))
         held = self.on(2)
         self.assertEqual(held.returncode, 0, held.stderr)
