@@ -137,22 +137,26 @@ namespace diptych::discrete
     std::sort(pairs_.begin(), pairs_.end(), [](const Pair &a, const Pair &b) { return a.i != b.i ? a.i < b.i : a.j < b.j; });
   }
 
-  std::vector<Contact> NeighbourList::find_contacts(const State                 &state,
-                                                    const std::vector<double>   &margin,
-                                                    const std::function<bool()> &go_on)
+  const std::vector<NeighbourList::Pair> &NeighbourList::near_pairs(const State                 &state,
+                                                                    const std::vector<double>   &margin,
+                                                                    const std::function<bool()> &go_on)
   {
-    const Grains        &g = state.grains;
-    std::vector<Contact> contacts;
-    if (g.size() == 0)
-      return contacts;
-    if (!covers(state, margin))
+    if (state.grains.size() > 0 && !covers(state, margin))
       build(state, margin, go_on);
-    contacts.reserve(pairs_.size());
-    const int         n = int(g.size());
+    return pairs_;
+  }
+
+  std::vector<Contact> NeighbourList::find_contacts(const State &state, const std::vector<double> &margin)
+  {
+    const Grains            &g     = state.grains;
+    const int                n     = int(g.size());
+    const std::vector<Pair> &pairs = near_pairs(state, margin);
+    std::vector<Contact>     contacts;
+    contacts.reserve(pairs.size());
     std::vector<Disc> disc(n);
     for (int i = 0; i < n; ++i)
       disc[i] = {g.position[i], g.radius[i], margin[i]};
-    for (const Pair &pair : pairs_)
+    for (const Pair &pair : pairs)
       {
         const Disc &a = disc[pair.i];
         if (pair.j >= n)

@@ -25,20 +25,24 @@ namespace diptych::discrete
   class NeighbourList
   {
   public:
-    // Returns all pairs with a gap below the sum of their margins, ascending in (i, j). `margin` [length] has one entry per
-    // grain; walls have none. Pairs of two immovable bodies are left out, and pairs of a platen grain with anything but a free
-    // grain. The list is rebuilt, in O(n), if margin + motion of a grain exceed its reach. If `go_on`, called during a rebuild,
-    // returns false, the result is empty. Throws std::invalid_argument if a periodic cell is narrower than four times the reach
-    // of a grain, in a lattice if its parallelogram is.
-    std::vector<Contact> find_contacts(const State                 &state,
-                                       const std::vector<double>   &margin,
-                                       const std::function<bool()> &go_on = {});
-
-  private:
     struct Pair
     {
-      int i, j;
+      int i, j; // as in Contact
     };
+
+    // All pairs with a gap below the sum of their margins, and some others, ascending in (i, j). `margin` [length] has one entry
+    // per grain; walls have none. Pairs of two immovable bodies are left out, and pairs of a platen grain with anything but a
+    // free grain. The list is rebuilt, in O(n), if margin + motion of a grain exceed its reach. If `go_on`, called during a
+    // rebuild, returns false, the result is empty. Throws std::invalid_argument if a periodic cell is narrower than four times
+    // the reach of a grain, in a lattice if its parallelogram is.
+    const std::vector<Pair> &near_pairs(const State                 &state,
+                                        const std::vector<double>   &margin,
+                                        const std::function<bool()> &go_on = {});
+
+    // Only those with a gap below the sum of their margins.
+    std::vector<Contact> find_contacts(const State &state, const std::vector<double> &margin);
+
+  private:
     bool covers(const State &state, const std::vector<double> &margin) const;
     void build(const State &state, const std::vector<double> &margin, const std::function<bool()> &go_on);
 

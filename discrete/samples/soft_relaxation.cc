@@ -13,25 +13,50 @@ namespace diptych::discrete
   {
     using Vectors = std::vector<Eigen::Vector2d>;
 
-    double contact_forces(const std::vector<Contact> &contacts, Vectors &force)
+    // Most pairs in a list are.
+    bool are_apart(const State &state, const int i, const int j)
     {
-      double largest = 0;
+      const Grains         &g      = state.grains;
+      const Eigen::Vector2d branch = g.position[i] - g.position[j] - nearest_image(state, g.position[i], g.position[j]).shift;
+      const double          reach  = g.radius[i] + g.radius[j];
+      return branch.squaredNorm() >= reach * reach;
+    }
+
+    // Returns the largest overlap [length]. Two bodies repel each other by their overlap.
+    double contact_forces(const State &state, const std::vector<NeighbourList::Pair> &pairs, Vectors &force)
+    {
+      const int n       = int(state.grains.size());
+      double    largest = 0;
       std::fill(force.begin(), force.end(), Eigen::Vector2d::Zero());
-      for (const Contact &c : contacts)
+      for (const auto &[i, j] : pairs)
         {
+          if (j < n && are_apart(state, i, j))
+            continue;
+          const Contact c = make_contact(state, i, j);
+          if (c.gap >= 0)
+            continue;
           largest = std::max(largest, -c.gap);
-          force[c.i] -= c.gap * c.normal;
-          if (std::size_t(c.j) < force.size())
-            force[c.j] += c.gap * c.normal;
+          force[i] -= c.gap * c.normal;
+          if (j < n)
+            force[j] += c.gap * c.normal;
         }
       return largest;
     }
 
-    double dot(const Vectors &a, const Vectors &b)
+    struct Products
     {
-      double sum = 0;
-      for (std::size_t i = 0; i < a.size(); ++i)
-        sum += a[i].dot(b[i]);
+      double power = 0, velocity_squared = 0, force_squared = 0;
+    };
+
+    Products products(const Vectors &force, const Vectors &velocity)
+    {
+      Products sum;
+      for (std::size_t i = 0; i < force.size(); ++i)
+        {
+          sum.power += force[i].dot(velocity[i]);
+          sum.velocity_squared += velocity[i].squaredNorm();
+          sum.force_squared += force[i].squaredNorm();
+        }
       return sum;
     }
   } // namespace
@@ -61,18 +86,18 @@ namespace diptych::discrete
       {
         if (!goes_on())
           break;
-        const std::vector<Contact> contacts = neighbours.find_contacts(state, no_margin, goes_on);
+        const std::vector<NeighbourList::Pair> &pairs = neighbours.near_pairs(state, no_margin, goes_on);
         if (report.stopped)
           break;
-        report.largest_overlap = contact_forces(contacts, force);
+        report.largest_overlap = contact_forces(state, pairs, force);
         if (report.largest_overlap < largest_overlap)
           break;
-        const double power = dot(force, velocity);
-        if (power > 0)
+        const Products sum  = products(force, velocity);
+        double         kept = 0, turned = 0; // factors of velocity and force
+        if (sum.power > 0)
           {
-            const double ratio = std::sqrt(dot(velocity, velocity) / dot(force, force));
-            for (std::size_t i = 0; i < g.size(); ++i)
-              velocity[i] = (1 - mixing) * velocity[i] + mixing * ratio * force[i];
+            kept   = 1 - mixing;
+            turned = mixing * std::sqrt(sum.velocity_squared / sum.force_squared);
             if (++downhill > patience)
               {
                 step = std::min(largest_step, grow * step);
@@ -81,14 +106,13 @@ namespace diptych::discrete
           }
         else
           {
-            std::fill(velocity.begin(), velocity.end(), Eigen::Vector2d::Zero());
             step *= shrink;
             mixing   = mixing_start;
             downhill = 0;
           }
         for (std::size_t i = 0; i < g.size(); ++i)
           {
-            velocity[i] += step * force[i];
+            velocity[i] = kept * velocity[i] + turned * force[i] + step * force[i];
             g.position[i] += step * velocity[i];
           }
       }

@@ -103,7 +103,7 @@ namespace
     const std::vector<double> margin(20000, 0.05);
     NeighbourList             neighbours;
     int                       asked = 0;
-    EXPECT_TRUE(neighbours.find_contacts(state, margin, [&] { return ++asked < 3; }).empty());
+    EXPECT_TRUE(neighbours.near_pairs(state, margin, [&] { return ++asked < 3; }).empty());
     EXPECT_EQ(asked, 3);
     EXPECT_EQ(neighbours.find_contacts(state, margin).size(), find_contacts(state, margin).size())
       << "an incomplete list was kept";
