@@ -19,6 +19,9 @@ namespace diptych::discrete
 {
   namespace
   {
+    // Above this number of grains forces have far to go, and neighbours should be near in memory.
+    constexpr double large_sample = 10000;
+
     // The standard fixes the generator, but std::uniform_real_distribution may differ between libraries.
     double uniform(std::mt19937_64 &random)
     {
@@ -128,10 +131,9 @@ namespace diptych::discrete
                            const std::shared_ptr<ThreadTeam>   &team,
                            const std::function<bool(int, int)> &progress)
     {
-      // Forces have further to go in a large sample.
-      const double       longer = options.preparation_step ? 1 : std::sqrt(std::max(1., double(start.grains.size()) / 10000));
-      const int          steps  = std::max(1, int(std::lround(options.preparation_steps / longer)));
-      PreparedSample     sample{std::move(start), {}, setting.step, {}};
+      const double   longer = options.preparation_step ? 1 : std::sqrt(std::max(1., double(start.grains.size()) / large_sample));
+      const int      steps  = std::max(1, int(std::lround(options.preparation_steps / longer)));
+      PreparedSample sample{std::move(start), {}, setting.step, {}};
       PreparationReport &report     = sample.report;
       report.friction               = setting.law.friction;
       setting.solver.stop_requested = [&] { return !progress(report.steps, std::max(report.steps, steps)); };
@@ -173,8 +175,10 @@ namespace diptych::discrete
                                          const double                         friction,
                                          const std::function<bool(int, int)> &progress)
     {
-      const auto             go_on = [&] { return progress(0, options.preparation_steps); };
-      State                  state = random_box(options, preparation.lateral);
+      const auto go_on = [&] { return progress(0, options.preparation_steps); };
+      State      state = random_box(options, preparation.lateral);
+      if (double(state.grains.size()) > large_sample)
+        state = numbered_upward(state);
       const RelaxationReport loose = relax_soft_discs(state, 1e-3 * options.mean_diameter, 4000, go_on);
       PreparedSample         sample;
       if (loose.stopped)
