@@ -36,6 +36,7 @@ namespace diptych::discrete
       visit("scalars/sweeps", r.sweeps);
       visit("scalars/updates", r.updates);
       visit("scalars/preparation_cpu_s", r.preparation_cpu_s);
+      visit("scalars/preparation_wall_s", r.preparation_wall_s);
       visit("scalars/loading_cpu_s", r.loading_cpu_s);
       visit("scalars/solver_cpu_s", r.solver_cpu_s);
       visit("scalars/preparation_quiet", r.preparation.quiet);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/panel/panel.h"
 
+#include <chrono>
 #include <cmath>
 #include <ctime>
 #include <stdexcept>
@@ -55,6 +56,7 @@ namespace diptych::discrete
     bool prepare()
     {
       const double start  = cpu_seconds();
+      const auto   clock  = std::chrono::steady_clock::now();
       Report      &report = now.report;
       const auto   go_on  = [&](const int step, const int expected) {
         show_progress("preparing the sample", std::min(1., double(step) / expected));
@@ -69,9 +71,10 @@ namespace diptych::discrete
       report.preparation = prepared.report;
       const bool ready   = (prepared.report.quiet || fail(unrest_text(report.preparation))) &&
                          (!presses(prepared) || press(prepared));
-      report.preparation_cpu_s = cpu_seconds() - start;
-      report.initial_height    = sample_height(now.state);
-      report.platen_speed      = loading_.mode == LoadingMode::time ? 0 : rate_ * report.initial_height;
+      report.preparation_cpu_s  = cpu_seconds() - start;
+      report.preparation_wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+      report.initial_height     = sample_height(now.state);
+      report.platen_speed       = loading_.mode == LoadingMode::time ? 0 : rate_ * report.initial_height;
       if (!ready)
         return false;
       now.step = prepared.step; // length of the step that the impulses belong to

@@ -33,7 +33,7 @@ namespace diptych::discrete
     ExpectedErrors    expected;                                             // due to step and tolerance; largest of all stages
     double            expected_dilation_error = 0;
     long              steps = 0, sweeps = 0, updates = 0; // of the loading; one update = one contact in one sweep
-    double            preparation_cpu_s = 0, loading_cpu_s = 0, solver_cpu_s = 0;
+    double            preparation_cpu_s = 0, preparation_wall_s = 0, loading_cpu_s = 0, solver_cpu_s = 0;
     double            ns_per_update = 0, solver_share_of_cpu = 0; // of the loading
     double            initial_height = 0, platen_speed = 0;       // speed: strain rate x height
 
