@@ -48,6 +48,11 @@ namespace diptych::coupling
   };
 
   // `followers`: null without an MPI job.
+  inline int number_of_processes(const Followers *followers)
+  {
+    return followers ? followers->processes.size() : 1;
+  }
+
   template <class Work> void share(Followers *followers, const Followers::Task task, const Work &work)
   {
     if (followers)

@@ -152,11 +152,6 @@ namespace diptych::coupling
       return out.str() + "\n";
     }
 
-    int n_processes(const CommandLine &line)
-    {
-      return line.followers ? line.followers->processes.size() : 1;
-    }
-
     void record(const CommandLine      &line,
                 const Scene            &scene,
                 const discrete::Report &report,
@@ -166,7 +161,7 @@ namespace diptych::coupling
       PhaseCost preparation = loading;
       preparation.name      = "preparation";
       preparation.cpu_s     = report.preparation_cpu_s;
-      preparation.wall_s    = report.preparation_cpu_s / n_processes(line);
+      preparation.wall_s    = report.preparation_wall_s;
       if (!prepared_before)
         {
           loading.cpu_s -= preparation.cpu_s;
@@ -251,7 +246,7 @@ namespace diptych::coupling
     report.warnings              = doubts(rows, report, scene);
     PhaseCost loading            = timer.stop();
     for (double *cpu_s : {&loading.cpu_s, &report.preparation_cpu_s})
-      *cpu_s *= n_processes(line); // all take the same time
+      *cpu_s *= number_of_processes(line.followers); // all take the same time
     record(line, scene, report, checkpoint ? with_earlier_sessions(directory, loading) : loading, before);
     say_result(line, scene, rows);
     recorded.warnings += reference_text(report);
@@ -289,7 +284,7 @@ namespace diptych::coupling
       (void)load_imported(scene);
     if (is_held(line, scene, "grains", &ResultFolder::holds_finished_grains))
       return done;
-    announce_resources(line, scene, {true, false});
+    announce_resources(line, scene, {true, false, 1, number_of_processes(line.followers)});
     return writing(scene.output.directory, [&](FolderLock &lock) {
       std::unique_ptr<RecordedGrains> prepared;
       ResultFolder(scene).open(lock, opening_of(line), [&](const SceneChanges &) {

@@ -56,8 +56,10 @@ namespace diptych::coupling
     for (std::size_t k = 0; parts.continuum && k < loading.stages.size(); before = loading.stages[k++])
       load_steps += std::ceil((loading.stages[k] - before) / scene.continuum.max_step - 1e-9);
 
-    const double bodies = (parts.grains ? grains : 0) + elements, n = parts.samples;
-    const double cpu_s  = n * (grains * ((springs ? 1.8e-3 : 6e-4) + steps * (springs ? 2.5e-7 : 2e-6)) +
+    // Other processes repeat what is not a sweep: two thirds of the preparation, and a tenth of the loading.
+    const double bodies = (parts.grains ? grains : 0) + elements, n = parts.samples, others = parts.processes - 1;
+    const double cpu_s  = n * (grains * ((springs ? 1.8e-3 : 6e-4) * (1 + 0.67 * others) +
+                                        steps * (springs ? 2.5e-7 : 2e-6) * (1 + (springs ? 1 : 0.1) * others)) +
                               load_steps * elements * 9e-5);
     const double memory = 4e3 * grains + 4e4 * elements + 3.3e3 * rows;
     const double disk   = 2e6 + n * (2e3 * bodies * double(loading.stages.size() + 1) + 1.2e3 * rows);
@@ -67,11 +69,11 @@ namespace diptych::coupling
                                        std::pair{load_steps, " load steps"}})
       if (number > 0)
         counts.push_back(std::to_string(std::lround(std::min(std::ceil(number), 1e15))) + name);
-    return {memory, disk,
+    return {memory, disk, cpu_s,
             (n > 1 ? std::to_string(parts.samples) + " samples, each of " : "") +
               (counts.empty() ? "size unknown before its files are read" : discrete::listed(counts)) + "; about " +
-              bytes(memory) + " of memory, " + bytes(disk) + " of files, " + duration_text(cpu_s / 2) + " to " +
-              duration_text(2 * cpu_s) + " of CPU time"};
+              bytes(memory) + " of memory" + (others > 0 ? " on each of " + std::to_string(parts.processes) + " processes" : "") +
+              ", " + bytes(disk) + " of files, " + duration_text(cpu_s / 2) + " to " + duration_text(2 * cpu_s) + " of CPU time"};
   }
 
   void announce_resources(const CommandLine &line, const Scene &scene, const RunParts &parts)

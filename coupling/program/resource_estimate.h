@@ -10,13 +10,15 @@ namespace diptych::coupling
   struct RunParts
   {
     bool grains = false, continuum = false;
-    int  samples = 1; // of an ensemble: files and time count for all samples, memory for one
+    int  samples   = 1; // of an ensemble: files and time count for all samples, memory for one
+    int  processes = 1; // of each sample: time counts for all processes, memory for one
   };
 
   // Without the sizes of samples and meshes from files. With refinement = adaptive for the first mesh.
   struct ResourceEstimate
   {
     double      memory = 0, disk = 0; // [bytes]
+    double      cpu_s = 0;            // of all processes and samples
     std::string text; // "2000 grains, 647 steps; about 10.1 MB of memory, 30.8 MB of files, 3 s to 12 s of CPU time"
   };
   ResourceEstimate estimate_resources(const Scene &scene, const RunParts &parts);

@@ -64,7 +64,7 @@ namespace diptych::coupling
     return writing(scene.output.directory, [&](FolderLock &lock) {
       std::unique_ptr<RecordedGrains> prepared;
       const SceneChanges              changes = ResultFolder(scene).open(lock, opening_of(line), [&](const SceneChanges &found) {
-        announce_resources(line, scene, {true, true});
+        announce_resources(line, scene, {true, true, 1, number_of_processes(line.followers)});
         if (line.resume)
           check_earlier_grains(scene.output.directory, text_of(sample_identity(scene)));
         if (line.resume && found.continuum.empty())

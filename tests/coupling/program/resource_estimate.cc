@@ -36,6 +36,16 @@ namespace
     EXPECT_LT(estimate_resources(small, {true, false}).memory, one.memory);
   }
 
+  TEST(ResourceEstimate, ProcessesRepeatAPartOfTheWork)
+  {
+    const Scene            scene = scene_of(100000);
+    const ResourceEstimate one = estimate_resources(scene, {true, false}), two = estimate_resources(scene, {true, false, 1, 2});
+    EXPECT_EQ(two.memory, one.memory);
+    EXPECT_GT(two.cpu_s, one.cpu_s);
+    EXPECT_LT(two.cpu_s, 2 * one.cpu_s);
+    diptych::tests::expect_words(two.text, {" of memory on each of 2 processes, "});
+  }
+
   TEST(ResourceEstimate, OnlyARunThatFitsNoMachineIsRefused)
   {
     EXPECT_NO_THROW(announce_resources(quiet(), scene_of(2000), {true, true}));
