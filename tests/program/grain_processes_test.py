@@ -1,6 +1,7 @@
 # diptych: one sample of grains on several processes
 # SPDX-License-Identifier: LGPL-2.1-or-later
 import os
+import resource
 import shutil
 import signal
 import subprocess
@@ -107,6 +108,13 @@ class Processes(SameFiles):
         _, errors = job.communicate(timeout=1500)
         self.assertEqual(job.returncode, 4, errors)
         self.assertIn(self.folder, errors)
+
+    def test_a_full_disk_ends_all(self):
+        job = self.started_on_two("discrete/stage_0001.vtu")
+        resource.prlimit(self.processes_of(job)[0], resource.RLIMIT_FSIZE, (60000, 60000))
+        _, errors = job.communicate(timeout=1500)
+        self.assertEqual(job.returncode, 4, errors)
+        self.assertIn("kept in " + self.folder, errors)
 
     def test_more_than_the_sample_can_use_are_refused_once(self):
         result = self.on(4)
