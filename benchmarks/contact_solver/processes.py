@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # diptych: wall time of one sample on one process, on threads and on several processes
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""processes.py PROGRAM --output DIR [--grains 64000] [--processes 2] [--set KEY=VALUE]
+"""processes.py PROGRAM --output DIR [--grains 64000] [--processes 2,4] [--set KEY=VALUE]
 
-Prepares and loads a sample of moreau_1997 for three units of time: one process, one with N threads, N processes. Their
-histories must agree. Prints wall seconds and memory. In its model, processes repeat all work outside the solver and
-divide the rest. What N processes take beyond that is waiting, printed per sweep. Needs mpirun."""
+Prepares and loads a sample of moreau_1997 for three units of time: on one process, on as many threads as the machine
+has cores, and on each number of processes. Their histories must agree. Prints wall seconds and memory, and those of a
+model: c threads take outside + sweeps / c, and N processes on c cores (N outside + sweeps) / min(N, c), where `outside`
+and `sweeps` are the seconds of one process. What processes take beyond that is waiting, printed per sweep. Needs
+mpirun."""
 import argparse
 import csv
 import filecmp
@@ -37,26 +39,34 @@ def main():
     parser.add_argument("program", type=os.path.abspath)
     parser.add_argument("--output", type=os.path.abspath, required=True)
     parser.add_argument("--grains", type=int, default=64000)
-    parser.add_argument("--processes", type=int, default=2)
+    parser.add_argument("--processes", type=lambda text: [int(n) for n in text.split(",")], default=[2])
     parser.add_argument("--set", action="append", default=[])
     options = parser.parse_args()
-    n = options.processes
-    runs = {"one process": run(options, "one", []), f"{n} threads": run(options, "threads", ["--threads", str(n)]),
-            f"{n} processes": run(options, "processes", [], ["mpirun", "--oversubscribe", "-np", str(n)])}
-    for other in ("threads", "processes"):
-        assert filecmp.cmp(*(os.path.join(options.output, name, "discrete.csv") for name in ("one", other)),
-                           shallow=False), f"{other}: other results"
-    print(f"{options.grains} grains: wall seconds of preparation and loading, memory of the first process (MB)")
-    for name, story in runs.items():
-        preparation, loading = (phase_of(story, phase) for phase in ("preparation", "discrete"))
-        print(f"  {name:14} {preparation['wall_s']:8.1f} {loading['wall_s']:8.1f} {loading['peak_memory_mb']:8.0f}")
-    alone, shared = (phase_of(runs[name], "discrete")["wall_s"] for name in ("one process", f"{n} processes"))
-    solver = alone * runs["one process"]["discrete"]["solver_share_of_cpu"]
-    with open(os.path.join(options.output, "one", "discrete.csv"), encoding="utf-8") as file:
+    cores = os.cpu_count()
+    one = run(options, "one", [])
+    stories = {f"{cores} threads": run(options, "threads", ["--threads", str(cores)])}
+    for n in options.processes:
+        stories[f"{n} processes"] = run(options, f"processes_{n}", [], ["mpirun", "--oversubscribe", "-np", str(n)])
+    histories = [os.path.join(options.output, name, "discrete.csv")
+                 for name in ("one", "threads", *(f"processes_{n}" for n in options.processes))]
+    for history in histories[1:]:
+        assert filecmp.cmp(histories[0], history, shallow=False), f"{history}: other results"
+
+    alone = phase_of(one, "discrete")["wall_s"]
+    solver = alone * one["discrete"]["solver_share_of_cpu"]
+    outside = alone - solver
+    with open(histories[0], encoding="utf-8") as file:
         sweeps = sum(int(row["sweeps"]) for row in csv.DictReader(file))
-    waiting = (shared - (alone - solver) - solver / n) / sweeps
-    print(f"  {sweeps} sweeps of {1e6 * solver / sweeps:.0f} us; outside the solver {alone - solver:.1f} s; beyond the "
-          f"model {1e6 * waiting:.0f} us a sweep")
+    print(f"{options.grains} grains: wall seconds of preparation and loading, loading by the model, waiting per sweep "
+          "(us), memory of the first process (MB)")
+    for name, story in {"one process": one, **stories}.items():
+        preparation, loading = (phase_of(story, phase) for phase in ("preparation", "discrete"))
+        n = int(name.split()[0]) if "processes" in name else 1
+        model = outside + solver / cores if "threads" in name else (n * outside + solver) / min(n, cores)
+        waiting = 1e6 * (loading["wall_s"] - model) / sweeps
+        print(f"  {name:14} {preparation['wall_s']:8.1f} {loading['wall_s']:8.1f} {model:8.1f} {waiting:8.0f} "
+              f"{loading['peak_memory_mb']:8.0f}")
+    print(f"  {sweeps} sweeps of {1e6 * solver / sweeps:.0f} us; outside the sweeps {outside:.1f} s")
 
 
 if __name__ == "__main__":
