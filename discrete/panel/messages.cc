@@ -32,7 +32,10 @@ namespace diptych::discrete
     text << ": residual " << report.residual << ", unbalanced force " << report.unbalanced_force;
     if (report.settling_steps > 0)
       text << ", largest overlap " << report.largest_overlap << " mean diameters";
-    text << "; for slender or tiny samples a small sample/preparation_friction helps";
+    if (report.carried_share < least_carried_share)
+      text << ". The grains carry " << report.carried_share << " of loading/pressure: a larger sample/preparation_steps helps";
+    else
+      text << "; for slender or tiny samples a small sample/preparation_friction helps";
     return text.str();
   }
 

@@ -2,27 +2,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include "discrete/panel/panel.h"
 
-#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <stdexcept>
 
 #include "discrete/contacts/internal_moment.h"
 #include "discrete/panel/make_snapshot.h"
 #include "discrete/panel/messages.h"
 #include "discrete/panel/spring_press.h"
+#include "discrete/panel/stopwatch.h"
 #include "discrete/stepping/step_rule.h"
 
 namespace diptych::discrete
 {
-  namespace
-  {
-    double cpu_seconds()
-    {
-      return double(std::clock()) / CLOCKS_PER_SEC;
-    }
-  } // namespace
-
   // A sample during preparation and loading. `now` holds everything that changes; the rest is constant.
   class Panel::Course
   {
@@ -55,10 +46,9 @@ namespace diptych::discrete
     // Returns false if the sample did not come to rest.
     bool prepare()
     {
-      const double start  = cpu_seconds();
-      const auto   clock  = std::chrono::steady_clock::now();
-      Report      &report = now.report;
-      const auto   go_on  = [&](const int step, const int expected) {
+      const Stopwatch watch;
+      Report         &report = now.report;
+      const auto      go_on  = [&](const int step, const int expected) {
         show_progress("preparing the sample", std::min(1., double(step) / expected));
         return !stop_requested();
       };
@@ -71,8 +61,8 @@ namespace diptych::discrete
       report.preparation = prepared.report;
       const bool ready   = (prepared.report.quiet || fail(unrest_text(report.preparation))) &&
                          (!presses(prepared) || press(prepared));
-      report.preparation_cpu_s  = cpu_seconds() - start;
-      report.preparation_wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count();
+      report.preparation_cpu_s  = watch.cpu_s();
+      report.preparation_wall_s = watch.wall_s();
       report.initial_height     = sample_height(now.state);
       report.platen_speed       = loading_.mode == LoadingMode::time ? 0 : rate_ * report.initial_height;
       if (!ready)
@@ -297,10 +287,10 @@ namespace diptych::discrete
 
     void step()
     {
-      constexpr int most_halvings = 3;
-      const double  begin         = cpu_seconds();
-      const bool    done          = advance_by(now.step, penalty() ? 0 : most_halvings);
-      now.report.loading_cpu_s += cpu_seconds() - begin;
+      constexpr int   most_halvings = 3;
+      const Stopwatch watch;
+      const bool      done = advance_by(now.step, penalty() ? 0 : most_halvings);
+      now.report.loading_cpu_s += watch.cpu_s();
       note_costs(now.report);
       const Strains strains   = strains_of(now.state, now.reference);
       now.report.axial_strain = strains.axial;

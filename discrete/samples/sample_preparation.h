@@ -13,6 +13,9 @@ namespace diptych::discrete
   // Largest overlap that may remain between the grains of a prepared sample. [mean diameters]
   inline constexpr double largest_prepared_overlap = 1e-4;
 
+  // Mean pressure of the grains / pressure on the sides. With less the middle of a sample is not loaded yet.
+  inline constexpr double least_carried_share = 0.85;
+
   struct PreparationReport
   {
     bool   quiet    = false;
@@ -23,6 +26,7 @@ namespace diptych::discrete
     int    settling_steps  = 0;                // steps from rest, after `steps`, that removed the overlaps
     double largest_overlap = 0;                // between grains and with walls, at the end [mean diameters]
     double friction        = 0;                // of the preparation
+    double carried_share   = 1;                // measured for more than 62500 grains
     bool   touches         = true;             // false: after `steps` under pressure no contact carries a force
   };
 

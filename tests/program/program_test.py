@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import unittest
 
+import h5py
 import numpy
 
 import browser
@@ -192,6 +193,24 @@ class WideSample(unittest.TestCase):
         # The grains of seed 2 shear like two packs in their last window, see coupling/bands/README.md.
         self.assertIn(zones, ([], [(2, "discrete")]))
         self.assertGreater(n_bands, 9, "there must have been bands to judge")
+
+
+class HugeSample(Folder):
+    """Forces reach the middle of a sample late. Residual and unbalanced force do not tell."""
+
+    def test_the_middle_carries_the_pressure_of_the_sides(self):
+        words = setting(sample_grains=131072, loading_axial_strain=1e-6, loading_stage_strain=1e-6,
+                        comparison_window_edges="0,1e-6", output_report="false")
+        finished("discrete", os.path.join(SOURCE, "benchmarks", "moreau_1997", "scene.prm"), *words, "--output",
+                 self.folder, "--quiet")
+        with h5py.File(self.path("discrete.h5")) as file:
+            grains = file["stage_0000/grains"]
+            place, moments, rattlers = grains["position"][:, :2], grains["internal_moment"][:], grains["rattler"][:]
+        low, size = place.min(axis=0), numpy.ptp(place, axis=0)
+        middle = (abs((place - low) / size - 0.5) < 1 / 6).all(axis=1)
+        pressure = numpy.trace(moments[middle], axis1=1, axis2=2).sum() / 2 / (size.prod() / 9)
+        self.assertLess(abs(pressure - 0.95), 0.1)
+        self.assertLess(rattlers.mean(), 0.06)
 
 
 class CommandLine(Folder):
