@@ -304,7 +304,7 @@ def test_run_is_the_command_and_can_be_stopped(tmp_path, monkeypatch):
                         lambda *words, **ways: (begin(*words, **ways), os.kill(os.getpid(), signal.SIGTERM))[0])
         diptych.run(SMALL, "out")
     threading.Thread(target=stop).start()
-    with pytest.raises(diptych.Stopped, match="--resume"):
+    with pytest.raises(diptych.Stopped, match="kept in out"):
         diptych.run(SMALL, "out")
     found = diptych.run(SMALL, "out", resume=True)
     summary = found.summary()
