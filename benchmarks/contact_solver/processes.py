@@ -3,11 +3,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """processes.py PROGRAM --output DIR [--grains 64000] [--processes 2,4] [--set KEY=VALUE]
 
-Prepares and loads a sample of moreau_1997 for three units of time: on one process, on as many threads as the machine
-has cores, and on each number of processes. Their histories must agree. Prints wall seconds and memory, and those of a
-model: c threads take outside + sweeps / c, and N processes on c cores (N outside + sweeps) / min(N, c), where `outside`
-and `sweeps` are the seconds of one process. What processes take beyond that is waiting, printed per sweep. Needs
-mpirun."""
+Prepares a sample of moreau_1997 and loads it for three units of time. It does so on one process, on one thread for each
+core, and on each number of processes. Their histories must agree. Prints wall seconds, memory, and the time by a model.
+`outside` and `sweeps` are the seconds of one process. c threads take outside + sweeps / c. N processes on c cores take
+(N outside + sweeps) / min(N, c). The excess over the model is printed per sweep. Needs mpirun."""
 import argparse
 import csv
 import filecmp
@@ -57,14 +56,14 @@ def main():
     outside = alone - solver
     with open(histories[0], encoding="utf-8") as file:
         sweeps = sum(int(row["sweeps"]) for row in csv.DictReader(file))
-    print(f"{options.grains} grains: wall seconds of preparation and loading, loading by the model, waiting per sweep "
+    print(f"{options.grains} grains: wall seconds of preparation and loading, loading by the model, excess per sweep "
           "(us), memory of the first process (MB)")
     for name, story in {"one process": one, **stories}.items():
         preparation, loading = (phase_of(story, phase) for phase in ("preparation", "discrete"))
         n = int(name.split()[0]) if "processes" in name else 1
         model = outside + solver / cores if "threads" in name else (n * outside + solver) / min(n, cores)
-        waiting = 1e6 * (loading["wall_s"] - model) / sweeps
-        print(f"  {name:14} {preparation['wall_s']:8.1f} {loading['wall_s']:8.1f} {model:8.1f} {waiting:8.0f} "
+        excess = 1e6 * (loading["wall_s"] - model) / sweeps
+        print(f"  {name:14} {preparation['wall_s']:8.1f} {loading['wall_s']:8.1f} {model:8.1f} {excess:8.0f} "
               f"{loading['peak_memory_mb']:8.0f}")
     print(f"  {sweeps} sweeps of {1e6 * solver / sweeps:.0f} us; outside the sweeps {outside:.1f} s")
 

@@ -226,7 +226,7 @@ namespace diptych::discrete
           SettlingOptions loaded    = wanted;
           loaded.largest_overlap    = 10 * wanted.largest_overlap;
           loaded.least_pressure     = least_carried_share * setting.pressure;
-          c.motion.solver.tolerance = 1e-5;
+          c.motion.solver.tolerance = 1e-5; // leaves overlaps of up to 2e-4 d at these long steps
           settle_down(sample, c.motion, loaded, go_on, team);
           report.carried_share = mean_pressure(sample.state, sample.last_step, c.motion) / setting.pressure;
         }
