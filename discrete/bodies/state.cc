@@ -4,6 +4,23 @@
 
 namespace diptych::discrete
 {
+  void UniformStrain::deform(Periodicity &periodicity) const
+  {
+    if (auto *width = std::get_if<PeriodicWidth>(&periodicity))
+      width->width *= 1 - strain.x();
+    if (auto *lattice = std::get_if<Lattice>(&periodicity))
+      lattice->vectors -= strain.asDiagonal() * lattice->vectors;
+  }
+
+  void deform(State &state, const UniformStrain &strain)
+  {
+    for (Eigen::Vector2d &x : state.grains.position)
+      x = strain.moved(x);
+    for (Wall &wall : state.walls)
+      wall.point = strain.moved(wall.point);
+    strain.deform(state.periodicity);
+  }
+
   void carry_platen_grains(State &state)
   {
     Grains &g = state.grains;

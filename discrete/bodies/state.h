@@ -125,6 +125,18 @@ namespace diptych::discrete
     return std::visit([&](const auto &kind) { return kind.nearest_image(xi - xj); }, state.periodicity);
   }
 
+  // A uniform strain of the whole sample along the axes, positive in compression. `centre` stays.
+  struct UniformStrain
+  {
+    Eigen::Vector2d strain, centre;
+
+    Eigen::Vector2d moved(const Eigen::Vector2d &place) const { return place - strain.cwiseProduct(place - centre); }
+    void            deform(Periodicity &periodicity) const;
+  };
+
+  // Moves all grains, walls and images; velocities do not change.
+  void deform(State &state, const UniformStrain &strain);
+
   // Gives the grains of a platen the velocity of the platen.
   void carry_platen_grains(State &state);
 

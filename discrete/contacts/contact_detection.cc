@@ -90,7 +90,7 @@ namespace diptych::discrete
   {
     const Grains &g              = state.grains;
     const int     n              = int(g.size());
-    const double  largest_radius = *std::max_element(g.radius.begin(), g.radius.end());
+    const double  largest_radius = largest_radius_ = *std::max_element(g.radius.begin(), g.radius.end());
     // The list remains valid until a grain moves by a quarter of the largest radius, or of the mean diameter, beyond its margin.
     const double slack = 0.25 * std::min(largest_radius, 2 * std::accumulate(g.radius.begin(), g.radius.end(), 0.) / n);
     reach_             = margin;
@@ -144,6 +144,22 @@ namespace diptych::discrete
     if (state.grains.size() > 0 && !covers(state, margin))
       build(state, margin, go_on);
     return pairs_;
+  }
+
+  void NeighbourList::follow(const UniformStrain &strain)
+  {
+    if (position_.empty())
+      return;
+    for (Eigen::Vector2d &x : position_)
+      x = strain.moved(x);
+    for (Eigen::Vector2d &x : wall_point_)
+      x = strain.moved(x);
+    strain.deform(periodicity_);
+    // Pairs beyond the list were at least their reaches apart.
+    const double closer = strain.strain.cwiseAbs().maxCoeff() *
+                          (largest_radius_ + *std::max_element(reach_.begin(), reach_.end()));
+    for (double &reach : reach_)
+      reach -= closer;
   }
 
   std::vector<Contact> NeighbourList::find_contacts(const State &state, const std::vector<double> &margin)

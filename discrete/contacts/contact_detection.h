@@ -42,6 +42,9 @@ namespace diptych::discrete
     // Only those with a gap below the sum of their margins.
     std::vector<Contact> find_contacts(const State &state, const std::vector<double> &margin);
 
+    // Keeps the list for a state to which deform() was applied.
+    void follow(const UniformStrain &strain);
+
   private:
     bool covers(const State &state, const std::vector<double> &margin) const;
     void build(const State &state, const std::vector<double> &margin, const std::function<bool()> &go_on);
@@ -49,6 +52,7 @@ namespace diptych::discrete
     std::vector<Pair>            pairs_; // ascending
     std::vector<Eigen::Vector2d> position_, wall_point_;
     std::vector<double>          reach_;
+    double                       largest_radius_ = 0;
     Periodicity                  periodicity_;
   };
 

@@ -33,7 +33,8 @@ namespace diptych::discrete
     if (report.settling_steps > 0)
       text << ", largest overlap " << report.largest_overlap << " mean diameters";
     if (report.carried_share < least_carried_share)
-      text << ". The grains carry " << report.carried_share << " of loading/pressure: a larger sample/preparation_steps helps";
+      text << ". The least loaded ninth of the sample carries " << report.carried_share
+           << " of the mean pressure: a larger sample/preparation_steps helps";
     else
       text << "; for slender or tiny samples a small sample/preparation_friction helps";
     return text.str();

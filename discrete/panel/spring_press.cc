@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "discrete/samples/settling.h"
+#include "discrete/samples/uniform_strain.h"
 
 namespace diptych::discrete
 {
@@ -60,6 +61,8 @@ namespace diptych::discrete
         if (pressed.last_step.solve.status == SolveStatus::blown_up)
           break;
         rests = implicit && k >= least_steps && pressed.last_step.unbalanced_force < unbalanced_at_rest;
+        if (implicit && !rests && has_far_sides(state, press.setting))
+          approach(side_stress(state, pressed.last_step, press.setting), press.setting.compliance.stiffness, state, cache);
       }
     stop(state);
     return pressed;

@@ -88,11 +88,14 @@ namespace diptych::discrete
     visitor("box_solid_fraction", o.box_solid_fraction, "-", {0.3, 0.9},
             "solid fraction of the box in which soft discs are relaxed first; with preparation_friction a loose box gives a "
             "loose sample");
-    visitor("preparation_steps", o.preparation_steps, "-", {1, 1000000},
-            "steps of compaction under the lateral condition with fixed platens; up to ten times as many may be needed to come "
-            "to rest. With preparation_step = auto, samples of n > 10000 grains take sqrt(n/10000) times fewer");
+    visitor(
+      "preparation_steps", o.preparation_steps, "-", {1, 1000000},
+      "steps of compaction under the lateral condition with fixed platens; up to ten times as many may be needed to come "
+      "to rest. Samples of more than 10000 grains need as many as it takes, at most ten times these in each of three stages "
+      "(discrete/README.md)");
     visitor("preparation_step", o.preparation_step, "time", {1e-12, 1e12},
-            "length of the steps of compaction; auto: 0.2 d sqrt(rho/P), for n > 10000 grains sqrt(n/10000) times longer");
+            "length of the steps of compaction; auto: 0.2 d sqrt(rho/P). Samples of more than 10000 grains choose shorter ones "
+            "for stiff springs");
     visitor("preparation_tolerance", o.preparation_tolerance, "-", {1e-14, 1.},
             "residual (natural map) at which a preparation step ends; the last step must reach it");
     visitor("preparation_max_sweeps", o.preparation_max_sweeps, "-", {1, 100000000},

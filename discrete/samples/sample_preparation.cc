@@ -14,14 +14,13 @@
 #include "discrete/samples/sample_file.h"
 #include "discrete/samples/settling.h"
 #include "discrete/samples/soft_relaxation.h"
+#include "discrete/samples/spring_compaction.h"
+#include "discrete/samples/uniform_strain.h"
 
 namespace diptych::discrete
 {
   namespace
   {
-    // Above these numbers of grains forces have far to go, and neighbours should be near in memory.
-    constexpr double large_sample = 10000, huge_sample = 62500;
-
     // The standard fixes the generator, but std::uniform_real_distribution may differ between libraries.
     double uniform(std::mt19937_64 &random)
     {
@@ -125,115 +124,63 @@ namespace diptych::discrete
       return disc_area(state.grains.radius) / outline_area(make_outline(state, mean_diameter));
     }
 
-    void slow_down(State &state, const double factor)
-    {
-      for (Eigen::Vector2d &v : state.grains.velocity)
-        v *= factor;
-      for (double &spin : state.grains.spin)
-        spin *= factor;
-      for (Wall &wall : state.walls)
-        wall.velocity *= factor;
-    }
-
-    struct Compaction
-    {
-      StepSetting motion;
-      double      longer; // step / that of a small sample; at most half of what end grains bear
-      int         steps;
-      bool        is_huge;
-    };
-
-    Compaction compaction_of(const SampleOptions &options, const StepSetting &setting, const double grains)
-    {
-      const double side   = std::sqrt(std::clamp(grains, large_sample, huge_sample) / large_sample);
-      const double longer = options.preparation_step ? 1 : side;
-      Compaction   c{setting, longer, std::max(1, int(std::lround(options.preparation_steps / longer))),
-                   grains > huge_sample && setting.pressure > 0};
-      c.motion.step *= longer;
-      if (longer > 1) // position sweeps cannot remove the overlap that a residual leaves in large regions
-        c.motion.stepping.penetration_correction = PenetrationCorrection::soft_velocity;
-      if (!c.is_huge)
-        return c;
-      // Forces spread by sweeps as heat does by conduction.
-      constexpr double grains_of_tolerance = 26000;
-      const double     finer               = grains / grains_of_tolerance;
-      c.motion.solver.tolerance /= finer;
-      c.motion.solver.max_sweeps = int(std::min(1e8, finer * c.motion.solver.max_sweeps));
-      return c;
-    }
-
     void move_until_quiet(PreparedSample              &sample,
                           const SampleOptions         &options,
-                          const Compaction            &c,
+                          const StepSetting           &setting,
                           StepCache                   &cache,
                           const std::function<bool()> &go_on)
     {
-      constexpr double   slower = 0.85;
       PreparationReport &report = sample.report;
-      bool               swings = false; // a huge sample does for long, after the fronts from its sides have met
-      while (!report.quiet && report.steps < 10 * c.steps && go_on())
+      while (!report.quiet && report.steps < 10 * options.preparation_steps && go_on())
         {
-          sample.last_step        = advance(sample.state, c.motion, cache);
+          sample.last_step        = advance(sample.state, setting, cache);
           report.residual         = sample.last_step.solve.residual;
           report.unbalanced_force = sample.last_step.unbalanced_force;
           ++report.steps;
-          report.quiet = report.steps >= c.steps && report.residual <= options.preparation_tolerance &&
+          report.quiet = report.steps >= options.preparation_steps && report.residual <= options.preparation_tolerance &&
                          report.unbalanced_force <= options.quiet_unbalanced_force;
-          swings = swings || (c.is_huge && mean_pressure(sample.state, sample.last_step, c.motion) > c.motion.pressure);
-          if (swings)
-            slow_down(sample.state, slower);
         }
     }
 
-    // From rest, until no overlaps are left.
-    void settle_down(PreparedSample                    &sample,
-                     const StepSetting                 &setting,
-                     const SettlingOptions             &wanted,
-                     const std::function<bool()>       &go_on,
-                     const std::shared_ptr<ThreadTeam> &team)
+    PreparedSample compact_rigid(State                                start,
+                                 const SampleOptions                 &options,
+                                 StepSetting                          setting,
+                                 const std::shared_ptr<ThreadTeam>   &team,
+                                 const std::function<bool(int, int)> &progress)
     {
-      PreparationReport &report  = sample.report;
-      Settled            settled = settle(sample.state, setting, wanted, go_on, team);
-      report.quiet               = settled.quiet;
-      report.settling_steps += settled.steps;
-      report.largest_overlap  = settled.largest_overlap / setting.mean_diameter;
-      report.residual         = settled.last_step.solve.residual;
-      report.unbalanced_force = settled.last_step.unbalanced_force;
-      sample.last_step        = std::move(settled.last_step);
+      const int          steps = options.preparation_steps;
+      PreparedSample     sample{std::move(start), {}, setting.step, {}};
+      PreparationReport &report     = sample.report;
+      const auto         go_on      = [&] { return progress(report.steps, std::max(report.steps, steps)); };
+      setting.solver.stop_requested = [&] { return !go_on(); };
+      StepCache cache;
+      cache.team = team;
+      move_until_quiet(sample, options, setting, cache, go_on);
+      if (!report.quiet)
+        return sample;
+      const SettlingOptions wanted{largest_prepared_overlap * options.mean_diameter, options.quiet_unbalanced_force, steps,
+                                   10 * steps};
+      Settled               settled = settle(sample.state, setting, wanted, go_on, team);
+      report.quiet                  = settled.quiet;
+      report.settling_steps         = settled.steps;
+      report.largest_overlap        = settled.largest_overlap / options.mean_diameter;
+      report.residual               = settled.last_step.solve.residual;
+      report.unbalanced_force       = settled.last_step.unbalanced_force;
+      sample.last_step              = std::move(settled.last_step);
+      return sample;
     }
 
     PreparedSample compact(State                                start,
                            const SampleOptions                 &options,
-                           StepSetting                          setting,
+                           const StepSetting                   &setting,
                            const std::shared_ptr<ThreadTeam>   &team,
                            const std::function<bool(int, int)> &progress)
     {
-      PreparedSample     sample{std::move(start), {}, setting.step, {}};
-      PreparationReport &report     = sample.report;
-      int                steps      = 0;
-      const auto         go_on      = [&] { return progress(report.steps, std::max(report.steps, steps)); };
-      setting.solver.stop_requested = [&] { return !go_on(); };
-      Compaction c                  = compaction_of(options, setting, double(sample.state.grains.size()));
-      StepCache  cache;
-      cache.team      = team;
-      steps           = c.steps;
-      report.friction = setting.law.friction;
-      move_until_quiet(sample, options, c, cache, go_on);
-      SettlingOptions wanted{largest_prepared_overlap * options.mean_diameter, options.quiet_unbalanced_force, c.steps,
-                             10 * c.steps};
-      if (report.quiet && c.is_huge)
-        {
-          SettlingOptions loaded    = wanted;
-          loaded.largest_overlap    = 10 * wanted.largest_overlap;
-          loaded.least_pressure     = least_carried_share * setting.pressure;
-          c.motion.solver.tolerance = 1e-5; // leaves overlaps of up to 2e-4 d at these long steps
-          settle_down(sample, c.motion, loaded, go_on, team);
-          report.carried_share = mean_pressure(sample.state, sample.last_step, c.motion) / setting.pressure;
-        }
-      scale_impulses(sample.state, 1 / c.longer);
-      if (report.quiet)
-        settle_down(sample, setting, wanted, go_on, team);
-      report.solid_fraction = solid_fraction(sample.state, options.mean_diameter);
+      PreparedSample sample        = has_far_sides(start, setting)
+                                       ? compact_with_springs(std::move(start), options, setting, team, progress)
+                                       : compact_rigid(std::move(start), options, setting, team, progress);
+      sample.report.friction       = setting.law.friction;
+      sample.report.solid_fraction = solid_fraction(sample.state, options.mean_diameter);
       return sample;
     }
 
@@ -242,11 +189,13 @@ namespace diptych::discrete
                                          const double                         friction,
                                          const std::function<bool(int, int)> &progress)
     {
-      const auto go_on = [&] { return progress(0, options.preparation_steps); };
-      State      state = random_box(options, preparation.lateral);
-      if (double(state.grains.size()) > large_sample)
+      const StepSetting setting = compaction_setting(options, preparation, friction);
+      const auto        go_on   = [&] { return progress(0, options.preparation_steps); };
+      State             state   = random_box(options, preparation.lateral);
+      if (is_large(state))
         state = numbered_upward(state);
-      const RelaxationReport loose = relax_soft_discs(state, 1e-3 * options.mean_diameter, 4000, go_on);
+      const double           overlap = has_far_sides(state, setting) ? 1e-2 : 1e-3; // springs can take up more
+      const RelaxationReport loose   = relax_soft_discs(state, overlap * options.mean_diameter, 4000, go_on);
       PreparedSample         sample;
       if (loose.stopped)
         sample.state = std::move(state);
@@ -254,7 +203,7 @@ namespace diptych::discrete
         {
           state = numbered_upward(state);
           set_sides(state, preparation);
-          sample = compact(state, options, compaction_setting(options, preparation, friction), preparation.team, progress);
+          sample = compact(std::move(state), options, setting, preparation.team, progress);
         }
       sample.report.soft_overlap = loose.largest_overlap;
       return sample;

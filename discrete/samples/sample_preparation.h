@@ -5,39 +5,11 @@
 #include <functional>
 #include <string>
 
+#include "discrete/samples/prepared_sample.h"
 #include "discrete/samples/sample_options.h"
-#include "discrete/stepping/time_stepping.h"
 
 namespace diptych::discrete
 {
-  // Largest overlap that may remain between the grains of a prepared sample. [mean diameters]
-  inline constexpr double largest_prepared_overlap = 1e-4;
-
-  // Mean pressure of the grains / pressure on the sides. With less the middle of a sample is not loaded yet.
-  inline constexpr double least_carried_share = 0.85;
-
-  struct PreparationReport
-  {
-    bool   quiet    = false;
-    int    steps    = 0;
-    double residual = 0, unbalanced_force = 0; // of the last step
-    double solid_fraction  = 0;                // grain area / sample area
-    double soft_overlap    = 0;                // largest overlap left by the soft discs [length]
-    int    settling_steps  = 0;                // steps from rest, after `steps`, that removed the overlaps
-    double largest_overlap = 0;                // between grains and with walls, at the end [mean diameters]
-    double friction        = 0;                // of the preparation
-    double carried_share   = 1;                // measured for more than 62500 grains
-    bool   touches         = true;             // false: after `steps` under pressure no contact carries a force
-  };
-
-  struct PreparedSample
-  {
-    State state; // at rest (from a file: with its velocities); walls[0] and walls[1] are the platens, unless there is a lattice
-    StepResult        last_step; // contacts and impulses of the sample
-    double            step = 0;  // length of that step
-    PreparationReport report;
-  };
-
   // Generates a sample in three stages:
   // - The size follows from the number of grains, or the number from the size.
   // - Soft discs relax in a box (or a cell) at box_solid_fraction.

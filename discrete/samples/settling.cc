@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "discrete/bodies/outline.h"
 #include "discrete/stepping/body_motion.h"
 
 namespace diptych::discrete
@@ -17,18 +16,6 @@ namespace diptych::discrete
     for (Wall &wall : state.walls)
       wall.velocity.setZero();
     std::visit([](auto &kind) { kind.stop(); }, state.periodicity);
-  }
-
-  double mean_pressure(const State &state, const StepResult &step, const StepSetting &setting)
-  {
-    const std::vector<double> &radius = state.grains.radius;
-    double                     moment = 0;
-    for (std::size_t k = 0; k < step.contacts.size(); ++k)
-      {
-        const Contact &c = step.contacts[k];
-        moment += step.impulses[k].normal * (radius[c.i] + (std::size_t(c.j) < radius.size() ? radius[c.j] : 0.));
-      }
-    return 0.5 * moment / setting.step / outline_area(make_outline(state, setting.mean_diameter));
   }
 
   Settled settle(State                             &state,
@@ -58,9 +45,7 @@ namespace diptych::discrete
         const double wanted = (settled.steps <= options.patient_steps ? 0.1 : 1.) * options.unbalanced_force;
         settled.quiet       = settled.largest_overlap <= options.largest_overlap &&
                         settled.last_step.solve.residual <= setting.solver.tolerance &&
-                        settled.last_step.unbalanced_force <= wanted &&
-                        (options.least_pressure == 0 ||
-                         mean_pressure(state, settled.last_step, setting) >= options.least_pressure);
+                        settled.last_step.unbalanced_force <= wanted;
         if (settled.quiet)
           break;
         drift(next, 0.5 * setting.step); // to the next mid-step

@@ -15,12 +15,7 @@ namespace diptych::discrete
     // The first patient_steps steps require a tenth of unbalanced_force, which tiny and slender samples never reach.
     int patient_steps = 0;
     int most_steps    = 0;
-    // Mean pressure that the grains must carry: a huge sample may be quiet although forces have not reached its middle.
-    double least_pressure = 0;
   };
-
-  // Half of the trace of the sum of contact force times branch, over the area of the sample. [pressure]
-  double mean_pressure(const State &state, const StepResult &step, const StepSetting &setting);
 
   struct Settled
   {

@@ -65,6 +65,21 @@ namespace
     EXPECT_GT(n_found, 10000u);
   }
 
+  // A list that follows the strains of a sample stays right until it is made anew.
+  TEST(ContactDetection, AListMayFollowAStrain)
+  {
+    State                     state = random_grains(300, 15, 5);
+    const std::vector<double> margin(300, 0.01);
+    NeighbourList             list;
+    for (int k = 0; k < 40; ++k)
+      {
+        EXPECT_EQ(list.find_contacts(state, margin).size(), touching(state, margin).size()) << k;
+        const UniformStrain strain{{4e-3, k % 7 == 0 ? -2e-2 : 3e-3}, {7, 0}};
+        deform(state, strain);
+        list.follow(strain);
+      }
+  }
+
   // A grain that crosses the period in a step could meet two images of another one. The message names the keys that help.
   TEST(ContactDetection, AStepTooLongForThePeriodIsRefused)
   {

@@ -1,0 +1,140 @@
+// diptych: compaction of a large sample whose contacts are springs at first
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/samples/spring_compaction.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "discrete/samples/settling.h"
+#include "discrete/samples/uniform_strain.h"
+
+namespace diptych::discrete
+{
+  namespace
+  {
+    // A stage ends when the unbalanced force, as a share of sample/quiet_unbalanced_force, and the largest overlap [mean
+    // diameters] are this small. Between two stages the pressure rises as the stiffness does, and so do the differences between
+    // parts of the sample.
+    struct Stage
+    {
+      double stiffness, unbalanced_force, overlap; // stiffness: kn/P
+    };
+
+    constexpr double longest_step = 0.5; // d sqrt(rho/P); end grains are unstable in steps of 1
+
+    // Waves travel this far in a step [mean diameters]: they cross the sample in about twenty steps.
+    double reach(const double n_grains)
+    {
+      return std::max(8., std::sqrt(n_grains) / 21);
+    }
+
+    // On the softest springs the grains find their places. Still softer ones would make waves slower.
+    std::array<Stage, 3> stages(const double n_grains)
+    {
+      constexpr double stiffest = 2e5;
+      const double     softest  = std::clamp(std::pow(reach(n_grains) / longest_step, 2), 1e3, stiffest);
+      return {Stage{softest, 0.08, 1}, {std::sqrt(softest * stiffest), 0.2, 1}, {stiffest, 0.12, largest_prepared_overlap}};
+    }
+
+    void take_springs(StepSetting &setting, const SampleOptions &options, const double stiffness, const double n_grains)
+    {
+      constexpr double tolerance = 1e-4, damping = 0.5;
+      const double     unit    = setting.mean_diameter * std::sqrt(options.density / setting.pressure);
+      setting.compliance       = {stiffness * setting.pressure, damping};
+      setting.step             = std::min(reach(n_grains) / std::sqrt(stiffness) * unit,
+                                          options.preparation_step.value_or(longest_step * unit));
+      setting.solver.tolerance = std::min(setting.solver.tolerance, tolerance);
+    }
+
+    void slow_down(State &state)
+    {
+      constexpr double slower = 0.9; // nearly the critical damping of a wave as long as the sample
+      for (Eigen::Vector2d &v : state.grains.velocity)
+        v *= slower;
+      for (double &spin : state.grains.spin)
+        spin *= slower;
+      for (Wall &wall : state.walls)
+        wall.velocity *= slower;
+      if (PeriodicWidth *periodic = state.width())
+        periodic->velocity *= slower;
+      if (Lattice *lattice = state.lattice())
+        lattice->rate *= slower;
+    }
+
+    // Pressure of the least loaded of 3 x 3 parts of the sample / mean pressure.
+    double least_share(const State &state, const StepResult &step)
+    {
+      constexpr int   n_parts = 3;
+      const Grains   &g       = state.grains;
+      Eigen::Vector2d low = g.position[0], high = low;
+      for (const Eigen::Vector2d &x : g.position)
+        {
+          low  = low.cwiseMin(x);
+          high = high.cwiseMax(x);
+        }
+      Eigen::ArrayXXd moment = Eigen::ArrayXXd::Zero(n_parts, n_parts), area = moment;
+      const auto      at = [&](Eigen::ArrayXXd &sums, const std::size_t i) -> double      &{
+        const Eigen::Vector2d place = (g.position[i] - low).cwiseQuotient(high - low) * n_parts;
+        return sums(std::min(int(place.x()), n_parts - 1), std::min(int(place.y()), n_parts - 1));
+      };
+      for (std::size_t i = 0; i < g.size(); ++i)
+        at(area, i) += g.radius[i] * g.radius[i];
+      for (std::size_t k = 0; k < step.contacts.size(); ++k)
+        at(moment, step.contacts[k].i) += step.impulses[k].normal * branch_length(state, step.contacts[k]);
+      return (moment * area.sum() / (area * moment.sum()).max(1e-300)).minCoeff();
+    }
+
+    bool rests(const PreparationReport &report, const Stage &stage, const StepSetting &setting, const SampleOptions &options)
+    {
+      return report.residual <= setting.solver.tolerance &&
+             report.unbalanced_force <= stage.unbalanced_force * options.quiet_unbalanced_force &&
+             report.largest_overlap <= stage.overlap && report.carried_share >= least_carried_share;
+    }
+  } // namespace
+
+  PreparedSample compact_with_springs(State                                start,
+                                      const SampleOptions                 &options,
+                                      StepSetting                          setting,
+                                      const std::shared_ptr<ThreadTeam>   &team,
+                                      const std::function<bool(int, int)> &progress)
+  {
+    constexpr int      expected_steps = 200;
+    constexpr double   stress_error   = 0.05;
+    PreparedSample     sample{std::move(start), {}, 0, {}};
+    State             &state      = sample.state;
+    PreparationReport &report     = sample.report;
+    const auto         go_on      = [&] { return progress(report.steps, std::max(report.steps, expected_steps)); };
+    setting.solver.stop_requested = [&] { return !go_on(); };
+    StepCache cache;
+    cache.team            = team;
+    const double n_grains = double(state.grains.size());
+    for (const Stage &stage : stages(n_grains))
+      {
+        take_springs(setting, options, stage.stiffness, n_grains);
+        stop(state);
+        if (sample.step > 0)
+          scale_impulses(state, setting.step / sample.step);
+        sample.step  = setting.step;
+        report.quiet = false;
+        for (int k = 0; k < 10 * options.preparation_steps && go_on(); ++k)
+          {
+            sample.last_step        = advance(state, setting, cache);
+            const StepResult &step  = sample.last_step;
+            report.residual         = step.solve.residual;
+            report.unbalanced_force = step.unbalanced_force;
+            report.largest_overlap  = step.largest_penetration / setting.mean_diameter;
+            report.carried_share    = least_share(state, step);
+            ++report.steps;
+            const SideStress stress = side_stress(state, step, setting);
+            report.quiet            = rests(report, stage, setting, options) && stress.error() <= stress_error;
+            if (report.quiet)
+              break;
+            approach(stress, setting.compliance.stiffness, state, cache);
+            slow_down(state);
+          }
+      }
+    stop(state);
+    return sample;
+  }
+} // namespace diptych::discrete

@@ -1,0 +1,20 @@
+// diptych: compaction of a large sample whose contacts are springs at first
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include <functional>
+
+#include "discrete/samples/prepared_sample.h"
+#include "discrete/samples/sample_options.h"
+
+namespace diptych::discrete
+{
+  // The contacts get implicit springs, at first soft, at last so stiff that no overlap above largest_prepared_overlap is left.
+  // After each step the sample is strained uniformly towards the stress of its sides (uniform_strain.h). The number of steps
+  // hardly depends on that of the grains. `setting` is that of rigid compaction steps; its pressure must be positive.
+  PreparedSample compact_with_springs(State                                start,
+                                      const SampleOptions                 &options,
+                                      StepSetting                          setting,
+                                      const std::shared_ptr<ThreadTeam>   &team,
+                                      const std::function<bool(int, int)> &progress);
+} // namespace diptych::discrete

@@ -1,0 +1,88 @@
+// diptych: brings the mean stress of a sample to that of its sides by a uniform strain
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "discrete/samples/uniform_strain.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "discrete/bodies/outline.h"
+
+namespace diptych::discrete
+{
+  bool is_large(const State &state)
+  {
+    return state.grains.size() > 10000;
+  }
+
+  bool has_far_sides(const State &state, const StepSetting &setting)
+  {
+    return is_large(state) && setting.pressure > 0 && !std::holds_alternative<NoSides>(setting.lateral) &&
+           setting.stepping.gravity_x == 0 && setting.stepping.gravity_y == 0;
+  }
+
+  double branch_length(const State &state, const Contact &contact)
+  {
+    const std::vector<double> &radius = state.grains.radius;
+    return radius[contact.i] + (std::size_t(contact.j) < radius.size() ? radius[contact.j] : 0.);
+  }
+
+  namespace
+  {
+    Eigen::Vector2d sum_of_moments(const State &state, const StepResult &step)
+    {
+      Eigen::Vector2d moment(0, 0);
+      for (std::size_t k = 0; k < step.contacts.size(); ++k)
+        {
+          const Eigen::Vector2d n = step.contacts[k].normal, t(-n.y(), n.x());
+          const Impulse        &r = step.impulses[k];
+          moment += branch_length(state, step.contacts[k]) * n.cwiseProduct(r.normal * n + r.tangential * t);
+        }
+      return moment;
+    }
+
+    Eigen::Vector2d stress_of_sides(const State &state, const StepResult &step, const StepSetting &setting, const double area)
+    {
+      if (state.lattice())
+        return {setting.pressure, setting.pressure};
+      Eigen::Vector2d stress(0, 0);
+      if (std::holds_alternative<EndGrains>(setting.lateral)) // the forces act at the centres of several grains
+        for (std::size_t i = 0; i < state.grains.size(); ++i)
+          stress.x() -= step.applied_force[i].x() * state.grains.position[i].x() / area;
+      else if ((state.width() && state.width()->pressure) || (state.walls.size() >= 4 && is_free(state.walls[3].drive_x)))
+        stress.x() = setting.pressure;
+      if (is_free(state.walls[1].drive_y))
+        stress.y() = std::abs(applied_wall_force(state, 1, state.time).y()) * sample_height(state) / area;
+      return stress;
+    }
+  } // namespace
+
+  SideStress side_stress(const State &state, const StepResult &step, const StepSetting &setting)
+  {
+    const double area = outline_area(make_outline(state, setting.mean_diameter));
+    return {sum_of_moments(state, step) / setting.step / area, stress_of_sides(state, step, setting, area)};
+  }
+
+  double SideStress::error() const
+  {
+    const Eigen::Array2d difference = (mean - wanted).array().abs() / wanted.array().max(1e-300);
+    return (wanted.array() > 0).select(difference, 0).maxCoeff();
+  }
+
+  void approach(const SideStress &stress, const double stiffness, State &state, StepCache &cache)
+  {
+    constexpr double largest = 4e-4; // grains need time to find their places
+    constexpr double modulus = 0.4;  // of a dense packing / stiffness of its springs
+
+    const std::vector<Eigen::Vector2d> &x = state.grains.position;
+    UniformStrain strain{{0, 0}, std::accumulate(x.begin(), x.end(), Eigen::Vector2d(0, 0)) / double(x.size())};
+    for (int axis = 0; axis < 2; ++axis)
+      if (stress.wanted[axis] > 0)
+        strain.strain[axis] = std::clamp((stress.wanted[axis] - stress.mean[axis]) / (modulus * stiffness), -largest, largest);
+    if (!state.walls.empty()) // walls 0 and 2 stay
+      strain.centre.y() = state.walls[0].point.y();
+    if (state.walls.size() >= 4)
+      strain.centre.x() = state.walls[2].point.x();
+    deform(state, strain);
+    cache.neighbours.follow(strain);
+  }
+} // namespace diptych::discrete

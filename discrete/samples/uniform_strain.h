@@ -1,0 +1,34 @@
+// diptych: brings the mean stress of a sample to that of its sides by a uniform strain
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#pragma once
+
+#include "discrete/stepping/time_stepping.h"
+
+namespace diptych::discrete
+{
+  // More than 10000 grains: forces have far to go, and neighbours should be near in memory.
+  bool is_large(const State &state);
+
+  // True if a large sample is under the pressure of its sides, and under nothing else.
+  bool has_far_sides(const State &state, const StepSetting &setting);
+
+  // From the centre of a grain to that of the other grain, or to a wall, without overlap. [length]
+  double branch_length(const State &state, const Contact &contact);
+
+  // Stresses (s_xx, s_yy), positive in compression [pressure].
+  struct SideStress
+  {
+    Eigen::Vector2d mean;   // of the sample: contact forces times branches, over the area
+    Eigen::Vector2d wanted; // of the sides, a free upper platen or a free lattice; 0 along an axis in which nothing is free
+
+    double error() const; // largest difference along the free axes, relative to `wanted`
+  };
+
+  // `step` is the last step of `state`.
+  SideStress side_stress(const State &state, const StepResult &step, const StepSetting &setting);
+
+  // Strains the whole sample along the free axes, so that springs of this stiffness [pressure] bring its stress nearer to that of
+  // the sides. The sides alone load the middle of a large sample late: forces enter as fast as waves, and rigid contacts pass
+  // them on as slowly as heat is conducted. `cache` is that of the steps of `state`.
+  void approach(const SideStress &stress, double stiffness, State &state, StepCache &cache);
+} // namespace diptych::discrete
