@@ -22,9 +22,10 @@ namespace
   void require_work_for(const int n_processes, const Scene &scene)
   {
     constexpr int least  = discrete::rows_of_a_block / 2; // dense grains have about two contacts each
-    const int     useful = std::clamp(scene.sample.grains / least, 1, discrete::most_blocks);
+    const int     grains = int(discrete::expected_grains(scene.sample));
+    const int     useful = std::clamp(grains / least, 1, discrete::most_blocks);
     if (scene.sample.file.empty() && n_processes > useful)
-      throw SceneError("mpirun -np " + std::to_string(n_processes) + ": a sample of " + std::to_string(scene.sample.grains) +
+      throw SceneError("mpirun -np " + std::to_string(n_processes) + ": a sample of " + std::to_string(grains) +
                        " grains is shared by at most " + std::to_string(useful) + " processes, one per " + std::to_string(least) +
                        " grains");
   }

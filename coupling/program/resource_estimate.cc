@@ -57,7 +57,7 @@ namespace diptych::coupling
     for (std::size_t k = 0; parts.continuum && k < loading.stages.size(); before = loading.stages[k++])
       load_steps += std::ceil((loading.stages[k] - before) / scene.continuum.max_step - 1e-9);
 
-    // Other processes repeat what is not a sweep: of 64000 grains 0.8 of the preparation, and 0.2 of the loading.
+    // Each further process repeats what is not a sweep: 0.8 of the preparation, and 0.2 of the loading of 64000 grains.
     const double bodies = (parts.grains ? grains : 0) + elements, n = parts.samples, others = parts.processes - 1;
     const double cpu_s  = n * (grains * ((springs ? 1.8e-3 : 6e-4) * (1 + 0.8 * others) +
                                         steps * (springs ? 2.5e-7 : 2e-6) * (1 + (springs ? 1 : 0.2) * others)) +

@@ -14,8 +14,12 @@ namespace diptych::discrete
 
   void deform(State &state, const UniformStrain &strain)
   {
-    for (Eigen::Vector2d &x : state.grains.position)
-      x = strain.moved(x);
+    Grains &g = state.grains;
+    for (std::size_t i = 0; i < g.size(); ++i)
+      if (const int platen = g.platen(i); platen >= 0)
+        g.position[i].y() += strain.moved(state.walls[platen].point).y() - state.walls[platen].point.y();
+      else if (!g.fixed[i])
+        g.position[i] = strain.moved(g.position[i]);
     for (Wall &wall : state.walls)
       wall.point = strain.moved(wall.point);
     strain.deform(state.periodicity);

@@ -134,7 +134,7 @@ namespace diptych::discrete
     void            deform(Periodicity &periodicity) const;
   };
 
-  // Moves all grains, walls and images; velocities do not change.
+  // Moves free grains, walls and images. Grains of a platen move with it, held ones stay. Velocities do not change.
   void deform(State &state, const UniformStrain &strain);
 
   // Gives the grains of a platen the velocity of the platen.

@@ -155,7 +155,7 @@ namespace diptych::discrete
     for (Eigen::Vector2d &x : wall_point_)
       x = strain.moved(x);
     strain.deform(periodicity_);
-    // Pairs beyond the list were at least their reaches apart.
+    // A pair that is not in the list has a gap above the sum of both reaches. Each grain gives up half of what the strain closes.
     const double closer = strain.strain.cwiseAbs().maxCoeff() *
                           (largest_radius_ + *std::max_element(reach_.begin(), reach_.end()));
     for (double &reach : reach_)

@@ -47,6 +47,28 @@ namespace diptych::discrete
       return H5Pset_chunk(properties, int(extents.size()), extents.data()) >= 0 && H5Pset_fletcher32(properties) >= 0;
     }
 
+    // Objects without times: the same results give the same bytes.
+    hid_t without_times(const hid_t object_class)
+    {
+      const hid_t properties = H5Pcreate(object_class);
+      H5Pset_obj_track_times(properties, false);
+      return properties;
+    }
+
+    // With all groups that contain it.
+    void make_group(const hid_t file, const std::string &group)
+    {
+      const Id properties(without_times(H5P_GROUP_CREATE), H5Pclose);
+      for (std::size_t end = group.find('/', 1); !group.empty() && group != "/"; end = group.find('/', end + 1))
+        {
+          const std::string part = group.substr(0, end);
+          if (H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0)
+            H5Gclose(H5Gcreate2(file, part.c_str(), H5P_DEFAULT, properties, H5P_DEFAULT));
+          if (end == std::string::npos)
+            break;
+        }
+    }
+
     void write_array(const hid_t                     file,
                      const std::string              &path,
                      const std::string              &name,
@@ -59,11 +81,11 @@ namespace diptych::discrete
         fail("write an array of another size as", path, name);
       const std::vector<hsize_t> dimensions(extents.begin(), extents.end());
       const Id                   space(H5Screate_simple(int(dimensions.size()), dimensions.data(), nullptr), H5Sclose);
-      const Id groups(H5Pcreate(H5P_LINK_CREATE), H5Pclose), properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-      H5Pset_create_intermediate_group(groups, 1);
+      const Id                   properties(without_times(H5P_DATASET_CREATE), H5Pclose);
+      make_group(file, name.substr(0, std::max(name.rfind('/') + 1, std::size_t(1)) - 1)); // without '/': none
       if (!set_checksum(properties, dimensions, H5Tget_size(type)))
         fail("set a checksum for", path, name);
-      const Id data(H5Dcreate2(file, name.c_str(), type, space, groups, properties, H5P_DEFAULT), H5Dclose);
+      const Id data(H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose);
       if (data < 0 || (n_values > 0 && H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0))
         fail("write", path, name);
     }
@@ -73,12 +95,6 @@ namespace diptych::discrete
       const hid_t type = H5Tcopy(H5T_C_S1);
       H5Tset_size(type, text.size() + 1);
       return type;
-    }
-
-    void make_group(const hid_t file, const std::string &group)
-    {
-      if (group != "/" && H5Lexists(file, group.c_str(), H5P_DEFAULT) <= 0)
-        H5Gclose(H5Gcreate2(file, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
     }
 
     void write_attribute(const hid_t        file,
@@ -160,7 +176,7 @@ namespace diptych::discrete
       const Id              access(checked_access(), H5Pclose);
       if (H5Pset_fapl_core(access, increment, /* backing store */ 0) < 0)
         return -1;
-      return H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+      return H5Fcreate(name.c_str(), H5F_ACC_TRUNC, Id(without_times(H5P_FILE_CREATE), H5Pclose), access);
     }
   } // namespace
 
@@ -181,7 +197,8 @@ namespace diptych::discrete
     const std::string part = temporary_for(path);
     const Id          access(checked_access(), H5Pclose);
     {
-      const Id file(H5Fcreate(part.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
+      const Id properties(without_times(H5P_FILE_CREATE), H5Pclose);
+      const Id file(H5Fcreate(part.c_str(), H5F_ACC_TRUNC, properties, access), H5Fclose);
       if (file < 0)
         fail("create the file", path_, "/");
     }

@@ -30,11 +30,10 @@ namespace diptych::discrete
     if (report.settling_steps > 0)
       text << " and " << report.settling_steps << " from rest";
     text << ": residual " << report.residual << ", unbalanced force " << report.unbalanced_force;
-    if (report.settling_steps > 0)
+    if (report.largest_overlap > 0)
       text << ", largest overlap " << report.largest_overlap << " mean diameters";
     if (report.carried_share < least_carried_share)
-      text << ". The least loaded ninth of the sample carries " << report.carried_share
-           << " of the mean pressure: a larger sample/preparation_steps helps";
+      text << ". The least loaded ninth of the sample carries " << report.carried_share << " of the mean pressure";
     else
       text << "; for slender or tiny samples a small sample/preparation_friction helps";
     return text.str();

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "discrete/samples/settling.h"
+#include "discrete/samples/spring_compaction.h"
 #include "discrete/samples/uniform_strain.h"
 
 namespace diptych::discrete
@@ -42,8 +43,13 @@ namespace diptych::discrete
         press.setting.solver.tolerance = 1e-4;
       }
     press.setting.accept_unconverged = true;
-    const double duration            = press.penalty.preload * press.setting.mean_diameter * std::sqrt(press.density / pressure);
-    const long   n                   = std::lround(std::ceil(duration / press.setting.step));
+    const double unit                = press.setting.mean_diameter * std::sqrt(press.density / pressure);
+    const bool   far_sides           = implicit && has_far_sides(state, press.setting);
+    if (far_sides)
+      press.setting.step = step_on_springs(press.setting.compliance.stiffness / pressure, state, press.setting.mean_diameter) *
+                           unit;
+    const double duration = press.penalty.preload * unit;
+    const long   n        = std::lround(std::ceil(duration / press.setting.step));
 
     stop(state);
     hold_prepared_stress(state, press);
@@ -61,8 +67,13 @@ namespace diptych::discrete
         if (pressed.last_step.solve.status == SolveStatus::blown_up)
           break;
         rests = implicit && k >= least_steps && pressed.last_step.unbalanced_force < unbalanced_at_rest;
-        if (implicit && !rests && has_far_sides(state, press.setting))
-          approach(side_stress(state, pressed.last_step, press.setting), press.setting.compliance.stiffness, state, cache);
+        if (far_sides)
+          {
+            const SideStress stress = side_stress(state, pressed.last_step, press.setting);
+            rests                   = rests && stress.error() <= largest_stress_error;
+            if (!rests)
+              approach(stress, press.setting.compliance.stiffness, state, cache);
+          }
       }
     stop(state);
     return pressed;

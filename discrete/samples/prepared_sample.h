@@ -10,7 +10,7 @@ namespace diptych::discrete
   inline constexpr double largest_prepared_overlap = 1e-4;
 
   // Least pressure in a ninth of a large sample / mean pressure. With less, forces have not reached all grains yet.
-  inline constexpr double least_carried_share = 0.5;
+  inline constexpr double least_carried_share = 0.25;
 
   struct PreparationReport
   {

@@ -96,8 +96,10 @@ namespace diptych::discrete
     visitor("preparation_step", o.preparation_step, "time", {1e-12, 1e12},
             "length of the steps of compaction; auto: 0.2 d sqrt(rho/P). Samples of more than 10000 grains choose shorter ones "
             "for stiff springs");
-    visitor("preparation_tolerance", o.preparation_tolerance, "-", {1e-14, 1.},
-            "residual (natural map) at which a preparation step ends; the last step must reach it");
+    visitor(
+      "preparation_tolerance", o.preparation_tolerance, "-", {1e-14, 1.},
+      "residual (natural map) at which a preparation step ends; the last step must reach it. Samples of more than 10000 grains "
+      "take at most 1e-4");
     visitor("preparation_max_sweeps", o.preparation_max_sweeps, "-", {1, 100000000},
             "largest number of sweeps in a preparation step");
     visitor("preparation_friction", o.preparation_friction, "-", {0., 100.},

@@ -23,43 +23,34 @@ namespace diptych::discrete
 
     constexpr double longest_step = 0.5; // d sqrt(rho/P); end grains are unstable in steps of 1
 
-    // Waves travel this far in a step [mean diameters]: they cross the sample in about twenty steps.
-    double reach(const double n_grains)
+    // Way of a wave in a step. [mean diameters]
+    double reach(const State &state, const double mean_diameter)
     {
-      return std::max(8., std::sqrt(n_grains) / 21);
+      Eigen::Vector2d low = state.grains.position[0], high = low;
+      for (const Eigen::Vector2d &x : state.grains.position)
+        {
+          low  = low.cwiseMin(x);
+          high = high.cwiseMax(x);
+        }
+      return std::max(8., (high - low).maxCoeff() / (25 * mean_diameter));
     }
 
-    // On the softest springs the grains find their places. Still softer ones would make waves slower.
-    std::array<Stage, 3> stages(const double n_grains)
+    // On the softest springs the grains find their places. On still softer ones waves would not come as far in the longest step.
+    std::array<Stage, 3> stages(const double reach)
     {
       constexpr double stiffest = 2e5;
-      const double     softest  = std::clamp(std::pow(reach(n_grains) / longest_step, 2), 1e3, stiffest);
+      const double     softest  = std::clamp(std::pow(reach / longest_step, 2), 1e3, stiffest);
       return {Stage{softest, 0.08, 1}, {std::sqrt(softest * stiffest), 0.2, 1}, {stiffest, 0.12, largest_prepared_overlap}};
     }
 
-    void take_springs(StepSetting &setting, const SampleOptions &options, const double stiffness, const double n_grains)
+    void take_springs(StepSetting &setting, const SampleOptions &options, const double stiffness, const State &state)
     {
       constexpr double tolerance = 1e-4, damping = 0.5;
       const double     unit    = setting.mean_diameter * std::sqrt(options.density / setting.pressure);
+      const double     step    = step_on_springs(stiffness, state, setting.mean_diameter) * unit;
       setting.compliance       = {stiffness * setting.pressure, damping};
-      setting.step             = std::min(reach(n_grains) / std::sqrt(stiffness) * unit,
-                                          options.preparation_step.value_or(longest_step * unit));
+      setting.step             = options.preparation_step ? std::min(step, *options.preparation_step) : step;
       setting.solver.tolerance = std::min(setting.solver.tolerance, tolerance);
-    }
-
-    void slow_down(State &state)
-    {
-      constexpr double slower = 0.9; // nearly the critical damping of a wave as long as the sample
-      for (Eigen::Vector2d &v : state.grains.velocity)
-        v *= slower;
-      for (double &spin : state.grains.spin)
-        spin *= slower;
-      for (Wall &wall : state.walls)
-        wall.velocity *= slower;
-      if (PeriodicWidth *periodic = state.width())
-        periodic->velocity *= slower;
-      if (Lattice *lattice = state.lattice())
-        lattice->rate *= slower;
     }
 
     // Pressure of the least loaded of 3 x 3 parts of the sample / mean pressure.
@@ -82,7 +73,7 @@ namespace diptych::discrete
         at(area, i) += g.radius[i] * g.radius[i];
       for (std::size_t k = 0; k < step.contacts.size(); ++k)
         at(moment, step.contacts[k].i) += step.impulses[k].normal * branch_length(state, step.contacts[k]);
-      return (moment * area.sum() / (area * moment.sum()).max(1e-300)).minCoeff();
+      return (area > 0).select(moment * area.sum() / (area * moment.sum()).max(1e-300), 1).minCoeff();
     }
 
     bool rests(const PreparationReport &report, const Stage &stage, const StepSetting &setting, const SampleOptions &options)
@@ -93,6 +84,11 @@ namespace diptych::discrete
     }
   } // namespace
 
+  double step_on_springs(const double stiffness, const State &state, const double mean_diameter)
+  {
+    return std::min(longest_step, reach(state, mean_diameter) / std::sqrt(stiffness));
+  }
+
   PreparedSample compact_with_springs(State                                start,
                                       const SampleOptions                 &options,
                                       StepSetting                          setting,
@@ -100,18 +96,16 @@ namespace diptych::discrete
                                       const std::function<bool(int, int)> &progress)
   {
     constexpr int      expected_steps = 200;
-    constexpr double   stress_error   = 0.05;
     PreparedSample     sample{std::move(start), {}, 0, {}};
     State             &state      = sample.state;
     PreparationReport &report     = sample.report;
     const auto         go_on      = [&] { return progress(report.steps, std::max(report.steps, expected_steps)); };
     setting.solver.stop_requested = [&] { return !go_on(); };
     StepCache cache;
-    cache.team            = team;
-    const double n_grains = double(state.grains.size());
-    for (const Stage &stage : stages(n_grains))
+    cache.team = team;
+    for (const Stage &stage : stages(reach(state, setting.mean_diameter)))
       {
-        take_springs(setting, options, stage.stiffness, n_grains);
+        take_springs(setting, options, stage.stiffness, state);
         stop(state);
         if (sample.step > 0)
           scale_impulses(state, setting.step / sample.step);
@@ -127,11 +121,10 @@ namespace diptych::discrete
             report.carried_share    = least_share(state, step);
             ++report.steps;
             const SideStress stress = side_stress(state, step, setting);
-            report.quiet            = rests(report, stage, setting, options) && stress.error() <= stress_error;
+            report.quiet            = rests(report, stage, setting, options) && stress.error() <= largest_stress_error;
             if (report.quiet)
               break;
             approach(stress, setting.compliance.stiffness, state, cache);
-            slow_down(state);
           }
       }
     stop(state);

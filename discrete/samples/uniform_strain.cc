@@ -54,35 +54,57 @@ namespace diptych::discrete
         stress.y() = std::abs(applied_wall_force(state, 1, state.time).y()) * sample_height(state) / area;
       return stress;
     }
+    void slow_down(State &state)
+    {
+      constexpr double slower = 0.9;
+      for (Eigen::Vector2d &v : state.grains.velocity)
+        v *= slower;
+      for (double &spin : state.grains.spin)
+        spin *= slower;
+      for (Wall &wall : state.walls)
+        wall.velocity *= slower;
+      if (PeriodicWidth *periodic = state.width())
+        periodic->velocity *= slower;
+      if (Lattice *lattice = state.lattice())
+        lattice->rate *= slower;
+    }
   } // namespace
 
   SideStress side_stress(const State &state, const StepResult &step, const StepSetting &setting)
   {
-    const double area = outline_area(make_outline(state, setting.mean_diameter));
-    return {sum_of_moments(state, step) / setting.step / area, stress_of_sides(state, step, setting, area)};
+    constexpr double play = 0.2;
+    const double     area = outline_area(make_outline(state, setting.mean_diameter));
+    return {sum_of_moments(state, step) / setting.step / area, stress_of_sides(state, step, setting, area),
+            setting.law.platen_friction > 0 ? play : 0};
+  }
+
+  Eigen::Array2d SideStress::missing() const
+  {
+    const Eigen::Array2d difference = wanted - mean, far = (difference.abs() - play * wanted.array()).max(0);
+    return (wanted.array() > 0).select(difference.sign() * far, 0);
   }
 
   double SideStress::error() const
   {
-    const Eigen::Array2d difference = (mean - wanted).array().abs() / wanted.array().max(1e-300);
-    return (wanted.array() > 0).select(difference, 0).maxCoeff();
+    return (missing().abs() / wanted.array().max(1e-300)).maxCoeff();
   }
 
   void approach(const SideStress &stress, const double stiffness, State &state, StepCache &cache)
   {
     constexpr double largest = 4e-4; // grains need time to find their places
-    constexpr double modulus = 0.4;  // of a dense packing / stiffness of its springs
+    constexpr double modulus = 0.4;  // of a dense packing / stiffness of its springs; strains in both directions add up
 
-    const std::vector<Eigen::Vector2d> &x = state.grains.position;
-    UniformStrain strain{{0, 0}, std::accumulate(x.begin(), x.end(), Eigen::Vector2d(0, 0)) / double(x.size())};
-    for (int axis = 0; axis < 2; ++axis)
-      if (stress.wanted[axis] > 0)
-        strain.strain[axis] = std::clamp((stress.wanted[axis] - stress.mean[axis]) / (modulus * stiffness), -largest, largest);
+    const std::vector<Eigen::Vector2d> &x      = state.grains.position;
+    const double                        axes   = double((stress.wanted.array() > 0).count());
+    const Eigen::Array2d                strain = stress.missing() / (std::max(axes, 1.) * modulus * stiffness);
+    UniformStrain                       whole{strain.max(-largest).min(largest),
+                        std::accumulate(x.begin(), x.end(), Eigen::Vector2d(0, 0)) / double(x.size())};
     if (!state.walls.empty()) // walls 0 and 2 stay
-      strain.centre.y() = state.walls[0].point.y();
+      whole.centre.y() = state.walls[0].point.y();
     if (state.walls.size() >= 4)
-      strain.centre.x() = state.walls[2].point.x();
-    deform(state, strain);
-    cache.neighbours.follow(strain);
+      whole.centre.x() = state.walls[2].point.x();
+    deform(state, whole);
+    cache.neighbours.follow(whole);
+    slow_down(state);
   }
 } // namespace diptych::discrete

@@ -21,14 +21,21 @@ namespace diptych::discrete
     Eigen::Vector2d mean;   // of the sample: contact forces times branches, over the area
     Eigen::Vector2d wanted; // of the sides, a free upper platen or a free lattice; 0 along an axis in which nothing is free
 
-    double error() const; // largest difference along the free axes, relative to `wanted`
+    double play; // share of `wanted` that friction on the platens may add or carry
+
+    Eigen::Array2d missing() const; // from `mean` to `wanted`, beyond the play
+    double         error() const;   // the larger one, relative to `wanted`
   };
+
+  // A sample with a larger error does not count as at rest.
+  inline constexpr double largest_stress_error = 0.05;
 
   // `step` is the last step of `state`.
   SideStress side_stress(const State &state, const StepResult &step, const StepSetting &setting);
 
   // Strains the whole sample along the free axes, so that springs of this stiffness [pressure] bring its stress nearer to that of
   // the sides. The sides alone load the middle of a large sample late: forces enter as fast as waves, and rigid contacts pass
-  // them on as slowly as heat is conducted. `cache` is that of the steps of `state`.
+  // them on as slowly as heat is conducted. Takes a tenth of all velocities, so that the sample does not swing. `cache` is that
+  // of the steps of `state`.
   void approach(const SideStress &stress, double stiffness, State &state, StepCache &cache);
 } // namespace diptych::discrete

@@ -195,6 +195,20 @@ class WideSample(unittest.TestCase):
         self.assertGreater(n_bands, 9, "there must have been bands to judge")
 
 
+class LargeSample(Folder):
+    """More than 10000 grains. Their springs are pressed under a strain of the whole sample."""
+
+    def test_springs_begin_under_the_pressure_of_the_sides(self):
+        for rough in ("false", "true"):
+            words = setting(sample_grains=10100, sample_rough_platens=rough, discrete_method="compliant",
+                            loading_axial_strain=1e-6, loading_stage_strain=1e-6, comparison_window_edges="0,1e-6",
+                            output_report="false")
+            finished("discrete", os.path.join(SOURCE, "benchmarks", "moreau_1997", "scene.prm"), *words, "--output",
+                     self.folder, "--overwrite", "--quiet")
+            for name in ("sxx", "syy"):
+                self.assertLess(abs(history(self.folder)[name][0] - 1), 0.15, f"{name}, rough platens {rough}")
+
+
 class HugeSample(Folder):
     """Forces reach the middle of a sample late. Residual and unbalanced force do not tell."""
 
