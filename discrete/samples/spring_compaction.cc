@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "discrete/samples/settling.h"
 #include "discrete/samples/uniform_strain.h"
 
@@ -23,16 +25,18 @@ namespace diptych::discrete
 
     constexpr double longest_step = 0.5; // d sqrt(rho/P); end grains are unstable in steps of 1
 
+    Eigen::AlignedBox2d box_around(const Grains &grains)
+    {
+      Eigen::AlignedBox2d box;
+      for (const Eigen::Vector2d &x : grains.position)
+        box.extend(x);
+      return box;
+    }
+
     // Way of a wave in a step. [mean diameters]
     double reach(const State &state, const double mean_diameter)
     {
-      Eigen::Vector2d low = state.grains.position[0], high = low;
-      for (const Eigen::Vector2d &x : state.grains.position)
-        {
-          low  = low.cwiseMin(x);
-          high = high.cwiseMax(x);
-        }
-      return std::max(8., (high - low).maxCoeff() / (25 * mean_diameter));
+      return std::max(8., box_around(state.grains).sizes().maxCoeff() / (25 * mean_diameter));
     }
 
     // On the softest springs the grains find their places. On still softer ones waves would not come as far in the longest step.
@@ -56,17 +60,12 @@ namespace diptych::discrete
     // Pressure of the least loaded of 3 x 3 parts of the sample / mean pressure.
     double least_share(const State &state, const StepResult &step)
     {
-      constexpr int   n_parts = 3;
-      const Grains   &g       = state.grains;
-      Eigen::Vector2d low = g.position[0], high = low;
-      for (const Eigen::Vector2d &x : g.position)
-        {
-          low  = low.cwiseMin(x);
-          high = high.cwiseMax(x);
-        }
-      Eigen::ArrayXXd moment = Eigen::ArrayXXd::Zero(n_parts, n_parts), area = moment;
-      const auto      at = [&](Eigen::ArrayXXd &sums, const std::size_t i) -> double      &{
-        const Eigen::Vector2d place = (g.position[i] - low).cwiseQuotient(high - low) * n_parts;
+      constexpr int             n_parts = 3;
+      const Grains             &g       = state.grains;
+      const Eigen::AlignedBox2d box     = box_around(g);
+      Eigen::ArrayXXd           moment = Eigen::ArrayXXd::Zero(n_parts, n_parts), area = moment;
+      const auto                at = [&](Eigen::ArrayXXd &sums, const std::size_t i) -> double                &{
+        const Eigen::Vector2d place = (g.position[i] - box.min()).cwiseQuotient(box.sizes()) * n_parts;
         return sums(std::min(int(place.x()), n_parts - 1), std::min(int(place.y()), n_parts - 1));
       };
       for (std::size_t i = 0; i < g.size(); ++i)

@@ -14,9 +14,8 @@ namespace diptych::discrete
   double step_on_springs(double stiffness, const State &state, double mean_diameter);
 
   // The contacts get implicit springs, at first soft, at last so stiff that no overlap above largest_prepared_overlap is left.
-  // After each step the sample is strained uniformly towards the stress of its sides (uniform_strain.h). The number of steps
-  // hardly depends on that of the grains. Springs, step and tolerance of `setting` are replaced; its pressure must be
-  // positive.
+  // After each step the sample is strained uniformly towards the stress of its sides (uniform_strain.h). Springs, step and
+  // tolerance of `setting` are replaced; its pressure must be positive.
   PreparedSample compact_with_springs(State                                start,
                                       const SampleOptions                 &options,
                                       StepSetting                          setting,

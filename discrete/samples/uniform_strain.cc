@@ -54,6 +54,7 @@ namespace diptych::discrete
         stress.y() = std::abs(applied_wall_force(state, 1, state.time).y()) * sample_height(state) / area;
       return stress;
     }
+
     void slow_down(State &state)
     {
       constexpr double slower = 0.9;
@@ -75,7 +76,7 @@ namespace diptych::discrete
     constexpr double play = 0.2;
     const double     area = outline_area(make_outline(state, setting.mean_diameter));
     return {sum_of_moments(state, step) / setting.step / area, stress_of_sides(state, step, setting, area),
-            setting.law.platen_friction > 0 ? play : 0};
+            setting.law.platen_friction > 0 && !state.lattice() ? play : 0};
   }
 
   Eigen::Array2d SideStress::missing() const

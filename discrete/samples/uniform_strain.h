@@ -34,8 +34,7 @@ namespace diptych::discrete
   SideStress side_stress(const State &state, const StepResult &step, const StepSetting &setting);
 
   // Strains the whole sample along the free axes, so that springs of this stiffness [pressure] bring its stress nearer to that of
-  // the sides. The sides alone load the middle of a large sample late: forces enter as fast as waves, and rigid contacts pass
-  // them on as slowly as heat is conducted. Takes a tenth of all velocities, so that the sample does not swing. `cache` is that
-  // of the steps of `state`.
+  // the sides. The sides alone load the middle of a large sample late. Takes a tenth of all velocities, so that the sample does
+  // not swing. `cache` is that of the steps of `state`.
   void approach(const SideStress &stress, double stiffness, State &state, StepCache &cache);
 } // namespace diptych::discrete
