@@ -26,8 +26,8 @@ namespace
     const int     useful = std::clamp(grains / least, 1, discrete::most_blocks);
     if (scene.sample.file.empty() && n_processes > useful)
       throw SceneError("mpirun -np " + std::to_string(n_processes) + ": a sample of " + std::to_string(grains) +
-                       " grains is shared by at most " + std::to_string(useful) + " processes, one per " + std::to_string(least) +
-                       " grains");
+                       " grains is shared by at most " + std::to_string(useful) + " processes: one per " + std::to_string(least) +
+                       " grains, and " + std::to_string(discrete::most_blocks) + " in all");
   }
 
   // The first process runs the command, and the others do the part of its work that they share.

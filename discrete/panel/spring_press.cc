@@ -54,6 +54,7 @@ namespace diptych::discrete
     stop(state);
     hold_prepared_stress(state, press);
     PenaltyState springs;
+    StressServo  servo;
     StepCache    cache;
     cache.team = press.team;
     PressedSample pressed{{}, press.setting.step};
@@ -72,7 +73,7 @@ namespace diptych::discrete
             const SideStress stress = side_stress(state, pressed.last_step, press.setting);
             rests                   = rests && stress.error() <= largest_stress_error;
             if (!rests)
-              approach(stress, press.setting.compliance.stiffness, state, cache);
+              servo.approach(stress, press.setting.compliance.stiffness, state, cache);
           }
       }
     stop(state);

@@ -9,9 +9,6 @@ namespace diptych::discrete
   // Largest overlap that may remain between the grains of a prepared sample. [mean diameters]
   inline constexpr double largest_prepared_overlap = 1e-4;
 
-  // Least pressure in a ninth of a large sample / mean pressure. With less, forces have not reached all grains yet.
-  inline constexpr double least_carried_share = 0.25;
-
   struct PreparationReport
   {
     bool   quiet    = false;
@@ -22,7 +19,8 @@ namespace diptych::discrete
     int    settling_steps  = 0;                // steps from rest, after `steps`, that removed the overlaps
     double largest_overlap = 0;                // between grains and with walls, at the end [mean diameters]
     double friction        = 0;                // of the preparation
-    double carried_share   = 1;                // see least_carried_share; measured in large samples only
+    double carried_share   = 1;                // pressure in the least loaded ninth of a large sample / mean pressure
+    double stress_error    = 0;                // of a large sample against its sides, relative
     bool   touches         = true;             // false: after `steps` under pressure no contact carries a force
   };
 

@@ -16,11 +16,11 @@ namespace diptych::discrete
   namespace
   {
     // A stage ends when the unbalanced force, as a share of sample/quiet_unbalanced_force, and the largest overlap [mean
-    // diameters] are this small. Between two stages the pressure rises as the stiffness does, and so do the differences between
-    // parts of the sample.
+    // diameters] are this small, and the least loaded ninth of the sample carries this share of the mean pressure. Between two
+    // stages the pressure rises as the stiffness does, and so do the differences between parts of the sample.
     struct Stage
     {
-      double stiffness, unbalanced_force, overlap; // stiffness: kn/P
+      double stiffness, unbalanced_force, overlap, carried_share; // stiffness: kn/P
     };
 
     constexpr double longest_step = 0.5; // d sqrt(rho/P); end grains are unstable in steps of 1
@@ -39,12 +39,16 @@ namespace diptych::discrete
       return std::max(8., box_around(state.grains).sizes().maxCoeff() / (25 * mean_diameter));
     }
 
-    // On the softest springs the grains find their places. On still softer ones waves would not come as far in the longest step.
-    std::array<Stage, 3> stages(const double reach)
+    // On springs of kn/P = 1e3 the grains find their places. The next ones are as soft as their waves, in the longest step, come
+    // far enough; they even out distant parts. The ratio of stiffnesses is then small enough for what the overlaps set free.
+    std::array<Stage, 4> stages(const double reach)
     {
-      constexpr double stiffest = 2e5;
-      const double     softest  = std::clamp(std::pow(reach / longest_step, 2), 1e3, stiffest);
-      return {Stage{softest, 0.08, 1}, {std::sqrt(softest * stiffest), 0.2, 1}, {stiffest, 0.12, largest_prepared_overlap}};
+      constexpr double softest = 1e3, stiffest = 2e5;
+      const double     even = std::clamp(std::pow(reach / longest_step, 2), softest, stiffest);
+      return {Stage{softest, 0.08, 1, 0.85},
+              {even, 0.12, 1, 0.85},
+              {std::sqrt(even * stiffest), 0.2, 1, 0.7},
+              {stiffest, 0.15, largest_prepared_overlap, 0.85}};
     }
 
     void take_springs(StepSetting &setting, const SampleOptions &options, const double stiffness, const State &state)
@@ -79,7 +83,15 @@ namespace diptych::discrete
     {
       return report.residual <= setting.solver.tolerance &&
              report.unbalanced_force <= stage.unbalanced_force * options.quiet_unbalanced_force &&
-             report.largest_overlap <= stage.overlap && report.carried_share >= least_carried_share;
+             report.largest_overlap <= stage.overlap;
+    }
+
+    // Friction on the platens may carry what a part lacks. Without it, only parts of few grains differ from the mean.
+    bool is_even(const PreparationReport &report, const Stage &stage, const std::size_t n_grains, const double play)
+    {
+      constexpr double least = 0.25; // of the mean pressure; with less, forces have not reached all grains yet
+      const double     even  = play > 0 ? least : std::max(least, stage.carried_share - 6 / std::sqrt(double(n_grains)));
+      return report.carried_share >= even && report.stress_error <= largest_stress_error;
     }
   } // namespace
 
@@ -102,12 +114,20 @@ namespace diptych::discrete
     setting.solver.stop_requested = [&] { return !go_on(); };
     StepCache cache;
     cache.team = team;
+    SideStress stress;
     for (const Stage &stage : stages(reach(state, setting.mean_diameter)))
       {
+        const double softer = setting.compliance.stiffness;
         take_springs(setting, options, stage.stiffness, state);
         stop(state);
-        if (sample.step > 0)
-          scale_impulses(state, setting.step / sample.step);
+        if (report.steps > 0)
+          {
+            scale_impulses(state, setting.step / sample.step);
+            // The stiffer springs would push the grains apart. The sample gives way by half of that at once, or it would swing.
+            stress.mean *= (1 + setting.compliance.stiffness / softer) / 2;
+            strain_sample(elastic_strain(stress, setting.compliance.stiffness), state, cache);
+          }
+        StressServo servo;
         sample.step  = setting.step;
         report.quiet = false;
         for (int k = 0; k < 10 * options.preparation_steps && go_on(); ++k)
@@ -119,11 +139,12 @@ namespace diptych::discrete
             report.largest_overlap  = step.largest_penetration / setting.mean_diameter;
             report.carried_share    = least_share(state, step);
             ++report.steps;
-            const SideStress stress = side_stress(state, step, setting);
-            report.quiet            = rests(report, stage, setting, options) && stress.error() <= largest_stress_error;
+            stress              = side_stress(state, step, setting);
+            report.stress_error = stress.error();
+            report.quiet = rests(report, stage, setting, options) && is_even(report, stage, state.grains.size(), stress.play);
             if (report.quiet)
               break;
-            approach(stress, setting.compliance.stiffness, state, cache);
+            servo.approach(stress, setting.compliance.stiffness, state, cache);
           }
       }
     stop(state);

@@ -90,22 +90,39 @@ namespace diptych::discrete
     return (missing().abs() / wanted.array().max(1e-300)).maxCoeff();
   }
 
-  void approach(const SideStress &stress, const double stiffness, State &state, StepCache &cache)
+  Eigen::Array2d elastic_strain(const SideStress &stress, const double stiffness)
   {
-    constexpr double largest = 4e-4; // grains need time to find their places
-    constexpr double modulus = 0.4;  // of a dense packing / stiffness of its springs; strains in both directions add up
+    constexpr double modulus = 0.4; // of a dense packing / stiffness of its springs; strains in both directions add up
+    const double     axes    = double((stress.wanted.array() > 0).count());
+    return stress.missing() / (std::max(axes, 1.) * modulus * stiffness);
+  }
 
-    const std::vector<Eigen::Vector2d> &x      = state.grains.position;
-    const double                        axes   = double((stress.wanted.array() > 0).count());
-    const Eigen::Array2d                strain = stress.missing() / (std::max(axes, 1.) * modulus * stiffness);
-    UniformStrain                       whole{strain.max(-largest).min(largest),
-                        std::accumulate(x.begin(), x.end(), Eigen::Vector2d(0, 0)) / double(x.size())};
-    if (!state.walls.empty()) // walls 0 and 2 stay
+  void strain_sample(const Eigen::Array2d &strain, State &state, StepCache &cache)
+  {
+    const std::vector<Eigen::Vector2d> &x = state.grains.position;
+    UniformStrain whole{strain, std::accumulate(x.begin(), x.end(), Eigen::Vector2d(0, 0)) / double(x.size())};
+    if (!state.walls.empty())
       whole.centre.y() = state.walls[0].point.y();
     if (state.walls.size() >= 4)
       whole.centre.x() = state.walls[2].point.x();
     deform(state, whole);
     cache.neighbours.follow(whole);
+  }
+
+  void StressServo::approach(const SideStress &stress, const double stiffness, State &state, StepCache &cache)
+  {
+    constexpr double largest = 4e-4; // strain; grains need time to find their places
+
+    // Grains on the way to new places take up more strain than their springs do. While the stress stays behind, the gain grows.
+    const Eigen::Array2d missing = stress.missing();
+    for (int axis = 0; axis < 2; ++axis)
+      {
+        const double share = missing[axis] / std::max(stress.wanted[axis], 1e-300);
+        const bool behind = std::abs(share) > largest_stress_error && share * before_[axis] > 0.7 * before_[axis] * before_[axis];
+        gain_[axis]       = behind ? std::min(1.3 * gain_[axis], 30.) : std::max(gain_[axis] / 2, 1.);
+        before_[axis]     = share;
+      }
+    strain_sample((gain_ * elastic_strain(stress, stiffness)).max(-largest).min(largest), state, cache);
     slow_down(state);
   }
 } // namespace diptych::discrete

@@ -33,8 +33,20 @@ namespace diptych::discrete
   // `step` is the last step of `state`.
   SideStress side_stress(const State &state, const StepResult &step, const StepSetting &setting);
 
-  // Strains the whole sample along the free axes, so that springs of this stiffness [pressure] bring its stress nearer to that of
-  // the sides. The sides alone load the middle of a large sample late. Takes a tenth of all velocities, so that the sample does
-  // not swing. `cache` is that of the steps of `state`.
-  void approach(const SideStress &stress, double stiffness, State &state, StepCache &cache);
+  // Strain (xx, yy) that leads springs of this stiffness [pressure] from the mean stress to the wanted one, along the free axes.
+  Eigen::Array2d elastic_strain(const SideStress &stress, double stiffness);
+
+  // Strains the whole sample; walls 0 and 2 stay. `cache` is that of the steps of `state`.
+  void strain_sample(const Eigen::Array2d &strain, State &state, StepCache &cache);
+
+  // Brings the stress of a sample to that of its sides, which alone load the middle of a large sample late.
+  class StressServo
+  {
+  public:
+    // To be called after each step. Takes a tenth of all velocities, too, so that the sample does not swing.
+    void approach(const SideStress &stress, double stiffness, State &state, StepCache &cache);
+
+  private:
+    Eigen::Array2d gain_{1, 1}, before_{0, 0};
+  };
 } // namespace diptych::discrete
