@@ -32,9 +32,9 @@ namespace diptych::discrete
     text << ": residual " << report.residual << ", unbalanced force " << report.unbalanced_force;
     if (report.largest_overlap > 0)
       text << ", largest overlap " << report.largest_overlap << " mean diameters";
-    if (report.carried_share < 1)
-      text << ". The least loaded ninth of the sample carries " << report.carried_share
-           << " of the mean pressure, and the mean stress is off by " << report.stress_error << " of that of the sides";
+    if (report.evenness < 1)
+      text << ". The pressure of one ninth of the sample differs from the mean by a factor of " << report.evenness
+           << ", and the mean stress is off by " << report.stress_error << " of that of the sides";
     else
       text << "; for slender or tiny samples a small sample/preparation_friction helps";
     return text.str();

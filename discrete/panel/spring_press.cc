@@ -14,7 +14,7 @@ namespace diptych::discrete
   {
     // Implicit springs take up the pressure in about ten steps.
     constexpr long   least_steps        = 20;
-    constexpr double unbalanced_at_rest = 0.005;
+    constexpr double unbalanced_at_rest = 0.005, least_evenness = 0.85;
 
     void hold_prepared_stress(State &state, const SpringPress &press)
     {
@@ -71,7 +71,7 @@ namespace diptych::discrete
         if (far_sides)
           {
             const SideStress stress = side_stress(state, pressed.last_step, press.setting);
-            rests                   = rests && stress.error() <= largest_stress_error;
+            rests                   = rests && stress.is_reached(least_evenness);
             if (!rests)
               servo.approach(stress, press.setting.compliance.stiffness, state, cache);
           }

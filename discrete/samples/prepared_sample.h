@@ -19,7 +19,7 @@ namespace diptych::discrete
     int    settling_steps  = 0;                // steps from rest, after `steps`, that removed the overlaps
     double largest_overlap = 0;                // between grains and with walls, at the end [mean diameters]
     double friction        = 0;                // of the preparation
-    double carried_share   = 1;                // pressure in the least loaded ninth of a large sample / mean pressure
+    double evenness        = 1;                // of the pressure in a large sample (samples/uniform_strain.h)
     double stress_error    = 0;                // of a large sample against its sides, relative
     bool   touches         = true;             // false: after `steps` under pressure no contact carries a force
   };

@@ -6,8 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Geometry>
-
 #include "discrete/samples/settling.h"
 #include "discrete/samples/uniform_strain.h"
 
@@ -16,22 +14,14 @@ namespace diptych::discrete
   namespace
   {
     // A stage ends when the unbalanced force, as a share of sample/quiet_unbalanced_force, and the largest overlap [mean
-    // diameters] are this small, and the least loaded ninth of the sample carries this share of the mean pressure. Between two
+    // diameters] are this small, and the pressure is this even (SideStress). Between two
     // stages the pressure rises as the stiffness does, and so do the differences between parts of the sample.
     struct Stage
     {
-      double stiffness, unbalanced_force, overlap, carried_share; // stiffness: kn/P
+      double stiffness, unbalanced_force, overlap, evenness; // stiffness: kn/P
     };
 
     constexpr double longest_step = 0.5; // d sqrt(rho/P); end grains are unstable in steps of 1
-
-    Eigen::AlignedBox2d box_around(const Grains &grains)
-    {
-      Eigen::AlignedBox2d box;
-      for (const Eigen::Vector2d &x : grains.position)
-        box.extend(x);
-      return box;
-    }
 
     // Way of a wave in a step. [mean diameters]
     double reach(const State &state, const double mean_diameter)
@@ -61,37 +51,11 @@ namespace diptych::discrete
       setting.solver.tolerance = std::min(setting.solver.tolerance, tolerance);
     }
 
-    // Pressure of the least loaded of 3 x 3 parts of the sample / mean pressure.
-    double least_share(const State &state, const StepResult &step)
-    {
-      constexpr int             n_parts = 3;
-      const Grains             &g       = state.grains;
-      const Eigen::AlignedBox2d box     = box_around(g);
-      Eigen::ArrayXXd           moment = Eigen::ArrayXXd::Zero(n_parts, n_parts), area = moment;
-      const auto                at = [&](Eigen::ArrayXXd &sums, const std::size_t i) -> double                &{
-        const Eigen::Vector2d place = (g.position[i] - box.min()).cwiseQuotient(box.sizes()) * n_parts;
-        return sums(std::min(int(place.x()), n_parts - 1), std::min(int(place.y()), n_parts - 1));
-      };
-      for (std::size_t i = 0; i < g.size(); ++i)
-        at(area, i) += g.radius[i] * g.radius[i];
-      for (std::size_t k = 0; k < step.contacts.size(); ++k)
-        at(moment, step.contacts[k].i) += step.impulses[k].normal * branch_length(state, step.contacts[k]);
-      return (area > 0).select(moment * area.sum() / (area * moment.sum()).max(1e-300), 1).minCoeff();
-    }
-
     bool rests(const PreparationReport &report, const Stage &stage, const StepSetting &setting, const SampleOptions &options)
     {
       return report.residual <= setting.solver.tolerance &&
              report.unbalanced_force <= stage.unbalanced_force * options.quiet_unbalanced_force &&
              report.largest_overlap <= stage.overlap;
-    }
-
-    // Friction on the platens may carry what a part lacks. Without it, only parts of few grains differ from the mean.
-    bool is_even(const PreparationReport &report, const Stage &stage, const std::size_t n_grains, const double play)
-    {
-      constexpr double least = 0.25; // of the mean pressure; with less, forces have not reached all grains yet
-      const double     even  = play > 0 ? least : std::max(least, stage.carried_share - 6 / std::sqrt(double(n_grains)));
-      return report.carried_share >= even && report.stress_error <= largest_stress_error;
     }
   } // namespace
 
@@ -137,11 +101,11 @@ namespace diptych::discrete
             report.residual         = step.solve.residual;
             report.unbalanced_force = step.unbalanced_force;
             report.largest_overlap  = step.largest_penetration / setting.mean_diameter;
-            report.carried_share    = least_share(state, step);
             ++report.steps;
             stress              = side_stress(state, step, setting);
+            report.evenness     = stress.evenness;
             report.stress_error = stress.error();
-            report.quiet = rests(report, stage, setting, options) && is_even(report, stage, state.grains.size(), stress.play);
+            report.quiet        = rests(report, stage, setting, options) && stress.is_reached(stage.evenness);
             if (report.quiet)
               break;
             servo.approach(stress, setting.compliance.stiffness, state, cache);

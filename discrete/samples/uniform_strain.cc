@@ -3,6 +3,7 @@
 #include "discrete/samples/uniform_strain.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "discrete/bodies/outline.h"
@@ -20,14 +21,25 @@ namespace diptych::discrete
            setting.stepping.gravity_x == 0 && setting.stepping.gravity_y == 0;
   }
 
-  double branch_length(const State &state, const Contact &contact)
+  Eigen::AlignedBox2d box_around(const Grains &grains)
   {
-    const std::vector<double> &radius = state.grains.radius;
-    return radius[contact.i] + (std::size_t(contact.j) < radius.size() ? radius[contact.j] : 0.);
+    Eigen::AlignedBox2d box;
+    for (const Eigen::Vector2d &x : grains.position)
+      box.extend(x);
+    return box;
   }
 
   namespace
   {
+    constexpr double largest_error = 0.05; // of a stress that is reached
+
+    // From the centre of a grain to that of the other grain, or to a wall, without overlap. [length]
+    double branch_length(const State &state, const Contact &contact)
+    {
+      const std::vector<double> &radius = state.grains.radius;
+      return radius[contact.i] + (std::size_t(contact.j) < radius.size() ? radius[contact.j] : 0.);
+    }
+
     Eigen::Vector2d sum_of_moments(const State &state, const StepResult &step)
     {
       Eigen::Vector2d moment(0, 0);
@@ -38,6 +50,24 @@ namespace diptych::discrete
           moment += branch_length(state, step.contacts[k]) * n.cwiseProduct(r.normal * n + r.tangential * t);
         }
       return moment;
+    }
+
+    double evenness(const State &state, const StepResult &step)
+    {
+      constexpr int             n_parts = 3;
+      const Grains             &g       = state.grains;
+      const Eigen::AlignedBox2d box     = box_around(g);
+      Eigen::ArrayXXd           moment = Eigen::ArrayXXd::Zero(n_parts, n_parts), area = moment;
+      const auto                at = [&](Eigen::ArrayXXd &sums, const std::size_t i) -> double                &{
+        const Eigen::Vector2d place = (g.position[i] - box.min()).cwiseQuotient(box.sizes()) * n_parts;
+        return sums(std::min(int(place.x()), n_parts - 1), std::min(int(place.y()), n_parts - 1));
+      };
+      for (std::size_t i = 0; i < g.size(); ++i)
+        at(area, i) += g.radius[i] * g.radius[i];
+      for (std::size_t k = 0; k < step.contacts.size(); ++k)
+        at(moment, step.contacts[k].i) += step.impulses[k].normal * branch_length(state, step.contacts[k]);
+      const Eigen::ArrayXXd share = (area > 0).select(moment * area.sum() / (area * moment.sum()).max(1e-300), 1);
+      return share.min(1 / share.max(1e-300)).minCoeff();
     }
 
     Eigen::Vector2d stress_of_sides(const State &state, const StepResult &step, const StepSetting &setting, const double area)
@@ -76,7 +106,8 @@ namespace diptych::discrete
     constexpr double play = 0.2;
     const double     area = outline_area(make_outline(state, setting.mean_diameter));
     return {sum_of_moments(state, step) / setting.step / area, stress_of_sides(state, step, setting, area),
-            setting.law.platen_friction > 0 && !state.lattice() ? play : 0};
+            setting.law.platen_friction > 0 && !state.lattice() ? play : 0, evenness(state, step),
+            6 / std::sqrt(double(state.grains.size()))};
   }
 
   Eigen::Array2d SideStress::missing() const
@@ -88,6 +119,12 @@ namespace diptych::discrete
   double SideStress::error() const
   {
     return (missing().abs() / wanted.array().max(1e-300)).maxCoeff();
+  }
+
+  bool SideStress::is_reached(const double least_evenness) const
+  {
+    constexpr double least = 0.25; // with less, forces have not reached all grains yet
+    return error() <= largest_error && evenness >= (play > 0 ? least : std::max(least, least_evenness - chance));
   }
 
   Eigen::Array2d elastic_strain(const SideStress &stress, const double stiffness)
@@ -117,10 +154,10 @@ namespace diptych::discrete
     const Eigen::Array2d missing = stress.missing();
     for (int axis = 0; axis < 2; ++axis)
       {
-        const double share = missing[axis] / std::max(stress.wanted[axis], 1e-300);
-        const bool behind = std::abs(share) > largest_stress_error && share * before_[axis] > 0.7 * before_[axis] * before_[axis];
-        gain_[axis]       = behind ? std::min(1.3 * gain_[axis], 30.) : std::max(gain_[axis] / 2, 1.);
-        before_[axis]     = share;
+        const double share  = missing[axis] / std::max(stress.wanted[axis], 1e-300);
+        const bool   behind = std::abs(share) > largest_error && share * before_[axis] > 0.7 * before_[axis] * before_[axis];
+        gain_[axis]         = behind ? std::min(1.3 * gain_[axis], 30.) : std::max(gain_[axis] / 2, 1.);
+        before_[axis]       = share;
       }
     strain_sample((gain_ * elastic_strain(stress, stiffness)).max(-largest).min(largest), state, cache);
     slow_down(state);

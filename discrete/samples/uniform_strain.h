@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "discrete/stepping/time_stepping.h"
 
 namespace diptych::discrete
@@ -12,8 +14,7 @@ namespace diptych::discrete
   // True if a large sample is under the pressure of its sides, and under nothing else.
   bool has_far_sides(const State &state, const StepSetting &setting);
 
-  // From the centre of a grain to that of the other grain, or to a wall, without overlap. [length]
-  double branch_length(const State &state, const Contact &contact);
+  Eigen::AlignedBox2d box_around(const Grains &grains);
 
   // Stresses (s_xx, s_yy), positive in compression [pressure].
   struct SideStress
@@ -21,14 +22,16 @@ namespace diptych::discrete
     Eigen::Vector2d mean;   // of the sample: contact forces times branches, over the area
     Eigen::Vector2d wanted; // of the sides, a free upper platen or a free lattice; 0 along an axis in which nothing is free
 
-    double play; // share of `wanted` that friction on the platens may add or carry
+    double play;     // share of `wanted` that friction on the platens may add or carry
+    double evenness; // pressure in a ninth of the sample / mean pressure, or its inverse: the smallest of 3 x 3 parts
+    double chance;   // by which the evenness of few grains differs from 1
 
     Eigen::Array2d missing() const; // from `mean` to `wanted`, beyond the play
     double         error() const;   // the larger one, relative to `wanted`
-  };
 
-  // A sample with a larger error does not count as at rest.
-  inline constexpr double largest_stress_error = 0.05;
+    // True if the error is at most 0.05 and the evenness large enough. Friction on the platens leaves a sample uneven.
+    bool is_reached(double least_evenness) const;
+  };
 
   // `step` is the last step of `state`.
   SideStress side_stress(const State &state, const StepResult &step, const StepSetting &setting);

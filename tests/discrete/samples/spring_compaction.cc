@@ -81,7 +81,7 @@ namespace
       {
         const PreparedSample sample = compacted(c.lateral, c.friction);
         const std::string    name   = "sides " + std::to_string(c.lateral.index()) + ", friction " + std::to_string(c.friction);
-        EXPECT_TRUE(sample.report.quiet) << name << ", share " << sample.report.carried_share;
+        EXPECT_TRUE(sample.report.quiet) << name << ", evenness " << sample.report.evenness;
         EXPECT_LE(sample.report.unbalanced_force, 0.15 * SampleOptions{}.quiet_unbalanced_force) << name;
         EXPECT_LE(sample.report.largest_overlap, 1e-4) << name;
         EXPECT_EQ(kinetic_energy(sample.state), 0) << name;
