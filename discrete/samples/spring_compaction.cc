@@ -14,8 +14,8 @@ namespace diptych::discrete
   namespace
   {
     // A stage ends when the unbalanced force, as a share of sample/quiet_unbalanced_force, and the largest overlap [mean
-    // diameters] are this small, and the pressure is this even (SideStress). Between two
-    // stages the pressure rises as the stiffness does, and so do the differences between parts of the sample.
+    // diameters] are this small, and the pressure is this even (SideStress). Between two stages the pressure rises as the
+    // stiffness does, and so do the differences between parts of the sample.
     struct Stage
     {
       double stiffness, unbalanced_force, overlap, evenness; // stiffness: kn/P

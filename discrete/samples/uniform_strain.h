@@ -23,7 +23,7 @@ namespace diptych::discrete
     Eigen::Vector2d wanted; // of the sides, a free upper platen or a free lattice; 0 along an axis in which nothing is free
 
     double play;     // share of `wanted` that friction on the platens may add or carry
-    double evenness; // pressure in a ninth of the sample / mean pressure, or its inverse: the smallest of 3 x 3 parts
+    double evenness; // smallest ratio, below 1, of the pressure in a ninth of the sample and the mean pressure
     double chance;   // by which the evenness of few grains differs from 1
 
     Eigen::Array2d missing() const; // from `mean` to `wanted`, beyond the play
