@@ -21,11 +21,12 @@ EXPLICIT = [f"{k}/{f}" for k, f in (("1e3", 0.5), ("3.3e3", 0.5), ("3.3e3", 0.7)
                                     ("1e4", 0.7))]
 METHODS = {"NSCD": [f"accuracy={a}" for a in (0.1, 0.05, 0.02, 0.01, 0.005)],
            "implicit springs": [f"implicit={k}/{a}" for k in ("1e3", "1e4") for a in (0.1, 0.05, 0.02)],
-           "penalty": ["penalty=" + knobs for knobs in EXPLICIT], "LAMMPS": ["lammps=" + knobs for knobs in EXPLICIT]}
+           "penalty": ["penalty=" + knobs for knobs in EXPLICIT],
+           "LAMMPS": ["lammps=" + knobs for knobs in (*EXPLICIT, "1e5/0.5")]}
 COARSE, TWO_LEVELS = "accuracy=0.05", "NSCD, two levels"
 METHODS[TWO_LEVELS] = METHODS["NSCD"][2:]  # the finer level
 QUANTITIES = {"strength": (0.03, 0.02, 0.01, 0.005), "dilation": (0.1, 0.05, 0.03)}  # and errors of the table
-TICKS = (0.3, 1, 3, 10)
+TICKS = (0.1, 0.3, 1, 3, 10, 30)
 LOOKS = {"NSCD": ("#0072B2", "o"), TWO_LEVELS: ("#CC79A7", "v"), "implicit springs": ("#56B4E9", "D"),
          "penalty": ("#007A5E", "s"), "LAMMPS": ("#D55E00", "^")}
 

@@ -3,10 +3,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """size.py [PROGRAM --output DIR] [--figure FILE]
 
-Loads dense samples of 1000 to 64000 discs at two speeds, with NSCD at discrete/accuracy = 0.02 and with springs of kn/P
-= 1e4, which are right to 1 %. Both methods load the same prepared sample. Draws the times stored in size.csv. With
-PROGRAM it first makes the runs (those in DIR are kept) and stores them again. Needs h5py, numpy and pandas, the figure
-matplotlib."""
+Loads dense samples of 1000 to 64000 discs at three speeds. Each method takes its cheapest setting whose strength is
+right to 2 % at 1000 discs and I = 1.13e-3 (envelope.py); springs also one that is right to 1 %. All load the same
+prepared sample in turn. Shows the times stored in size.csv. With PROGRAM it first makes the runs (those of diptych in
+DIR are kept) and stores them again. Needs h5py, numpy, pandas and lmp, the figure matplotlib."""
 import argparse
 import os
 import subprocess
@@ -14,18 +14,20 @@ import subprocess
 import numpy
 import pandas
 
+import envelope
+import lammps
+import order
 import rigid_limit
 import samples
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 STORED = os.path.join(HERE, "size.csv")
-GRAINS = {1.13e-3: (1000, 2000, 4000, 8000, 16000, 32000, 64000), 1.13e-4: (1000, 2000, 4000, 8000, 16000)}
-STRAIN = {1.13e-3: 0.01, 1.13e-4: 0.002}
-# larger samples are not in equilibrium at this speed, or had too little strain
-LARGEST = {1.13e-3: 8000, 1.13e-4: 8000}
-METHODS = {"NSCD": (), "springs": ("discrete/method=penalty", "discrete/penalty_stiffness=1e4",
-                                   "discrete/penalty_step_fraction=0.5")}
-SPEEDS = {1.13e-3: "#0072B2", 1.13e-4: "#D55E00"}
+GRAINS = {1.13e-3: (1000, 2000, 4000, 8000, 16000, 32000, 64000), 1.13e-4: (1000, 2000, 4000, 8000, 16000),
+          1.13e-5: (1000, 4000, 16000)}
+STRAIN = {1.13e-3: 0.01, 1.13e-4: 0.002, 1.13e-5: 0.002}
+LARGEST = 8000  # larger samples are not in equilibrium at the highest speed, and have too little strain at the others
+POINTS = {"accuracy=0.02": "NSCD", "implicit=1e4/0.05": "implicit springs", "penalty=3.3e3/0.7": "penalty",
+          "penalty=1e4/0.5": "penalty", "lammps=3.3e3/0.7": "LAMMPS", "lammps=1e4/0.5": "LAMMPS"}
 
 
 def run(program, folder, *settings):
@@ -37,56 +39,64 @@ def run(program, folder, *settings):
     return rigid_limit.claims.Result(folder)
 
 
+def loading(program, folder, sample, point, inertial):
+    """CPU seconds per per cent of strain, without the preload of springs."""
+    strain, (method, _, knobs) = STRAIN[inertial], point.partition("=")
+    if method == "lammps":
+        stiffness, fraction = map(float, knobs.split("/"))
+        seconds = lammps.run(sample, folder, stiffness, inertial, strain, fraction=fraction)[1]
+    else:
+        seconds = run(program, folder, f"sample/file={sample}", f"loading/inertial_number={inertial:g}",
+                      f"loading/axial_strain={strain}", f"loading/stage_strain={strain}",
+                      f"comparison/window_edges=0,{strain}", *order.settings(order.CASES["dense"], point)
+                      ).seconds("discrete")
+    return seconds / (100 * strain)
+
+
 def measured(options):
-    """Table: grains, inertial number, method, CPU seconds per per cent of strain, T/S of the second half; and the
-    preparation."""
+    """Table: grains, point (a setting, or the preparation), inertial number, CPU seconds of `loading`."""
     rows = []
     for n in GRAINS[1.13e-3]:
         prepared = run(options.program, f"{options.output}/{n}/prepared", f"sample/grains={n}",
                        "loading/axial_strain=1e-4", "loading/stage_strain=1e-4", "comparison/window_edges=0,1e-4")
         sample = f"{options.output}/{n}/sample.h5"
         samples.keep(prepared, sample)
-        rows.append({"grains": n, "method": "preparation", "cpu_s": prepared.seconds("preparation")})
+        rows.append({"grains": n, "point": "preparation", "cpu_s": prepared.seconds("preparation")})
         for inertial in (i for i in GRAINS if n in GRAINS[i]):
-            for method, settings in METHODS.items():
-                strain = STRAIN[inertial]
-                result = run(options.program, f"{options.output}/{n}/{method}_{inertial:g}", f"sample/file={sample}",
-                             f"loading/inertial_number={inertial:g}", f"loading/axial_strain={strain}",
-                             f"loading/stage_strain={strain}", f"comparison/window_edges=0,{strain}", *settings)
-                history = result.grains
-                late = history["axial_strain"] > strain / 2
-                t, s = (history["syy"] - history["sxx"])[late].mean(), (history["syy"] + history["sxx"])[late].mean()
-                rows.append({"grains": n, "method": method, "inertial_number": inertial,
-                             "cpu_s": result.seconds("discrete") / (100 * strain), "strength": t / s})
+            for point in POINTS:
+                folder = f"{options.output}/{n}/{inertial:g}/{point}"
+                rows.append({"grains": n, "point": point, "inertial_number": inertial,
+                             "cpu_s": loading(options.program, folder, sample, point, inertial)})
                 print(rows[-1], flush=True)
     return pandas.DataFrame(rows)
 
 
 def power(table):
-    """Exponent of the cost over the number of grains, from 4000 on."""
+    """Text of the exponent of the cost over the number of grains, from 4000 on; empty for fewer than three sizes."""
     large = table[table.grains >= 4000]
-    return numpy.polyfit(numpy.log(large.grains), numpy.log(large.cpu_s), 1)[0]
+    return f": n^{numpy.polyfit(numpy.log(large.grains), numpy.log(large.cpu_s), 1)[0]:.1f}" if len(large) > 2 else ""
 
 
 def draw(table, path):
     import matplotlib
     matplotlib.use("Agg")
     from matplotlib import pyplot
-    figure, axis = pyplot.subplots(figsize=(6.4, 4.4), constrained_layout=True)
-    for inertial, colour in SPEEDS.items():
-        for method, mark in (("NSCD", "o-"), ("springs", "s--")):
-            part = table[(table.method == method) & (table.inertial_number == inertial)]
-            axis.loglog(part.grains, part.cpu_s, mark, color=colour,
-                        label=f"{method}, I = {inertial:g}: n^{power(part):.1f} from 4000 on")
-            fast = part[(part.grains > LARGEST[inertial])]
-            axis.loglog(fast.grains, fast.cpu_s, mark[0], color="white", markeredgecolor=colour)
-    part = table[table.method == "preparation"]
-    axis.loglog(part.grains, part.cpu_s, "^:", color="#777777", label=f"preparation (whole): n^{power(part):.2f}")
-    axis.set(xlabel="number of grains", ylabel="CPU seconds per per cent of strain",
-             title="NSCD at accuracy 0.02, springs of kn/P = 1e4; one sample a point. Hollow: not quasi-static")
-    axis.title.set_fontsize(9)
-    axis.grid(alpha=0.3, which="both")
-    axis.legend(fontsize=8)
+    figure, grid = pyplot.subplots(1, len(GRAINS), figsize=(12, 4.2), layout="constrained", sharex=True)
+    for axes, inertial in zip(grid, GRAINS):
+        for point, method in POINTS.items():
+            part = table[(table.point == point) & (table.inertial_number == inertial)]
+            colour, mark = envelope.LOOKS[method]
+            axes.loglog(part.grains, part.cpu_s, mark + ("--" if "=1e4/0.5" in point else "-"), color=colour,
+                        label=f"{method} {point.partition('=')[2]}{power(part)}")
+            large = part[part.grains > LARGEST]
+            axes.loglog(large.grains, large.cpu_s, mark, color="white", markeredgecolor=colour)
+        if inertial == 1.13e-3:
+            part = table[table.point == "preparation"]
+            axes.loglog(part.grains, part.cpu_s, "x:", color="#777777", label="preparation")
+        axes.set(xlabel="number of grains", title=f"I = {inertial:.2e}")
+        axes.grid(alpha=0.3)
+        axes.legend(fontsize=7)
+    grid[0].set_ylabel("CPU s per per cent of strain; preparation: CPU s")
     figure.savefig(path, dpi=110)
 
 
@@ -99,7 +109,9 @@ def main():
     if options.program:
         measured(options).to_csv(STORED, index=False, float_format="%.5g")
     table = pandas.read_csv(STORED)
-    print(table.to_string(index=False))
+    print(table[table.point == "preparation"][["grains", "cpu_s"]].to_string(index=False))
+    loadings = table.dropna().assign(I=lambda rows: rows.inertial_number.map("{:.2e}".format))
+    print(loadings.pivot(index=["I", "grains"], columns="point", values="cpu_s").to_string())
     if options.figure:
         draw(table, options.figure)
 
