@@ -69,6 +69,12 @@ def settings(case, point):
                         f"discrete/penalty_step_fraction={knob or 0.2}"]}[name]
 
 
+def spring_knobs(point):
+    """(kn/P, step over sqrt(m_min/kn)) of a point of springs; the default step is 0.2."""
+    stiffness, _, fraction = point.partition("=")[2].partition("/")
+    return float(stiffness), float(fraction or 0.2)
+
+
 @functools.cache
 def sample(program, output, seed):
     """File of a prepared dense sample: a stored one, or one that this program prepares."""
@@ -89,9 +95,9 @@ def load(options, name, point, seed):
     if point.startswith("lammps"):
         done = os.path.join(folder, "binned.json")
         if not os.path.exists(done):
-            stiffness, _, fraction = point.removeprefix("lammps=").partition("/")
-            columns, seconds = lammps.run(sample(options.program, options.output, seed), folder, float(stiffness),
-                                          case.inertial, case.end, fraction=float(fraction or 0.2))
+            stiffness, fraction = spring_knobs(point)
+            columns, seconds = lammps.run(sample(options.program, options.output, seed), folder, stiffness,
+                                          case.inertial, case.end, fraction=fraction)
             with open(done, "w") as file:
                 json.dump({"columns": {n: v.tolist() for n, v in rigid_limit.binned(columns).items()},
                            "seconds": seconds}, file)

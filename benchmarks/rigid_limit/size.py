@@ -41,9 +41,9 @@ def run(program, folder, *settings):
 
 def loading(program, folder, sample, point, inertial):
     """CPU seconds per per cent of strain, without the preload of springs."""
-    strain, (method, _, knobs) = STRAIN[inertial], point.partition("=")
-    if method == "lammps":
-        stiffness, fraction = map(float, knobs.split("/"))
+    strain = STRAIN[inertial]
+    if point.startswith("lammps"):
+        stiffness, fraction = order.spring_knobs(point)
         seconds = lammps.run(sample, folder, stiffness, inertial, strain, fraction=fraction)[1]
     else:
         seconds = run(program, folder, f"sample/file={sample}", f"loading/inertial_number={inertial:g}",
